@@ -1,0 +1,148 @@
+#pragma once
+
+// Payloads of artifacts by cereal's portable binary archive. Include in .cpp files only. For a struct:
+//
+//   #include "common/artifact/cereal_eigen.h"
+//   namespace varimap {
+//   template <class Archive>
+//   void serialize(Archive& archive, Basis& basis) { archive(basis.eigenvalues, basis.vectors); }
+//   std::string encode(const Basis& basis) { return cereal_encode(basis); }
+//   void decode(const std::string& payload, Basis& basis) { cereal_decode(payload, basis); }
+//   }
+//
+// `serialize` stands in namespace varimap itself (not in an unnamed one: cereal finds it by
+// argument-dependent lookup) and takes its struct by reference. Structs nested in it need a `serialize` too.
+// Members may be numbers, bools, strings, vectors, pairs, arrays, optionals, dense Eigen matrices and vectors
+// of numbers, and sparse ones. Checks that tie members to each other (equal lengths, indices in range) belong
+// behind cereal_decode: throw ArtifactError there.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/optional.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <streambuf>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "common/stage/error.h"
+
+namespace cereal {
+
+inline void varimap_require(bool consistent) {
+    if (!consistent) throw Exception("the sizes of a matrix contradict each other");
+}
+
+/// A dense matrix: rows, columns, coefficients in its own storage order.
+template <class Archive, class Scalar, int R, int C, int O, int MR, int MC>
+std::enable_if_t<std::is_arithmetic_v<Scalar>> save(Archive& archive,
+                                                    const Eigen::Matrix<Scalar, R, C, O, MR, MC>& matrix) {
+    archive(std::int64_t(matrix.rows()), std::int64_t(matrix.cols()));
+    archive(binary_data(matrix.data(), std::size_t(matrix.size()) * sizeof(Scalar)));
+}
+
+template <class Archive, class Scalar, int R, int C, int O, int MR, int MC>
+std::enable_if_t<std::is_arithmetic_v<Scalar>> load(Archive& archive,
+                                                    Eigen::Matrix<Scalar, R, C, O, MR, MC>& matrix) {
+    std::int64_t rows = 0, columns = 0;
+    archive(rows, columns);
+    varimap_require(rows >= 0 && columns >= 0);
+    varimap_require((R == Eigen::Dynamic || rows == R) && (C == Eigen::Dynamic || columns == C));
+    constexpr auto limit = std::numeric_limits<std::int64_t>::max() / std::int64_t(sizeof(Scalar));
+    varimap_require(rows == 0 || columns <= limit / rows);
+    matrix.resize(rows, columns);
+    archive(binary_data(matrix.data(), std::size_t(matrix.size()) * sizeof(Scalar)));
+}
+
+/// A sparse matrix in compressed form: rows, columns, entries, then outer starts, inner indices and values.
+template <class Archive, class Scalar, int O, class Index>
+void save(Archive& archive, const Eigen::SparseMatrix<Scalar, O, Index>& matrix) {
+    if (!matrix.isCompressed()) {
+        auto compressed = matrix;
+        compressed.makeCompressed();
+        return save(archive, compressed);
+    }
+    const auto entries = std::size_t(matrix.nonZeros());
+    archive(std::int64_t(matrix.rows()), std::int64_t(matrix.cols()), std::int64_t(entries));
+    archive(binary_data(matrix.outerIndexPtr(), std::size_t(matrix.outerSize() + 1) * sizeof(Index)));
+    archive(binary_data(matrix.innerIndexPtr(), entries * sizeof(Index)));
+    archive(binary_data(matrix.valuePtr(), entries * sizeof(Scalar)));
+}
+
+/// Outer starts ascend from 0 to the number of entries; inner indices ascend within each row (or column).
+template <class Matrix>
+void require_valid_structure(const Matrix& matrix, std::int64_t entries) {
+    const auto* outer = matrix.outerIndexPtr();
+    const auto* inner = matrix.innerIndexPtr();
+    varimap_require(outer[0] == 0 && outer[matrix.outerSize()] == entries);
+    for (Eigen::Index row = 0; row < matrix.outerSize(); ++row) varimap_require(outer[row] <= outer[row + 1]);
+    for (Eigen::Index row = 0; row < matrix.outerSize(); ++row)
+        for (auto k = outer[row]; k < outer[row + 1]; ++k)
+            varimap_require((k == outer[row] ? 0 <= inner[k] : inner[k - 1] < inner[k]) &&
+                            inner[k] < matrix.innerSize());
+}
+
+template <class Archive, class Scalar, int O, class Index>
+void load(Archive& archive, Eigen::SparseMatrix<Scalar, O, Index>& matrix) {
+    constexpr std::int64_t limit = std::numeric_limits<Index>::max();
+    std::int64_t rows = 0, columns = 0, entries = 0;
+    archive(rows, columns, entries);
+    varimap_require(rows >= 0 && columns >= 0 && entries >= 0);
+    varimap_require(rows < limit && columns < limit && entries <= limit);
+    matrix.resize(rows, columns);
+    matrix.resizeNonZeros(entries);
+    archive(binary_data(matrix.outerIndexPtr(), std::size_t(matrix.outerSize() + 1) * sizeof(Index)));
+    archive(binary_data(matrix.innerIndexPtr(), std::size_t(entries) * sizeof(Index)));
+    archive(binary_data(matrix.valuePtr(), std::size_t(entries) * sizeof(Scalar)));
+    require_valid_structure(matrix, entries);
+}
+
+}  // namespace cereal
+
+namespace varimap {
+
+/// The bytes of `value`: the same for equal values on every machine.
+template <class T>
+std::string cereal_encode(const T& value) {
+    std::ostringstream stream(std::ios::binary);
+    {
+        cereal::PortableBinaryOutputArchive archive(
+            stream, cereal::PortableBinaryOutputArchive::Options::LittleEndian());
+        archive(value);
+    }
+    return std::move(stream).str();
+}
+
+/// Reads `payload` in place, without a copy.
+struct PayloadBuffer : std::streambuf {
+    explicit PayloadBuffer(const std::string& payload) {
+        char* begin = const_cast<char*>(payload.data());
+        setg(begin, begin, begin + payload.size());
+    }
+};
+
+/// The inverse of cereal_encode; every byte of `payload` must be used. Throws ArtifactError.
+template <class T>
+void cereal_decode(const std::string& payload, T& value) {
+    try {
+        PayloadBuffer buffer(payload);
+        std::istream stream(&buffer);
+        cereal::PortableBinaryInputArchive archive(stream);
+        archive(value);
+        if (buffer.in_avail() > 0) throw cereal::Exception("bytes are left over");
+    } catch (const cereal::Exception& error) {
+        std::string reason = error.what();
+        throw ArtifactError("the payload of an artifact does not have its recorded form (" +
+                            reason.substr(0, reason.find('\n')) + "); rerun the stage that wrote it");
+    }
+}
+
+}  // namespace varimap

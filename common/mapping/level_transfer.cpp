@@ -1,0 +1,54 @@
+#include "common/mapping/level_transfer.h"
+
+namespace varimap {
+
+namespace {
+
+/// Mass-weighted mean, in the fine level's embedding, over each cell of a coarse level.
+RowMatrix cell_means(const Level& level, const LevelSide& fine) {
+    RowMatrix mean = RowMatrix::Zero(level.samples.size(), fine.vertex_points.cols());
+    Eigen::VectorXd total = Eigen::VectorXd::Zero(level.samples.size());
+    for (size_t v = 0; v < level.cell.size(); ++v) {
+        mean.row(level.cell[v]) += fine.vertex_mass[v] * fine.vertex_points.row(v);
+        total[level.cell[v]] += fine.vertex_mass[v];
+    }
+    return total.cwiseInverse().asDiagonal() * mean;
+}
+
+RowMatrix rows_of(const RowMatrix& matrix, const std::vector<int>& rows) { return matrix(rows, Eigen::all); }
+
+}  // namespace
+
+LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::VectorXd& vertex_mass) {
+    Side side;
+    side.points = rows_of(vertex_points, level.samples);
+    side.mass = level.mass;
+    side.weights = level.weights;
+    side.averaging = averaging_operator(level.weights, level.mass);
+    side.partner.assign(level.samples.size(), -1);
+    return {std::move(level), std::move(vertex_points), vertex_mass, std::move(side)};
+}
+
+void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks) {
+    for (const auto& [a, b] : landmarks) {
+        const int i = pair.A.level.cell[a], j = pair.B.level.cell[b];
+        pair.A.side.partner[i] = j;
+        pair.B.side.partner[j] = i;
+    }
+}
+
+Start hand_down(const Coupling& coarse_plan, const Level& coarse_A, const Level& coarse_B, const LevelPair& fine,
+                double support_threshold) {
+    const auto parent_A = parents(fine.A.level, coarse_A), parent_B = parents(fine.B.level, coarse_B);
+    const RowMatrix means_A = cell_means(coarse_A, fine.A);
+    const RowMatrix means_B = cell_means(coarse_B, fine.B);
+    Start start;
+    start.centres.row = fine.A.side.averaging * rows_of(row_barycentres(coarse_plan, means_B), parent_A);
+    start.centres.column = fine.B.side.averaging * rows_of(column_barycentres(coarse_plan, means_A), parent_B);
+    pin_landmarks(fine.A.side, fine.B.side, start.centres);
+    start.kept = inherited(significant_entries(coarse_plan, coarse_A.mass, coarse_B.mass, support_threshold), parent_A,
+                           parent_B);
+    return start;
+}
+
+}  // namespace varimap

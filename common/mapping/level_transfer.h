@@ -1,0 +1,41 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "common/spectral/hierarchy.h"
+#include "common/transport/alternating_minimization.h"
+
+namespace varimap {
+
+/// One surface at one level: its samples, the transport problem's side, and the level's embedding of all vertices.
+struct LevelSide {
+    Level level;
+    RowMatrix vertex_points;      ///< mesh vertices x D
+    Eigen::VectorXd vertex_mass;  ///< per mesh vertex
+    Side side;
+};
+
+/// Two surfaces at one level.
+struct LevelPair {
+    LevelSide A, B;
+};
+
+/// Builds a side from a level, the embedding of all vertices and their masses.
+LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::VectorXd& vertex_mass);
+
+/// Pins landmarks (pairs of mesh vertices, samples of both levels) to each other.
+void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks);
+
+/// Where a level starts: centres, and the kept entries of the plan before it.
+struct Start {
+    Centres centres;
+    KeptEntries kept;
+};
+
+/// Level switch: a new sample takes its parent's mean image, recomputed with the new embedding's mean over the cells of the
+/// parent's partners, then smoothed by W; children inherit the parent's kept entries.
+Start hand_down(const Coupling& coarse_plan, const Level& coarse_A, const Level& coarse_B, const LevelPair& fine,
+                double support_threshold);
+
+}  // namespace varimap

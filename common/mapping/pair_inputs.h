@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/mapping/pair_context.h"
+#include "common/stage/stage_main.h"
+
+namespace varimap {
+
+/// The six per-surface artifacts a solving stage reads, as its positional arguments, with their lineage checked.
+class PairInputs {
+  public:
+    explicit PairInputs(Stage& stage);
+    SurfaceData read_A(Stage& stage) { return read(stage, "A", A_); }
+    SurfaceData read_B(Stage& stage) { return read(stage, "B", B_); }
+    /// Refuses a plan that was made from other hierarchies than those read.
+    void require_same(const Header& plan, const std::string& plan_path) const;
+
+  private:
+    struct Paths {
+        const std::string &surface, &basis, &hierarchy;
+    };
+    static Paths declare(Stage& stage, const std::string& name);
+    SurfaceData read(Stage& stage, const std::string& name, const Paths& paths);
+    Paths A_, B_;
+    std::vector<std::pair<std::string, Header>> hierarchies_;  ///< role, header
+};
+
+/// Landmarks from input vertices to vertices of the preprocessed meshes. Throws InputError for vertices no face uses.
+std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks, const Surface& A,
+                                                  const Surface& B);
+
+}  // namespace varimap

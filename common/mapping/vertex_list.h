@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Number of a file's first vertex. automatic: where the lines carry coordinates, those of the mesh decide;
+/// else 0.
+enum class IndexBase { zero, one, automatic };
+/// From "0", "1" or "auto". Throws UsageError.
+IndexBase index_base_from(const std::string& text);
+
+/// Reads a list of vertices (.vts, .pinned, plain): a line is a vertex number, which x y z may follow; `#`
+/// starts a comment. Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where
+/// it is given. Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
+std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
+
+/// Reads lines of two 0-based vertex numbers (source, target); `#` starts a comment. Errors as above.
+std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path);
+
+/// Landmarks (source vertex, target vertex) from one file of pairs, or from two lists matched row by row (in
+/// a .vts, coordinates decide whether numbers start at 0; in any other list they do). Throws InputError also
+/// for a different number of rows, a vertex that two rows name or that no face uses; UsageError for any other
+/// number of files.
+std::vector<std::pair<int, int>> read_landmarks(const std::vector<std::string>& files,
+                                                const TriangleMesh& source_input,
+                                                const TriangleMesh& target_input);
+
+}  // namespace varimap

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "common/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Reads OBJ, PLY (ascii, binary), OFF and STL (corners welded) by the file's ending, in any case of letters.
+/// Vertex order is the file's; polygons are fanned from their first corner, in file order.
+/// Throws IoError (cannot open), InputError (unreadable, no faces, index out of range, not finite).
+TriangleMesh read_mesh(const std::string& path);
+
+/// Binary little-endian PLY with double coordinates.
+std::string to_ply(const TriangleMesh& mesh);
+
+/// Refuses what this version cannot serve: several components, edges of three or more faces, vertices whose
+/// faces do not form one fan, inconsistent or non-orientable faces, degenerate indices, zero area.
+/// The one line names the defect, how many there are and the first element (0-based). Throws InputError.
+void require_manifold(const TriangleMesh& mesh, const std::string& path);
+
+}  // namespace varimap

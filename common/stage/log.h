@@ -1,0 +1,25 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace varimap {
+
+/// Name shown in front of every log line; stage_main sets it.
+void set_log_name(const std::string& name);
+
+/// Writes "[stage] message" to stderr. stdout is for results only.
+void log_message(const std::string& message);
+void log_warning(const std::string& message);
+
+template <class... Args>
+void log(fmt::format_string<Args...> format, Args&&... args) {
+    log_message(fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void warn(fmt::format_string<Args...> format, Args&&... args) {
+    log_warning(fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace varimap

@@ -1,0 +1,204 @@
+#include "common/transport/sinkhorn.h"
+
+#include <cmath>
+#include <limits>
+
+#include "common/stage/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr int rows_per_task = 512;
+constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
+
+/// log(exp(-c / gamma) - exp(-b / gamma)): the kernel of an instantiated entry in excess of the background, which
+/// is added to all entries alike.
+double log_excess(double cost, const TransportProblem& p) {
+    const double gap = (p.background_cost - cost) / p.gamma;
+    return -cost / p.gamma + (gap < 40 ? std::log1p(-std::exp(-gap)) : 0.0);
+}
+
+/// log sum_k mass_k exp(potential_k / gamma).
+double log_total(const Eigen::VectorXd& mass, const Eigen::VectorXd& potential, double gamma) {
+    const Eigen::ArrayXd exponent = potential.array() / gamma;
+    const double top = exponent.maxCoeff();
+    return top + std::log((mass.array() * (exponent - top).exp()).sum());
+}
+
+/// One side's log-domain update for one line (row or column): log sum over its entries and the background.
+/// `entry(e)` gives (index on the other side, log excess kernel).
+template <class Entry>
+double log_sum_line(int begin, int end, double log_background, const Eigen::ArrayXd& other, const Entry& entry) {
+    double top = log_background;
+    for (int e = begin; e < end; ++e) {
+        const auto [k, log_kernel] = entry(e);
+        top = std::max(top, other[k] + log_kernel);
+    }
+    double sum = std::exp(log_background - top);
+    for (int e = begin; e < end; ++e) {
+        const auto [k, log_kernel] = entry(e);
+        sum += std::exp(other[k] + log_kernel - top);
+    }
+    return top + std::log(sum);
+}
+
+struct LogKernel {
+    Eigen::VectorXd entry;  ///< log excess kernel per entry, row order
+    double background;      ///< log of the background kernel
+
+    explicit LogKernel(const TransportProblem& p) : entry(p.cost.size()), background(-p.background_cost / p.gamma) {
+        parallel_for_each_index(Eigen::Index(0) + entry.size(), Eigen::Index(1 << 15),
+                                [&](Eigen::Index e) { entry[e] = log_excess(p.cost[e], p); });
+    }
+};
+
+void update_rows(const TransportProblem& p, const LogKernel& kernel, Potentials& q) {
+    const Eigen::ArrayXd other = q.column.array() / p.gamma + p.column_mass.array().log();
+    const double background = kernel.background + log_total(p.column_mass, q.column, p.gamma);
+    parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
+        q.row[i] = -p.gamma * log_sum_line(p.support.row_begin[i], p.support.row_begin[i + 1], background, other,
+                                           [&](int e) { return std::pair(p.support.column[e], kernel.entry[e]); });
+    });
+}
+
+void update_columns(const TransportProblem& p, const LogKernel& kernel, Potentials& q) {
+    const Eigen::ArrayXd other = q.row.array() / p.gamma + p.row_mass.array().log();
+    const double background = kernel.background + log_total(p.row_mass, q.row, p.gamma);
+    parallel_for_each_index(0 + p.support.columns(), rows_per_task, [&](int j) {
+        q.column[j] =
+            -p.gamma * log_sum_line(p.support.column_begin[j], p.support.column_begin[j + 1], background, other,
+                                    [&](int e) {
+                                        return std::pair(p.support.row[e], kernel.entry[p.support.by_row[e]]);
+                                    });
+    });
+}
+
+/// The plan that belongs to a pair of potentials.
+void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potentials& q, Coupling& plan) {
+    const Eigen::ArrayXd u = q.row.array() / p.gamma + p.row_mass.array().log();
+    const Eigen::ArrayXd w = q.column.array() / p.gamma + p.column_mass.array().log();
+    plan.value.resize(p.cost.size());
+    parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
+        const int begin = p.support.row_begin[i], count = p.support.row_begin[i + 1] - begin;
+        for (int e = begin; e < begin + count; ++e) plan.value[e] = u[i] + w[p.support.column[e]] + kernel.entry[e];
+        plan.value.segment(begin, count) = plan.value.segment(begin, count).array().exp();
+    });
+    // The background's logarithm is shared evenly so that neither factor leaves the range of doubles alone.
+    const double shift = (u.maxCoeff() - w.maxCoeff() - kernel.background) / 2;
+    plan.row_background = (u - shift).exp();
+    plan.column_background = (w + shift + kernel.background).exp();
+}
+
+double marginal_error(const Coupling& plan, const Eigen::VectorXd& row_mass) {
+    return (row_sums(plan) - row_mass).lpNorm<1>();
+}
+
+/// The scaling phase: pi = D_u (K + r q') D_w for a kernel that already holds the potentials.
+class ScaledKernel {
+  public:
+    ScaledKernel(const TransportProblem& p, const Coupling& absorbed)
+        : p_(p), k_(absorbed), by_column_(absorbed.value.size()) {
+        parallel_for_each_index(0 + p.support.columns(), rows_per_task, [&](int j) {
+            for (int e = p.support.column_begin[j]; e < p.support.column_begin[j + 1]; ++e)
+                by_column_[e] = k_.value[p.support.by_row[e]];
+        });
+    }
+
+    Eigen::VectorXd times(const Eigen::VectorXd& w) const {
+        return product(p_.support.row_begin, p_.support.column, k_.value, w, k_.row_background,
+                       k_.column_background.dot(w));
+    }
+    Eigen::VectorXd transposed_times(const Eigen::VectorXd& u) const {
+        return product(p_.support.column_begin, p_.support.row, by_column_, u, k_.column_background,
+                       k_.row_background.dot(u));
+    }
+
+  private:
+    static Eigen::VectorXd product(const std::vector<int>& begin, const std::vector<int>& index,
+                                   const Eigen::VectorXd& value, const Eigen::VectorXd& x,
+                                   const Eigen::VectorXd& background, double background_total) {
+        Eigen::VectorXd y(begin.size() - 1);
+        parallel_for_each_index(Eigen::Index(0) + y.size(), Eigen::Index(rows_per_task), [&](Eigen::Index i) {
+            // Four partial sums hide the latency of the gathers.
+            double sum[4] = {0, 0, 0, 0};
+            int e = begin[i];
+            for (; e + 4 <= begin[i + 1]; e += 4)
+                for (int lane = 0; lane < 4; ++lane) sum[lane] += value[e + lane] * x[index[e + lane]];
+            for (; e < begin[i + 1]; ++e) sum[0] += value[e] * x[index[e]];
+            y[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]) + background[i] * background_total;
+        });
+        return y;
+    }
+
+    const TransportProblem& p_;
+    const Coupling& k_;
+    Eigen::VectorXd by_column_;
+};
+
+bool in_safe_range(const Eigen::VectorXd& scaling) {
+    return scaling.minCoeff() > 1e-80 && scaling.maxCoeff() < 1e80;
+}
+
+void scale_plan(const TransportProblem& p, const Eigen::VectorXd& u, const Eigen::VectorXd& w, Coupling& plan) {
+    parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
+        for (int e = p.support.row_begin[i]; e < p.support.row_begin[i + 1]; ++e)
+            plan.value[e] *= u[i] * w[p.support.column[e]];
+    });
+    plan.row_background = plan.row_background.cwiseProduct(u);
+    plan.column_background = plan.column_background.cwiseProduct(w);
+}
+
+}  // namespace
+
+SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& options, Potentials& potentials,
+                        Coupling& plan) {
+    const LogKernel log_kernel(p);
+    SinkhornReport report;
+    while (true) {
+        // Absorb: after a full iteration in the log domain the kernel's entries are those of a plan.
+        update_rows(p, log_kernel, potentials);
+        update_columns(p, log_kernel, potentials);
+        form_plan(p, log_kernel, potentials, plan);
+        ++report.iterations;
+
+        const ScaledKernel kernel(p, plan);
+        Eigen::VectorXd u = Eigen::VectorXd::Ones(p.row_mass.size()), w = Eigen::VectorXd::Ones(p.column_mass.size());
+        bool safe = true, done = false;
+        while (true) {
+            const Eigen::VectorXd row = kernel.times(w);
+            report.marginal_error = (u.cwiseProduct(row) - p.row_mass).lpNorm<1>();
+            done = report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations;
+            if (done) break;
+            const Eigen::VectorXd next_u = p.row_mass.cwiseQuotient(row);
+            const Eigen::VectorXd next_w = p.column_mass.cwiseQuotient(kernel.transposed_times(next_u));
+            safe = in_safe_range(next_u) && in_safe_range(next_w);
+            if (!safe) break;
+            u = next_u;
+            w = next_w;
+            ++report.iterations;
+        }
+        potentials.row.array() += p.gamma * u.array().log();
+        potentials.column.array() += p.gamma * w.array().log();
+        if (done) {
+            scale_plan(p, u, w, plan);
+            return report;
+        }
+    }
+}
+
+SinkhornReport sinkhorn_log_domain(const TransportProblem& p, const SinkhornOptions& options, Potentials& potentials,
+                                   Coupling& plan) {
+    const LogKernel kernel(p);
+    SinkhornReport report;
+    do {
+        update_rows(p, kernel, potentials);
+        update_columns(p, kernel, potentials);
+        form_plan(p, kernel, potentials, plan);
+        ++report.iterations;
+        report.marginal_error = marginal_error(plan, p.row_mass);
+    } while (report.marginal_error > options.tolerance && report.iterations < options.maximum_iterations);
+    return report;
+}
+
+}  // namespace varimap

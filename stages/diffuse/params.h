@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "common/mapping/alternation_params.h"
+
+namespace varimap {
+
+struct DiffuseParams {
+    AlternationOptions alternation;
+    std::string start = "zero";    ///< first centres: zero, or those of the Wasserstein-2 plan (aligned surfaces)
+    double wasserstein_weight = 0; ///< share of the Wasserstein-2 cost added to Eq. (3), for aligned surfaces
+    int levels = 0;                ///< stop after this many diffusion levels; 0: all
+
+    void describe(ParameterList& list) {
+        varimap::describe(list, alternation);
+        list.add("start", start, "first centres: zero, or wasserstein for rigidly aligned surfaces (Sec. 5)",
+                 {"zero", "wasserstein"});
+        list.add("wasserstein_weight", wasserstein_weight,
+                 "weight of the Wasserstein-2 cost beside Eq. (3), relative; for aligned surfaces (Sec. 2.3)", 0.0, 100.0);
+        list.add("levels", levels, "stop after this many diffusion levels (0: all)", 0, 1000);
+    }
+};
+
+}  // namespace varimap

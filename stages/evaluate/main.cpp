@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "common/mapping/evaluation.h"
+#include "common/mapping/surface_map.h"
+#include "common/mapping/vertex_list.h"
+#include "common/mesh/mesh_file.h"
+#include "common/stage/stage_main.h"
+
+namespace {
+
+using namespace varimap;
+
+std::string as_json(const MapErrors& errors) {
+    nlohmann::ordered_json json;
+    json["pairs"] = errors.errors.size();
+    json["unmapped"] = errors.unmapped;
+    json["mean"] = errors.mean();
+    json["median"] = errors.median();
+    json["maximum"] = errors.maximum();
+    json["share_0025"] = errors.share_within(.025);
+    json["share_005"] = errors.share_within(.05);
+    json["share_01"] = errors.share_within(.1);
+    return json.dump(2) + "\n";
+}
+
+std::string as_text(const MapErrors& errors) {
+    std::string text = "geodesic error in units of sqrt(target area)\n";
+    const auto row = [&](const char* name, const std::string& value) {
+        text += fmt::format("{:<18}{:>9}\n", name, value);
+    };
+    row("pairs", fmt::format("{}", errors.errors.size()));
+    if (errors.unmapped > 0) row("unmapped", fmt::format("{}", errors.unmapped));
+    row("mean", fmt::format("{:.5f}", errors.mean()));
+    row("median", fmt::format("{:.5f}", errors.median()));
+    row("maximum", fmt::format("{:.5f}", errors.maximum()));
+    for (double bound : {.025, .05, .1})
+        row(fmt::format("share within {}", bound).c_str(),
+            fmt::format("{:.2f} %", 100 * errors.share_within(bound)));
+    return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Stage stage("evaluate", "Geodesic error of a map against known correspondences");
+    const auto& target_path = stage.input("target-mesh", "mesh the map leads to");
+    const auto& map_path = stage.input("map", "CSV of varimap-remesh, one row per source vertex");
+    const auto& source_list = stage.input("source-points", "vertices of the source, one per line");
+    const auto& target_list =
+        stage.input("target-points", "where they belong: vertices of the target, row by row");
+    const auto& base_text = stage.option(
+        "index-base",
+        "number of a list's first vertex: 0, 1 or auto (coordinates in the list decide, else 0)");
+    const auto& source_path =
+        stage.option("source-mesh", "mesh the map starts from, to check the source's points and their base");
+    const auto& curve_path = stage.option("curve", "CSV to write: share of the pairs within each error");
+    const auto& json = stage.flag("json", "print a JSON object");
+    return stage.main(argc, argv, [&] {
+        const IndexBase base = index_base_from(base_text.empty() ? "auto" : base_text);
+        const TriangleMesh target = read_mesh(target_path);
+        std::optional<TriangleMesh> source;
+        if (!source_path.empty()) source = read_mesh(source_path);
+        const auto source_points = read_vertex_list(source_list, base, source ? &*source : nullptr);
+        const auto target_points = read_vertex_list(target_list, base, &target);
+        const MapErrors errors = map_errors(read_csv_map(map_path), target, source_points, target_points);
+        if (errors.unmapped > 0) warn("{} pairs left out: the map has no image for them", errors.unmapped);
+        if (!curve_path.empty()) write_file_atomically(curve_path, curve_csv(errors));
+        fmt::print("{}", json ? as_json(errors) : as_text(errors));
+    });
+}

@@ -1,0 +1,153 @@
+#include "stages/inspect/contents.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "common/mapping/plan.h"
+#include "common/mapping/surface_map.h"
+#include "common/mesh/surface.h"
+#include "common/spectral/eigenbasis.h"
+#include "common/spectral/hierarchy.h"
+#include "common/stage/error.h"
+
+namespace varimap {
+namespace {
+
+void visit_points(const std::string& name, const PointMap& points, ContentsVisitor& visitor) {
+    std::vector<int> faces;
+    Points barycentric(points.size(), 3);
+    for (const auto& point : points) {
+        barycentric.row(Eigen::Index(faces.size())) = point.barycentric.transpose();
+        faces.push_back(point.face);
+    }
+    visitor.array(name + "_face", view(faces));
+    visitor.array(name + "_barycentric", view(barycentric));
+}
+
+void visit(const Surface& surface, ContentsVisitor& visitor) {
+    visitor.fact("area", fmt::format("{}", surface_area(surface.mesh)));
+    visitor.fact("area of the input", fmt::format("{}", surface_area(surface.input)));
+    visitor.fact("total mass", fmt::format("{}", surface.mass.sum()));
+    visitor.fact("centre", fmt::format("{} {} {}", surface.centre[0], surface.centre[1], surface.centre[2]));
+    visitor.fact("scale", fmt::format("{}", surface.scale));
+    visitor.mesh("mesh", surface.mesh);
+    visitor.mesh("input", surface.input);
+    visitor.array("mass", view(surface.mass));
+    visitor.array("vertex_of_input", view(surface.vertex_of_input));
+    visitor.array("input_face", view(surface.input_face));
+    visit_points("on_input", surface.on_input, visitor);
+}
+
+void visit(const Basis& basis, ContentsVisitor& visitor) {
+    visitor.fact("vertices", fmt::format("{}", basis.functions.rows()));
+    visitor.fact("eigenpairs", fmt::format("{}", basis.functions.cols()));
+    visitor.array("eigenvalues", view(basis.eigenvalues));
+    visitor.array("functions", view(basis.functions));
+    visitor.array("residuals", view(basis.residuals));
+}
+
+void visit(const Level& level, const std::string& prefix, ContentsVisitor& visitor) {
+    visitor.array(prefix + "_samples", view(level.samples));
+    visitor.array(prefix + "_cell", view(level.cell));
+    visitor.array(prefix + "_mass", view(level.mass));
+    visitor.sparse(prefix + "_weights", level.weights);
+}
+
+void visit(const Hierarchy& hierarchy, ContentsVisitor& visitor) {
+    for (std::size_t i = 0; i < hierarchy.levels.size(); ++i) {
+        const Level& level = hierarchy.levels[i];
+        const bool diffusion = level.kind == LevelKind::diffusion;
+        const std::string name = fmt::format("level_{:02}", i);
+        visitor.fact(name, fmt::format("{} samples, {} {}", level.samples.size(),
+                                       diffusion ? "diffusion, time" : "Euclidean, sigma", level.scale));
+    }
+    for (std::size_t i = 0; i < hierarchy.levels.size(); ++i)
+        visit(hierarchy.levels[i], fmt::format("level_{:02}", i), visitor);
+}
+
+std::string trace_csv(const std::vector<TraceRow>& trace) {
+    std::string text =
+        "level,euclidean,iteration,samples_A,samples_B,sinkhorn_iterations,entries,gamma,energy,marginal_"
+        "error\n";
+    for (const auto& row : trace)
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.level, row.euclidean, row.iteration,
+                            row.samples_A, row.samples_B, row.sinkhorn_iterations, row.entries, row.gamma,
+                            row.energy, row.marginal_error);
+    return text;
+}
+
+void visit(const Plan& plan, ContentsVisitor& visitor) {
+    std::vector<int> landmarks_A, landmarks_B;
+    for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
+    visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
+    visitor.fact("total of the entries", fmt::format("{}", plan.plan.sum()));
+    visitor.sparse("plan", plan.plan);
+    visitor.array("samples_A", view(plan.samples_A));
+    visitor.array("samples_B", view(plan.samples_B));
+    visitor.array("mass_A", view(plan.mass_A));
+    visitor.array("mass_B", view(plan.mass_B));
+    visitor.array("position_A", view(plan.position_A));
+    visitor.array("position_B", view(plan.position_B));
+    visitor.array("landmarks_A", view(landmarks_A));
+    visitor.array("landmarks_B", view(landmarks_B));
+    visitor.text("trace.csv", trace_csv(plan.trace));
+}
+
+std::string share_mapped(const PointMap& map) {
+    std::size_t mapped = 0;
+    for (const auto& point : map) mapped += point.face >= 0;
+    return fmt::format("{} of {} vertices have an image", mapped, map.size());
+}
+
+void visit(const SurfaceMap& map, ContentsVisitor& visitor) {
+    visitor.fact("A_to_B", share_mapped(map.A_to_B));
+    visitor.fact("B_to_A", share_mapped(map.B_to_A));
+    visit_points("A_to_B", map.A_to_B, visitor);
+    visit_points("B_to_A", map.B_to_A, visitor);
+    visitor.text("quality.json", map.quality);
+}
+
+struct Kind {
+    int schema;
+    const char* stage;
+    void (*show)(const std::string& payload, ContentsVisitor& visitor);
+};
+
+template <class T>
+void show(const std::string& payload, ContentsVisitor& visitor) {
+    T value;
+    decode(payload, value);
+    visit(value, visitor);
+}
+
+template <class T>
+std::pair<const std::string, Kind> kind_of() {
+    using Type = ArtifactType<T>;
+    return {Type::kind, {Type::schema, Type::stage, &show<T>}};
+}
+
+const std::map<std::string, Kind>& kinds() {
+    static const std::map<std::string, Kind> table{kind_of<Surface>(), kind_of<Basis>(), kind_of<Hierarchy>(),
+                                                   kind_of<Plan>(), kind_of<SurfaceMap>()};
+    return table;
+}
+
+}  // namespace
+
+Eigen::Index ArrayView::size() const {
+    Eigen::Index product = 1;
+    for (const auto extent : shape) product *= extent;
+    return product;
+}
+
+void visit_artifact(const std::string& path, ContentsVisitor& visitor) {
+    const std::string kind = read_header(path).kind;
+    const auto found = kinds().find(kind);
+    if (found == kinds().end())
+        throw ArtifactError("'" + path + "' is a " + kind + ", which this version of varimap does not know");
+    const Kind& entry = found->second;
+    entry.show(read_payload(path, kind, entry.schema, entry.stage).second, visitor);
+}
+
+}  // namespace varimap

@@ -1,0 +1,108 @@
+#include "stages/inspect/inspect.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "common/artifact/artifact.h"
+#include "common/mesh/mesh_file.h"
+#include "stages/inspect/contents.h"
+#include "stages/inspect/formats.h"
+#include "stages/inspect/lineage.h"
+
+namespace varimap {
+namespace {
+
+/// Lists contents: facts as they are, arrays by shape and range.
+class Summary : public ContentsVisitor {
+  public:
+    void fact(const std::string& name, const std::string& value) override { line(name, value); }
+    void array(const std::string& name, const ArrayView& array) override {
+        line(name, std::visit([&](const auto* data) { return described(data, array); }, array.data));
+    }
+    void sparse(const std::string& name, const SparseMatrix& matrix) override {
+        const auto rows = std::max<Eigen::Index>(1, matrix.rows());
+        line(name, fmt::format("sparse {} x {}, {} entries, {:.1f} per row", matrix.rows(), matrix.cols(),
+                               matrix.nonZeros(), double(matrix.nonZeros()) / double(rows)));
+    }
+    void mesh(const std::string& name, const TriangleMesh& mesh) override {
+        line(name, fmt::format("surface of {} vertices, {} faces", mesh.vertex_count(), mesh.face_count()));
+    }
+    void text(const std::string& name, const std::string& content) override {
+        if (!content.empty()) text_ += "  " + name + "\n" + indented(content);
+    }
+    std::string result() const { return text_; }
+
+  private:
+    template <class Scalar>
+    static std::string described(const Scalar* data, const ArrayView& array) {
+        const auto values = Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>(data, array.size());
+        std::string text = fmt::format("{} {}", sizeof(Scalar) == sizeof(int) ? "int" : "double",
+                                       fmt::join(array.shape, " x "));
+        if (values.size() > 0)
+            text += fmt::format(", from {:.6g} to {:.6g}, mean {:.6g}", double(values.minCoeff()),
+                                double(values.maxCoeff()), values.template cast<double>().mean());
+        return text;
+    }
+    static std::string indented(const std::string& content) {
+        std::string result = "    ";
+        for (const char c : content) result += c == '\n' ? std::string("\n    ") : std::string(1, c);
+        return result.substr(0, result.find_last_not_of(" \n") + 1) + "\n";
+    }
+    void line(const std::string& name, const std::string& value) {
+        text_ += fmt::format("  {:<22} {}\n", name, value);
+    }
+    std::string text_;
+};
+
+class Export : public ContentsVisitor {
+  public:
+    explicit Export(const std::string& folder) : folder_(folder) {}
+    void fact(const std::string&, const std::string&) override {}
+    void array(const std::string& name, const ArrayView& array) override {
+        save(name + ".npy", to_npy(array));
+    }
+    void sparse(const std::string& name, const SparseMatrix& matrix) override {
+        save(name + ".mtx", to_matrix_market(matrix));
+    }
+    void mesh(const std::string& name, const TriangleMesh& mesh) override {
+        save(name + ".ply", to_ply(mesh));
+    }
+    void text(const std::string& name, const std::string& content) override { save(name, content); }
+
+  private:
+    void save(const std::string& name, const std::string& bytes) const {
+        write_file_atomically((std::filesystem::path(folder_) / name).string(), bytes);
+    }
+    std::string folder_;
+};
+
+}  // namespace
+
+std::string summarise(const std::string& path) {
+    Summary summary;
+    visit_artifact(path, summary);
+    const std::string made_from = lineage(path);
+    return header_text(read_header(path)) + "\nmade from\n" +
+           (made_from.empty() ? "  nothing\n" : made_from) + "\nholds\n" + summary.result();
+}
+
+std::optional<Error> check(const std::string& path) {
+    try {
+        Summary summary;
+        visit_artifact(path, summary);
+        return std::nullopt;
+    } catch (const Error& error) {
+        return error;
+    }
+}
+
+void export_contents(const std::string& path, const std::string& folder) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
+    Export writer(folder);
+    visit_artifact(path, writer);
+}
+
+}  // namespace varimap

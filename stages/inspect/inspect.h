@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/stage/error.h"
+
+namespace varimap {
+
+/// Header, lineage and contents of an artifact, to be read by people. Throws ArtifactError, IoError.
+std::string summarise(const std::string& path);
+
+/// Reads and decodes all of an artifact; what is wrong with it, if anything.
+std::optional<Error> check(const std::string& path);
+
+/// Writes the artifact's arrays (.npy), sparse matrices (.mtx), surfaces (.ply) and texts into `folder`,
+/// which is made where it does not exist. Throws ArtifactError, IoError.
+void export_contents(const std::string& path, const std::string& folder);
+
+}  // namespace varimap

@@ -1,0 +1,22 @@
+#include "common/mesh/mesh_file.h"
+#include "common/mesh/surface.h"
+#include "common/stage/stage_main.h"
+#include "stages/preprocess/preprocess.h"
+
+int main(int argc, char** argv) {
+    using namespace varimap;
+    PreprocessParams params;
+    Stage stage("preprocess", "A mesh made ready for mapping: checked, unit area, evenly fine, with masses");
+    stage.parameters([&](ParameterList& list) { params.describe(list); });
+    const std::string& in = stage.input("mesh", "OBJ, PLY, OFF or STL file");
+    const std::string& out = stage.output("surface", ArtifactType<Surface>::schema, "artifact to write");
+    return stage.main(argc, argv, [&] {
+        const TriangleMesh input = read_mesh(in);
+        require_manifold(input, in);
+        stage.record_file("mesh", in);
+        const Surface surface = preprocess(input, params);
+        stage.record_number("input_vertices", input.vertex_count());
+        stage.record_number("vertices", surface.mesh.vertex_count());
+        stage.write(out, surface);
+    });
+}

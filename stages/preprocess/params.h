@@ -1,0 +1,20 @@
+#pragma once
+
+#include "common/stage/parameters.h"
+
+namespace varimap {
+
+struct PreprocessParams {
+    double target_edge_length = 0;
+    int max_vertices = 2'000'000;
+
+    void describe(ParameterList& list) {
+        list.add("target_edge_length", target_edge_length,
+                 "longest edge after bisection, in units of sqrt(area); 0: twice the mean edge of an even "
+                 "triangulation with the mesh's vertices, or with 2500 where it has fewer",
+                 0, 10);
+        list.add("max_vertices", max_vertices, "refuse to bisect beyond this many vertices", 3, 100'000'000);
+    }
+};
+
+}  // namespace varimap

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "common/mesh/surface.h"
+#include "stages/preprocess/params.h"
+
+namespace varimap {
+
+/// Unit area, area centroid at the origin, edges no longer than the target (Sec. 5, Limitations), and Voronoi
+/// masses. `input` must have passed require_manifold. Vertices that no face uses are left out of the result's
+/// mesh. A moved, turned or uniformly scaled input gives the same connectivity. Throws InputError if
+/// bisection would exceed max_vertices.
+Surface preprocess(const TriangleMesh& input, const PreprocessParams& params);
+
+/// The target edge length in units of sqrt(area): the parameter, or the automatic choice
+/// h = 2 * 1.0746 / sqrt(max(vertices, 2500)). 1.0746 / sqrt(n) is the edge of an even triangulation of unit
+/// area with n vertices.
+double target_edge_length(const PreprocessParams& params, int used_vertices);
+
+}  // namespace varimap

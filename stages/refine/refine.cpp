@@ -1,0 +1,66 @@
+#include "stages/refine/refine.h"
+
+#include <algorithm>
+
+#include "common/mapping/solve_level.h"
+#include "common/stage/error.h"
+
+namespace varimap {
+
+namespace {
+
+/// The level that the diffusion plan lives on, rebuilt from its samples (cells are all a level switch needs).
+LevelPair diffusion_levels_of(const PairContext& context, const Plan& diffusion) {
+    for (int l = context.diffusion_levels() - 1; l >= 0; --l) {
+        LevelPair pair = context.diffusion_level(l);
+        if (pair.A.level.samples == diffusion.samples_A && pair.B.level.samples == diffusion.samples_B) return pair;
+    }
+    throw ArtifactError("the diffusion plan's samples are not those of a level of these hierarchies; rerun varimap-diffuse");
+}
+
+Points space_part(const RowMatrix& centres) { return centres.leftCols<3>(); }
+
+Plan to_plan(const LevelPair& pair, const Solution& solution) {
+    Plan plan;
+    plan.samples_A = pair.A.level.samples;
+    plan.samples_B = pair.B.level.samples;
+    plan.mass_A = pair.A.side.mass;
+    plan.mass_B = pair.B.side.mass;
+    plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
+    return plan;
+}
+
+}  // namespace
+
+Plan refine(const PairContext& context, const Plan& diffusion, const RefineParams& params) {
+    const int all = context.euclidean_levels();
+    const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
+    std::vector<TraceRow> trace = diffusion.trace;
+    const int first_index = trace.empty() ? 0 : trace.back().level + 1;
+
+    LevelPair coarse = diffusion_levels_of(context, diffusion);
+    Solution solution;
+    solution.plan = to_coupling(diffusion.plan);
+    for (int l = 0; l < levels; ++l) {
+        LevelPair pair = context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
+        const Start start =
+            hand_down(solution.plan, coarse.A.level, coarse.B.level, pair, params.alternation.support_threshold);
+        solution = solve_level(pair, start, first_index + l, params.alternation, trace);
+        coarse = std::move(pair);
+    }
+    Plan plan = to_plan(coarse, solution);
+    // Stopped early, the plan is spread to every vertex as a level switch would do it.
+    const Centres centres = levels == all
+                                ? solution.step.centres
+                                : hand_down(solution.plan, coarse.A.level, coarse.B.level,
+                                            context.euclidean_level(all - 1, params.last_metric_weight),
+                                            params.alternation.support_threshold)
+                                      .centres;
+    plan.position_A = space_part(centres.row);
+    plan.position_B = space_part(centres.column);
+    plan.landmarks = diffusion.landmarks;
+    plan.trace = std::move(trace);
+    return plan;
+}
+
+}  // namespace varimap

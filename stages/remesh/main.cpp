@@ -1,0 +1,52 @@
+#include <filesystem>
+
+#include "common/mesh/mesh_file.h"
+#include "common/stage/stage_main.h"
+#include "stages/remesh/quality_json.h"
+#include "stages/remesh/remesh.h"
+
+namespace {
+
+using namespace varimap;
+
+/// Everything but quality.json, which comes last and so tells that the rest is there.
+void export_map(const std::string& folder, const SurfaceMap& map, const Surface& A, const Surface& B) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
+    write_file_atomically(folder + "/source_to_target.csv", to_csv(map.A_to_B));
+    write_file_atomically(folder + "/target_to_source.csv", to_csv(map.B_to_A));
+    write_file_atomically(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
+    write_file_atomically(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Stage stage("remesh",
+                "The map in both directions on the input meshes, cross-remeshing and quality numbers");
+    const std::string& surface_A = stage.input("A.surface", "artifact of varimap-preprocess: the source");
+    const std::string& surface_B = stage.input("B.surface", "artifact of varimap-preprocess: the target");
+    const std::string& plan_file = stage.input("plan", "artifact of varimap-refine or varimap-diffuse");
+    const std::string& out = stage.output("map", ArtifactType<SurfaceMap>::schema, "artifact to write");
+    const std::string& folder =
+        stage.option("export",
+                     "folder for source_to_target.csv, target_to_source.csv, source_on_target.ply, "
+                     "target_on_source.ply and quality.json");
+    const auto& runs = stage.list_option("runs", "run files (<artifact>.run.json) for quality.json's stages");
+    return stage.main(argc, argv, [&] {
+        const auto A = stage.read<Surface>("A.surface", surface_A);
+        const auto B = stage.read<Surface>("B.surface", surface_B);
+        const auto plan = stage.read<Plan>("plan", plan_file);
+        Stage::require_lineage(plan.header, plan_file, "A.surface", A.header, surface_A);
+        Stage::require_lineage(plan.header, plan_file, "B.surface", B.header, surface_B);
+        log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
+        const SurfaceMap map = remesh(A.value, B.value, plan.value);
+        stage.write(out, map);
+        if (folder.empty()) return;
+        export_map(folder, map, A.value, B.value);
+        const std::string own_name = "remesh " + std::filesystem::path(out).stem().string();
+        write_file_atomically(folder + "/quality.json",
+                              with_stages(map.quality, runs, own_name, stage.usage()));
+    });
+}

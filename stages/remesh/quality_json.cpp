@@ -1,0 +1,128 @@
+#include "stages/remesh/quality_json.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "common/mapping/quality.h"
+
+namespace varimap {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Quantiles& q) {
+    return {{"p01", q.p01}, {"p05", q.p05}, {"p50", q.p50}, {"p95", q.p95}, {"p99", q.p99}};
+}
+
+Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+    const Distortion distortion = measure_distortion(map, source, target);
+    return {{"flipped_count", distortion.flipped_count},
+            {"flipped_area_percent", distortion.flipped_area_percent},
+            {"collapsed_count", distortion.collapsed_count},
+            {"area_ratio", to_json(distortion.area_ratio)},
+            {"conformal_distortion", to_json(distortion.conformal_distortion)},
+            {"dirichlet_energy", distortion.dirichlet_energy},
+            {"coverage", measure_coverage(map, source, target)}};
+}
+
+Json sizes(const Surface& surface) {
+    return {{"input_vertices", surface.input.vertex_count()},
+            {"input_faces", surface.input.face_count()},
+            {"vertices", surface.mesh.vertex_count()}};
+}
+
+Json levels(const std::vector<TraceRow>& trace) {
+    Json list = Json::array();
+    for (const TraceRow& row : trace) {
+        if (list.empty() || list.back()["level"] != row.level)
+            list.push_back({{"level", row.level},
+                            {"kind", row.euclidean ? "euclidean" : "diffusion"},
+                            {"samples_source", row.samples_A},
+                            {"samples_target", row.samples_B},
+                            {"iterations", 0},
+                            {"energy", 0.0}});
+        Json& level = list.back();
+        level["iterations"] = level["iterations"].get<int>() + 1;
+        level["energy"] = row.energy;
+    }
+    return list;
+}
+
+/// Landmarks as pairs of input vertices.
+std::vector<std::pair<int, int>> input_landmarks(const Plan& plan, const Surface& A, const Surface& B) {
+    const auto input_of_vertex = [](const Surface& surface) {
+        std::vector<int> input(std::size_t(surface.mesh.vertex_count()), -1);
+        for (std::size_t i = 0; i < surface.vertex_of_input.size(); ++i)
+            if (surface.vertex_of_input[i] >= 0) input[std::size_t(surface.vertex_of_input[i])] = int(i);
+        return input;
+    };
+    const std::vector<int> of_A = input_of_vertex(A), of_B = input_of_vertex(B);
+    std::vector<std::pair<int, int>> pairs;
+    for (const auto& [a, b] : plan.landmarks)
+        if (of_A[std::size_t(a)] >= 0 && of_B[std::size_t(b)] >= 0)
+            pairs.emplace_back(of_A[std::size_t(a)], of_B[std::size_t(b)]);
+    return pairs;
+}
+
+/// JSON has no infinities: members that are not finite are left out rather than written as null.
+void remove_not_finite(Json& json) {
+    if (!json.is_structured()) return;
+    for (auto member = json.begin(); member != json.end();) {
+        remove_not_finite(*member);
+        const bool keep = !member->is_number_float() || std::isfinite(member->get<double>());
+        member = keep ? std::next(member) : json.erase(member);
+    }
+}
+
+std::string stem(const std::string& run_file) {
+    const std::string name = std::filesystem::path(run_file).filename().string();
+    const std::string artifact = name.substr(0, name.rfind(".run.json"));
+    return std::filesystem::path(artifact).stem().string();
+}
+
+/// Adds the entry of one run file; false if it cannot be read.
+bool add_run(Json& stages, const std::string& path) {
+    if (!std::filesystem::exists(path)) return false;
+    Json run = Json::parse(read_file(path), nullptr, false);
+    if (!run.is_object() || !run.contains("stage") || !run["stage"].is_string()) return false;
+    std::string name = run["stage"].get<std::string>() + " " + stem(path);
+    if (stages.contains(name)) name += " (" + path + ")";
+    run.erase("stage");
+    stages[name] = run;
+    return true;
+}
+
+}  // namespace
+
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan) {
+    Json quality;
+    if (!plan.trace.empty()) quality["energy"] = plan.trace.back().energy;
+    quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
+    quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
+    quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);
+    const RoundTrip round_trip = measure_round_trip(map.A_to_B, map.B_to_A, A.input, B.input);
+    quality["round_trip"] = {{"mean", round_trip.mean}, {"p95", round_trip.p95}};
+    quality["source"] = sizes(A);
+    quality["target"] = sizes(B);
+    quality["levels"] = levels(plan.trace);
+    remove_not_finite(quality);
+    return quality.dump(2);
+}
+
+std::string with_stages(const std::string& quality, const std::vector<std::string>& run_files,
+                        const std::string& own_name, const Stage::Usage& own) {
+    Json all = Json::parse(quality);
+    Json stages = Json::object();
+    for (const auto& path : run_files)
+        if (!add_run(stages, path)) warn("no run file '{}': quality.json lacks that stage's times", path);
+    stages[own_name] = {{"wall_seconds", own.wall_seconds},
+                        {"cpu_seconds", own.cpu_seconds},
+                        {"peak_megabytes", own.peak_megabytes}};
+    all["stages"] = stages;
+    remove_not_finite(all);
+    return all.dump(2) + "\n";
+}
+
+}  // namespace varimap

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/mapping/plan.h"
+#include "common/mapping/surface_map.h"
+#include "common/mesh/surface.h"
+#include "common/stage/stage_main.h"
+
+namespace varimap {
+
+/// The part of quality.json that depends on the inputs and parameters alone; finite numbers only. A is the
+/// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
+///   energy            Eq. (3) at the end; absent if the plan has no trace
+///   landmarks         distance of each landmark's image from its partner
+///   source_to_target, target_to_source
+///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
+///       conformal_distortion {the same}, dirichlet_energy, coverage          (definitions: quality.h)
+///   round_trip        source -> target -> source: mean, p95
+///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
+///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan);
+
+/// The whole quality.json: `quality` and `stages`, one entry for each run file (<artifact>.run.json), named
+/// after the stage and the artifact without its ending ("eigen cat0", "diffuse cat0--dog1"), and one named
+/// `own_name` for this run so far. Entries hold wall_seconds, cpu_seconds, peak_megabytes and what else the
+/// stage recorded. Run files that are missing or unreadable are skipped with a warning.
+std::string with_stages(const std::string& quality, const std::vector<std::string>& run_files,
+                        const std::string& own_name, const Stage::Usage& own);
+
+}  // namespace varimap

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "common/mapping/plan.h"
+#include "common/mapping/surface_map.h"
+#include "common/mesh/surface.h"
+
+namespace varimap {
+
+/// The map in both directions on the INPUT meshes (Sec. 5, cross-remeshing): read_out (plan.h) gives the
+/// images of the preprocessed surfaces' vertices, of which the input vertices are the first; the images go to
+/// the input faces that hold them. `quality` holds the deterministic part of quality.json.
+SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan);
+
+/// The source's input mesh with its vertices moved to their images, in the target's input coordinates.
+/// Vertices no face uses have no image: they keep their place relative to the source's centroid, scaled like
+/// the target.
+TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target);
+
+}  // namespace varimap

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# What cannot be served is refused: one line, the right exit code, nothing written over.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+figure a.off 6
+figure b.off 6 .5
+map() { "$varimap" map "$@"; }
+
+refuse() {  # CODE ARGUMENTS
+    local code=$1
+    shift
+    expect_exit "$code" map "$@"
+}
+
+# The command line and the files it names.
+refuse 2
+refuse 2 a.off -o out
+refuse 2 a.off b.off
+refuse 2 a.off b.off -o
+refuse 2 a.off b.off c.off -o out
+refuse 2 a.off b.off -o out --landmarks
+refuse 2 a.off b.off -o out --sett x
+refuse 2 a.off b.off -o out -j 0
+refuse 2 a.off b.off -o out --set eigen
+refuse 2 a.off b.off -o out --set eigne.count=10
+refuse 2 a.off b.off -o out --set eigen.count=10 --set refine.threads=1
+refuse 6 a.off absent.off -o out
+refuse 6 a.off . -o out
+refuse 6 a.off b.off -o out --landmarks absent.txt
+refuse 6 a.off b.off -o a.off
+refuse 6 a.off b.off -o a.off/out
+VARIMAP_BIN=$PWD refuse 6 a.off b.off -o out
+[[ ! -e out ]] || fail "a refused command line left files"
+
+# What only the stages can tell.
+refuse 2 a.off b.off -o out --set eigen.colour=1
+refuse 2 a.off b.off -o out --set eigen.count=many
+map a.off b.off -o out >/dev/null 2>log || fail "a good pair"
+refuse 2 a.off b.off -o out --set eigen.count=-3
+refuse 2 a.off b.off -o out --set refine.colour=1
+
+echo "nothing of the kind" >text.off
+head -c 2000 a.off >cut.off
+: >empty.off
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 nan\n3 0 1 2\n3 0 2 3\n' >nan.off
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n' >range.off
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >nonmanifold.off
+printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n' >parts.off
+printf 'OFF\n3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2\n' >point.off
+cp a.off a.unknown
+for bad in text.off cut.off empty.off nan.off range.off nonmanifold.off parts.off point.off a.unknown; do
+    refuse 3 "$bad" b.off -o bad -j 1
+    refuse 3 b.off "$bad" -o bad -j 1
+done
+
+for line in "0 1 x" "zero one" "0 100000" "-1 0" "0.5 1"; do
+    printf '1 1\n%s\n' "$line" >bad.txt
+    refuse 3 a.off b.off -o out --landmarks bad.txt
+done
+printf '1\n2\n3\n' >three.txt
+printf '1\n2\n' >two.txt
+refuse 3 a.off b.off -o out --landmarks three.txt two.txt
+printf '1 1\n1 2\n' >twice.txt
+refuse 3 a.off b.off -o out --landmarks twice.txt
+map a.off b.off -o out >/dev/null 2>log || fail "the good pair again"
+expect_ran ""

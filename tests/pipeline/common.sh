@@ -1,0 +1,102 @@
+# shellcheck shell=bash
+# Shared by the tests of whole programs: a working folder, small surfaces, and checks that end the test.
+# Needs VARIMAP_BIN (the executables) and VARIMAP_SOURCE (the project).
+set -euo pipefail
+shopt -s inherit_errexit
+export LC_ALL=C
+: "${VARIMAP_BIN:?}" "${VARIMAP_SOURCE:?}"
+varimap=$VARIMAP_SOURCE/pipelines/varimap
+for tool in make jq flock; do
+    command -v "$tool" >/dev/null || { echo "skipped: $tool is missing"; exit 77; }
+done
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() {
+    echo "FAILED: $*"
+    [[ ! -s log ]] || { echo "--- last log:"; tail -n 20 log; }
+    exit 1
+}
+
+# figure FILE N [TWIST]: a closed surface of 4 N^2 + 2 vertices without symmetry: an ellipsoid with five limbs of
+# different sizes, turned about its long axis by TWIST radians per unit length. Vertex i of every figure of
+# the same N is the same point of the body.
+figure() {
+    awk -v n="$2" -v twist="${3:-0}" '
+        function vertex(x, y, z,    key) {
+            key = x "," y "," z
+            if (!(key in index_of)) { index_of[key] = count; X[count] = x; Y[count] = y; Z[count] = z; count++ }
+            return index_of[key]
+        }
+        function face(a, b, c) { faces = faces "3 " a " " (mirrored ? c " " b : b " " c) "\n"; face_count++ }
+        function octant(sx, sy, sz,    i, j, k) {
+            mirrored = sx * sy * sz < 0
+            for (i = 0; i < n; i++) for (j = 0; i + j < n; j++) {
+                k = n - i - j
+                face(vertex(sx * i, sy * j, sz * k), vertex(sx * (i + 1), sy * j, sz * (k - 1)),
+                     vertex(sx * i, sy * (j + 1), sz * (k - 1)))
+                if (k > 1)
+                    face(vertex(sx * (i + 1), sy * j, sz * (k - 1)), vertex(sx * (i + 1), sy * (j + 1), sz * (k - 2)),
+                         vertex(sx * i, sy * (j + 1), sz * (k - 1)))
+            }
+        }
+        function limb(x, y, z, ux, uy, uz, length_, width,    l) {
+            l = sqrt(ux * ux + uy * uy + uz * uz)
+            return length_ * exp(((x * ux + y * uy + z * uz) / l - 1) / width)
+        }
+        BEGIN {
+            count = face_count = 0
+            for (o = 0; o < 8; o++) octant(o % 2 ? -1 : 1, int(o / 2) % 2 ? -1 : 1, o > 3 ? -1 : 1)
+            printf "OFF\n%d %d 0\n", count, face_count
+            for (v = 0; v < count; v++) {
+                l = sqrt(X[v] ^ 2 + Y[v] ^ 2 + Z[v] ^ 2); x = X[v] / l; y = Y[v] / l; z = Z[v] / l
+                r = 1 + limb(x, y, z, 1, .2, .9, .9, .1) + limb(x, y, z, -.9, .3, 1, .6, .12) \
+                    + limb(x, y, z, .9, -.2, -1, .7, .08) + limb(x, y, z, -1, .1, -.8, .8, .1) \
+                    + limb(x, y, z, .1, 1, .3, .5, .15)
+                x *= .7 * r; y *= .5 * r; z *= 1.3 * r
+                printf "%.17g %.17g %.17g\n", x * cos(twist * z) - y * sin(twist * z), x * sin(twist * z) + y * cos(twist * z), z
+            }
+            printf "%s", faces
+        }' >"$1"
+}
+
+# landmarks_of_figure FILE: the tips of its limbs, as lines of a landmark file between any two figures of that size.
+landmarks_of_figure() {
+    awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2 {
+            s[0] = $1 + $3; s[1] = -$1 + $3; s[2] = $1 - $3; s[3] = -$1 - $3; s[4] = $2
+            for (k = 0; k < 5; k++) if (NR == 3 || s[k] > best[k]) { best[k] = s[k]; at[k] = NR - 3 }
+        }
+        END { for (k = 0; k < 5; k++) print at[k], at[k] }' "$1"
+}
+
+# map ARGUMENTS: runs the front end; what the stages say goes to the file log.
+map() {
+    "$varimap" map "$@" >out.txt 2>log || fail "varimap map $* (exit $?)"
+}
+
+# ran: which stages ran since the last map, sorted, with how often.
+ran() {
+    sed -n 's/^\[\([a-z]*\)\] done:.*/\1/p' log | sort | uniq -c | awk '{ printf "%s%s%s", sep, $2, $1 > 1 ? "*" $1 : ""; sep = " " }'
+}
+
+expect_ran() {  # STAGES: what `ran` must say
+    [[ $(ran) == "$1" ]] || fail "ran '$(ran)', not '$1'"
+}
+
+# expect_exit CODE COMMAND...: the command fails with CODE and says why in one line on stderr.
+expect_exit() {
+    local code=0 expected=$1
+    shift
+    "$@" >out.txt 2>log </dev/null || code=$?
+    ((code == expected)) || fail "exit $code, not $expected: $*"
+    ((expected == 0)) && return
+    local errors
+    errors=$(grep -c 'error: ' log || true)
+    ((errors == 1)) || fail "$errors error lines, not one: $*"
+}
+
+same() {  # FILE FILE
+    cmp -s "$1" "$2" || fail "$1 and $2 differ"
+}

@@ -1,0 +1,134 @@
+#include "stages/inspect/inspect.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "common/artifact/artifact.h"
+#include "common/mapping/plan.h"
+#include "common/mapping/surface_map.h"
+#include "common/spectral/hierarchy.h"
+#include "common/temporary_folder.h"
+#include "stages/inspect/formats.h"
+
+namespace varimap {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two samples on a surface of three vertices, each mapped to the other side's same vertex.
+Plan small_plan() {
+    Plan plan;
+    plan.samples_A = plan.samples_B = {0, 2};
+    plan.mass_A = plan.mass_B = Eigen::Vector2d(0.25, 0.75);
+    plan.plan.resize(2, 2);
+    plan.plan.insert(0, 0) = 0.25;
+    plan.plan.insert(1, 1) = 0.75;
+    plan.plan.makeCompressed();
+    plan.position_A = plan.position_B = Points::Random(3, 3);
+    plan.landmarks = {{0, 0}};
+    plan.trace = {TraceRow{}};
+    return plan;
+}
+
+template <class T>
+void write_sample(const std::string& path, const T& value, const std::vector<InputRecord>& inputs = {}) {
+    Header header;
+    header.kind = ArtifactType<T>::kind;
+    header.schema = ArtifactType<T>::schema;
+    header.stage = "varimap-test";
+    header.inputs = inputs;
+    write_payload(path, header, encode(value));
+}
+
+/// The numbers behind the header of a .npy file.
+std::vector<double> npy_doubles(const std::string& bytes) {
+    const std::size_t start = 10 + std::uint8_t(bytes[8]) + 256 * std::uint8_t(bytes[9]);
+    std::vector<double> values((bytes.size() - start) / sizeof(double));
+    std::memcpy(values.data(), bytes.data() + start, values.size() * sizeof(double));
+    return values;
+}
+
+TEST(Npy, HeaderSaysTypeOrderAndShapeAndEndsOnAMultipleOf64) {
+    const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(3, 2);
+    const std::string bytes = to_npy(view(matrix));
+    EXPECT_TRUE(bytes.starts_with(std::string("\x93NUMPY\x01\x00", 8)));
+    EXPECT_THAT(bytes, HasSubstr("{'descr': '<f8', 'fortran_order': True, 'shape': (3, 2, ), }"));
+    EXPECT_EQ((bytes.size() - 6 * sizeof(double)) % 64, 0u);
+    EXPECT_EQ(npy_doubles(bytes), std::vector<double>(matrix.data(), matrix.data() + 6));
+    const std::vector<int> indices{1, 2, 3};
+    EXPECT_THAT(to_npy(view(indices)),
+                HasSubstr("{'descr': '<i4', 'fortran_order': False, 'shape': (3, ), }"));
+}
+
+TEST(MatrixMarket, CountsFromOneAndKeepsEveryDigit) {
+    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(2, 3);
+    matrix.insert(0, 2) = 0.1;
+    matrix.insert(1, 0) = -1e-300;
+    EXPECT_EQ(to_matrix_market(matrix),
+              "%%MatrixMarket matrix coordinate real general\n2 3 2\n1 3 0.1\n2 1 -1e-300\n");
+}
+
+TEST(Inspect, SummaryShowsHeaderLineageAndContents) {
+    const TemporaryFolder folder;
+    Basis basis;
+    basis.eigenvalues = basis.residuals = Eigen::Vector2d(0, 5);
+    basis.functions = RowMatrix::Ones(3, 2);
+    write_sample(folder / "A.basis", basis, {{"surface", "surface", content_hash("surface")}});
+    const std::string hash = read_header(folder / "A.basis").payload_hash;
+    write_sample(folder / "AB.plan", small_plan(), {{"basis_A", "basis", hash}});
+    const std::string text = summarise(folder / "AB.plan");
+    for (const std::string& part :
+         {std::string("kind plan"), "basis_A: basis " + hash + " A.basis",
+          "    surface: surface " + content_hash("surface"), std::string("sparse 2 x 2, 2 entries"),
+          std::string("from 0.25 to 0.75, mean 0.5")})
+        EXPECT_THAT(text, HasSubstr(part));
+}
+
+TEST(Inspect, CheckAcceptsEveryKindAndRefusesDamage) {
+    const TemporaryFolder folder;
+    Hierarchy hierarchy;
+    hierarchy.levels.resize(1);
+    hierarchy.levels[0].samples = hierarchy.levels[0].cell = {0};
+    hierarchy.levels[0].mass = Eigen::VectorXd::Ones(1);
+    hierarchy.levels[0].weights.resize(1, 1);
+    hierarchy.levels[0].weights.insert(0, 0) = 1;
+    write_sample(folder / "A.hierarchy", hierarchy);
+    write_sample(folder / "AB.plan", small_plan());
+    write_sample(folder / "AB.map", SurfaceMap{{SurfacePoint{0, Vec3(1, 0, 0)}}, {SurfacePoint{}}, "{}"});
+    for (const char* name : {"A.hierarchy", "AB.plan", "AB.map"}) {
+        const auto failure = check(folder / name);
+        EXPECT_FALSE(failure) << failure->what();
+        const std::string bytes = read_file(folder / name);
+        write_file_atomically(folder / name, bytes.substr(0, bytes.size() - 1));
+        EXPECT_EQ(check(folder / name)->code(), ExitCode::bad_artifact);
+    }
+    EXPECT_EQ(check(folder / "missing")->code(), ExitCode::input_output);
+}
+
+TEST(Inspect, CheckRefusesUnknownKindsAndPayloadsOfAnotherForm) {
+    const TemporaryFolder folder;
+    Header header;
+    header.kind = "casserole";
+    header.stage = "varimap-test";
+    write_payload(folder / "a", header, "");
+    EXPECT_EQ(check(folder / "a")->code(), ExitCode::bad_artifact);
+    header.kind = "plan";
+    header.schema = ArtifactType<Plan>::schema;
+    write_payload(folder / "a", header, "not a plan");
+    EXPECT_EQ(check(folder / "a")->code(), ExitCode::bad_artifact);
+}
+
+TEST(Inspect, ExportWritesWhatTheArtifactHolds) {
+    const TemporaryFolder folder;
+    const Plan plan = small_plan();
+    write_sample(folder / "AB.plan", plan);
+    export_contents(folder / "AB.plan", folder / "deep/out");
+    EXPECT_EQ(npy_doubles(read_file(folder / "deep/out/mass_A.npy")), (std::vector<double>{0.25, 0.75}));
+    EXPECT_EQ(read_file(folder / "deep/out/plan.mtx"), to_matrix_market(plan.plan));
+    EXPECT_TRUE(read_file(folder / "deep/out/trace.csv").starts_with("level,euclidean,iteration,"));
+}
+
+}  // namespace
+}  // namespace varimap

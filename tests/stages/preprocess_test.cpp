@@ -1,0 +1,79 @@
+#include "stages/preprocess/preprocess.h"
+
+#include <gtest/gtest.h>
+
+#include "common/mesh/mass.h"
+#include "common/mesh/topology.h"
+#include "common/shapes.h"
+#include "common/stage/error.h"
+
+namespace varimap {
+namespace {
+
+PreprocessParams with_target(double target) {
+    PreprocessParams params;
+    params.target_edge_length = target;
+    return params;
+}
+
+TEST(Preprocess, NormalisesAreaAndCentre) {
+    const Surface surface =
+        preprocess(shapes::moved(shapes::figure(.25), 17, .4, {9, 8, 7}), with_target(.1));
+    EXPECT_NEAR(surface_area(surface.mesh), 1, 1e-12);
+    EXPECT_LT(area_centroid(surface.mesh).norm(), 1e-12);
+    EXPECT_NEAR(surface.mass.sum(), 1, 1e-13);
+    EXPECT_GT(surface.mass.minCoeff(), 0);
+    for (int v = 0; v < surface.input.vertex_count(); ++v) {
+        const Vec3 expected = (surface.input.vertex(v) - surface.centre) * surface.scale;
+        EXPECT_EQ(surface.mesh.vertex(surface.vertex_of_input[v]), expected);
+    }
+}
+
+TEST(Preprocess, ReachesTheAutomaticTarget) {
+    const TriangleMesh input = shapes::figure(.25);
+    const Surface surface = preprocess(input, {});
+    const double target = 2 * 1.0746 / 50;
+    EXPECT_EQ(target_edge_length({}, input.vertex_count()), target);
+    for (const auto& [a, b] : find_edges(surface.mesh).vertices)
+        EXPECT_LE((surface.mesh.vertex(a) - surface.mesh.vertex(b)).norm(), target * (1 + 1e-9));
+    EXPECT_NEAR(target_edge_length({}, 10000), 2 * 1.0746 / 100, 1e-15);
+}
+
+TEST(Preprocess, LeavesOutUnusedVerticesAndKeepsTheOrderOfTheOthers) {
+    const TriangleMesh full = shapes::ellipsoid(1);
+    TriangleMesh sparse = full;  // one unused vertex before each used one
+    sparse.vertices = Points::Constant(2 * full.vertex_count(), 3, 77);
+    for (int v = 0; v < full.vertex_count(); ++v) sparse.vertices.row(2 * v + 1) = full.vertices.row(v);
+    sparse.faces = 2 * full.faces.array() + 1;
+    const Surface a = preprocess(full, with_target(.3)), b = preprocess(sparse, with_target(.3));
+    EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);
+    EXPECT_EQ(a.mesh.faces, b.mesh.faces);
+    for (int v = 0; v < full.vertex_count(); ++v) {
+        EXPECT_EQ(b.vertex_of_input[2 * v], -1);
+        EXPECT_EQ(b.vertex_of_input[2 * v + 1], v);
+    }
+    EXPECT_EQ(b.input.vertices, sparse.vertices);
+}
+
+TEST(Preprocess, MovingTurningAndScalingChangeRoundingOnly) {
+    const TriangleMesh input = shapes::figure(.25);
+    const Surface rest = preprocess(input, with_target(.06));
+    for (const double scale : {1e-3, 1., 1e4}) {
+        const Surface other =
+            preprocess(shapes::moved(input, scale, 2.1, 100 * scale * Vec3(1, -1, .3)), with_target(.06));
+        ASSERT_EQ(rest.mesh.faces, other.mesh.faces);
+        EXPECT_EQ(rest.input_face, other.input_face);
+        const TriangleMesh turned = shapes::moved(rest.mesh, 1, 2.1, Vec3::Zero());
+        EXPECT_LT((turned.vertices - other.mesh.vertices).cwiseAbs().maxCoeff(), 1e-12);
+        EXPECT_LT((rest.mass - other.mass).cwiseAbs().maxCoeff(), 1e-13);
+    }
+}
+
+TEST(Preprocess, RefusesATargetThatNeedsTooManyVertices) {
+    PreprocessParams params = with_target(.001);
+    params.max_vertices = 2000;
+    EXPECT_THROW(preprocess(shapes::ellipsoid(2), params), InputError);
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,152 @@
+#include "stages/remesh/remesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "stages/remesh/quality_json.h"
+#include "tests/common/map_shapes.h"
+
+namespace varimap {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A sphere with a vertex no face uses in front of the others, scaled and moved.
+Surface sphere_with_spare_vertex(double scale, const Vec3& centre) {
+    const TriangleMesh sphere = testing::sphere(8);
+    Surface surface = testing::plain_surface(sphere);
+    const int n = sphere.vertex_count();
+    surface.input.vertices.resize(n + 1, 3);
+    surface.input.vertices.row(0) << 3, 3, 3;
+    surface.input.vertices.bottomRows(n) = sphere.vertices;
+    surface.input.vertices *= scale;
+    surface.input.vertices.rowwise() += centre.transpose();
+    surface.input.faces.array() += 1;
+    surface.vertex_of_input.insert(surface.vertex_of_input.begin(), -1);
+    for (std::size_t v = 1; v < surface.vertex_of_input.size(); ++v) surface.vertex_of_input[v] = int(v) - 1;
+    surface.scale = 1 / scale;
+    surface.centre = centre;
+    return surface;
+}
+
+class Remesh : public ::testing::Test {
+  protected:
+    Surface A_ = sphere_with_spare_vertex(2, Vec3(1, 2, 3)),
+            B_ = sphere_with_spare_vertex(0.5, Vec3(-1, 0, 5));
+    Plan plan_ = identity_plan();
+
+    Plan identity_plan() const {
+        Plan plan;
+        const int n = A_.mesh.vertex_count();
+        for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
+        plan.samples_B = plan.samples_A;
+        plan.mass_A = plan.mass_B = A_.mass;
+        plan.plan.resize(n, n);
+        plan.plan.setIdentity();
+        plan.position_A = plan.position_B = A_.mesh.vertices;
+        plan.landmarks = {{5, 5}};
+        plan.trace = {{0, 0, 0, 10, 12, 5, 120, 1e-2, 0.9, 1e-3},
+                      {0, 0, 1, 10, 12, 5, 120, 1e-2, 0.8, 1e-3},
+                      {1, 1, 0, n, n, 9, 500, 1e-3, 0.25, 1e-3}};
+        return plan;
+    }
+};
+
+TEST_F(Remesh, MapsInputVerticesToInputFaces) {
+    const SurfaceMap map = remesh(A_, B_, plan_);
+    ASSERT_EQ(int(map.A_to_B.size()), A_.input.vertex_count());
+    EXPECT_EQ(map.A_to_B[0].face, -1);
+    for (int v = 1; v < A_.input.vertex_count(); ++v) {
+        ASSERT_GE(map.A_to_B[std::size_t(v)].face, 0);
+        EXPECT_LT((position(B_.input, map.A_to_B[std::size_t(v)]) - B_.input.vertex(v)).norm(), 1e-12);
+        EXPECT_LT((position(A_.input, map.B_to_A[std::size_t(v)]) - A_.input.vertex(v)).norm(), 1e-12);
+    }
+}
+
+TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
+    const SurfaceMap map = remesh(A_, B_, plan_);
+    const TriangleMesh moved = cross_remesh(map.A_to_B, A_, B_);
+    EXPECT_EQ(moved.faces, A_.input.faces);
+    EXPECT_LT((moved.vertices - B_.input.vertices).norm(), 1e-12)
+        << "the spare vertex keeps its relative place";
+}
+
+void expect_finite_numbers(const Json& json, const std::string& where) {
+    if (json.is_structured())
+        for (const auto& [key, value] : json.items()) expect_finite_numbers(value, where + "/" + key);
+    else
+        EXPECT_TRUE(json.is_number() ? std::isfinite(json.get<double>()) : json.is_string()) << where;
+}
+
+TEST_F(Remesh, QualityHasTheDocumentedKeys) {
+    const Json quality = Json::parse(remesh(A_, B_, plan_).quality);
+    expect_finite_numbers(quality, "");
+    EXPECT_EQ(quality["energy"], 0.25);
+    ASSERT_EQ(quality["landmarks"].size(), 1u);
+    EXPECT_NEAR(quality["landmarks"][0], 0, 1e-12);
+    for (const char* direction : {"source_to_target", "target_to_source"}) {
+        const Json& numbers = quality[direction];
+        EXPECT_EQ(numbers["flipped_count"], 0);
+        EXPECT_EQ(numbers["flipped_area_percent"], 0);
+        EXPECT_NEAR(numbers["dirichlet_energy"], 1, 1e-9);
+        EXPECT_NEAR(numbers["coverage"], 1, 1e-9);
+        for (const char* name : {"area_ratio", "conformal_distortion"})
+            for (const char* share : {"p01", "p05", "p50", "p95", "p99"})
+                EXPECT_NEAR(numbers[name][share], 1, 1e-9);
+    }
+    EXPECT_NEAR(quality["round_trip"]["mean"], 0, 1e-12);
+    EXPECT_NEAR(quality["round_trip"]["p95"], 0, 1e-12);
+    EXPECT_EQ(quality["source"]["input_vertices"], A_.input.vertex_count());
+    EXPECT_EQ(quality["target"]["input_faces"], B_.input.face_count());
+    EXPECT_EQ(quality["source"]["vertices"], A_.mesh.vertex_count());
+}
+
+TEST_F(Remesh, QualitySumsUpTheLevels) {
+    const Json levels = Json::parse(remesh(A_, B_, plan_).quality)["levels"];
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_EQ(levels[0]["kind"], "diffusion");
+    EXPECT_EQ(levels[0]["iterations"], 2);
+    EXPECT_EQ(levels[0]["energy"], 0.8);
+    EXPECT_EQ(levels[0]["samples_target"], 12);
+    EXPECT_EQ(levels[1]["kind"], "euclidean");
+    EXPECT_EQ(levels[1]["iterations"], 1);
+}
+
+TEST_F(Remesh, QualityHoldsFiniteNumbersOnly) {
+    plan_.trace.back().energy = std::nan("");
+    plan_.trace.front().energy = std::numeric_limits<double>::infinity();
+    const Json quality = Json::parse(remesh(A_, B_, plan_).quality);
+    expect_finite_numbers(quality, "");
+    EXPECT_FALSE(quality.contains("energy"));
+}
+
+TEST_F(Remesh, CollapsedMapsHaveFiniteQuality) {
+    plan_.position_A.setZero();
+    plan_.samples_A.pop_back();
+    plan_.plan.conservativeResize(int(plan_.samples_A.size()), plan_.plan.cols());
+    const Json quality = Json::parse(remesh(A_, B_, plan_).quality);
+    expect_finite_numbers(quality, "");
+    EXPECT_GT(quality["source_to_target"]["flipped_area_percent"], 90);
+}
+
+TEST(QualityStages, AreNamedAfterStageAndArtifact) {
+    const std::string folder = ::testing::TempDir() + "/remesh_runs";
+    std::filesystem::create_directories(folder);
+    const std::string basis = folder + "/cat.0.basis.run.json", broken = folder + "/dog.basis.run.json";
+    write_file_atomically(basis, R"({"stage": "eigen", "wall_seconds": 2.5, "threads": 2})");
+    write_file_atomically(broken, "{");
+    const std::string text = with_stages(R"({"energy": 1.0})", {basis, broken, folder + "/none.run.json"},
+                                         "remesh cat--dog", {1.5, 2, 30});
+    std::filesystem::remove_all(folder);
+    const Json quality = Json::parse(text);
+    EXPECT_EQ(quality["energy"], 1.0);
+    EXPECT_EQ(quality["stages"].size(), 2u);
+    EXPECT_EQ(quality["stages"]["eigen cat.0"]["wall_seconds"], 2.5);
+    EXPECT_EQ(quality["stages"]["remesh cat--dog"]["peak_megabytes"], 30);
+}
+
+}  // namespace
+}  // namespace varimap
