@@ -35,10 +35,43 @@
 
 #include "common/stage/error.h"
 
+namespace varimap {
+
+/// Reads a payload in place, without a copy, and knows how much of it is left.
+struct PayloadBuffer : std::streambuf {
+    explicit PayloadBuffer(const std::string& payload) {
+        char* begin = const_cast<char*>(payload.data());
+        setg(begin, begin, begin + payload.size());
+    }
+    std::uint64_t left() const { return std::uint64_t(egptr() - gptr()); }
+};
+
+/// cereal's archive, from which reading can find out how much is left.
+struct PayloadArchive : cereal::PortableBinaryInputArchive {
+    PayloadArchive(std::istream& stream, const PayloadBuffer& payload)
+        : cereal::PortableBinaryInputArchive(stream), buffer(payload) {}
+    const PayloadBuffer& buffer;
+};
+
+}  // namespace varimap
+
 namespace cereal {
 
 inline void varimap_require(bool consistent) {
-    if (!consistent) throw Exception("the sizes of a matrix contradict each other");
+    if (!consistent) throw Exception("recorded sizes contradict each other");
+}
+
+/// Nothing is allocated for `count` elements that the rest of the payload cannot hold.
+inline void varimap_require_left(PortableBinaryInputArchive& archive, std::uint64_t count,
+                                 std::uint64_t size) {
+    varimap_require(count <= dynamic_cast<varimap::PayloadArchive&>(archive).buffer.left() / size);
+}
+
+/// Takes precedence over cereal's own reading of the sizes of vectors and strings, which trusts them.
+template <class T>
+void CEREAL_SERIALIZE_FUNCTION_NAME(PortableBinaryInputArchive& archive, SizeTag<T>& tag) {
+    archive(tag.size);
+    varimap_require_left(archive, tag.size, 1);
 }
 
 /// A dense matrix: rows, columns, coefficients in its own storage order.
@@ -49,15 +82,16 @@ std::enable_if_t<std::is_arithmetic_v<Scalar>> save(Archive& archive,
     archive(binary_data(matrix.data(), std::size_t(matrix.size()) * sizeof(Scalar)));
 }
 
-template <class Archive, class Scalar, int R, int C, int O, int MR, int MC>
-std::enable_if_t<std::is_arithmetic_v<Scalar>> load(Archive& archive,
+template <class Scalar, int R, int C, int O, int MR, int MC>
+std::enable_if_t<std::is_arithmetic_v<Scalar>> load(PortableBinaryInputArchive& archive,
                                                     Eigen::Matrix<Scalar, R, C, O, MR, MC>& matrix) {
     std::int64_t rows = 0, columns = 0;
     archive(rows, columns);
     varimap_require(rows >= 0 && columns >= 0);
     varimap_require((R == Eigen::Dynamic || rows == R) && (C == Eigen::Dynamic || columns == C));
-    constexpr auto limit = std::numeric_limits<std::int64_t>::max() / std::int64_t(sizeof(Scalar));
-    varimap_require(rows == 0 || columns <= limit / rows);
+    // Rows first, so that the product below cannot overflow.
+    varimap_require_left(archive, std::uint64_t(rows), columns > 0 ? sizeof(Scalar) : 1);
+    if (rows > 0) varimap_require_left(archive, std::uint64_t(columns), std::uint64_t(rows) * sizeof(Scalar));
     matrix.resize(rows, columns);
     archive(binary_data(matrix.data(), std::size_t(matrix.size()) * sizeof(Scalar)));
 }
@@ -90,13 +124,16 @@ void require_valid_structure(const Matrix& matrix, std::int64_t entries) {
                             inner[k] < matrix.innerSize());
 }
 
-template <class Archive, class Scalar, int O, class Index>
-void load(Archive& archive, Eigen::SparseMatrix<Scalar, O, Index>& matrix) {
+template <class Scalar, int O, class Index>
+void load(PortableBinaryInputArchive& archive, Eigen::SparseMatrix<Scalar, O, Index>& matrix) {
     constexpr std::int64_t limit = std::numeric_limits<Index>::max();
     std::int64_t rows = 0, columns = 0, entries = 0;
     archive(rows, columns, entries);
     varimap_require(rows >= 0 && columns >= 0 && entries >= 0);
     varimap_require(rows < limit && columns < limit && entries <= limit);
+    const std::int64_t outer = (O & Eigen::RowMajor) ? rows : columns;
+    varimap_require_left(archive, std::uint64_t(outer) + 1, sizeof(Index));
+    varimap_require_left(archive, std::uint64_t(entries), sizeof(Index) + sizeof(Scalar));
     matrix.resize(rows, columns);
     matrix.resizeNonZeros(entries);
     archive(binary_data(matrix.outerIndexPtr(), std::size_t(matrix.outerSize() + 1) * sizeof(Index)));
@@ -121,23 +158,15 @@ std::string cereal_encode(const T& value) {
     return std::move(stream).str();
 }
 
-/// Reads `payload` in place, without a copy.
-struct PayloadBuffer : std::streambuf {
-    explicit PayloadBuffer(const std::string& payload) {
-        char* begin = const_cast<char*>(payload.data());
-        setg(begin, begin, begin + payload.size());
-    }
-};
-
 /// The inverse of cereal_encode; every byte of `payload` must be used. Throws ArtifactError.
 template <class T>
 void cereal_decode(const std::string& payload, T& value) {
     try {
         PayloadBuffer buffer(payload);
         std::istream stream(&buffer);
-        cereal::PortableBinaryInputArchive archive(stream);
+        PayloadArchive archive(stream, buffer);
         archive(value);
-        if (buffer.in_avail() > 0) throw cereal::Exception("bytes are left over");
+        if (buffer.left() > 0) throw cereal::Exception("bytes are left over");
     } catch (const cereal::Exception& error) {
         std::string reason = error.what();
         throw ArtifactError("the payload of an artifact does not have its recorded form (" +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/mapping/ironing.h"
 #include "common/stage/parameters.h"
 #include "common/transport/alternating_minimization.h"
 
@@ -16,6 +17,16 @@ inline void describe(ParameterList& list, AlternationOptions& o) {
     list.add("support_threshold", o.support_threshold,
              "entries below this share of their row's and column's mass do not spread (Sec. 4.3)", 1e-9, 0.5);
     list.add("background_factor", o.background_factor, "cost of entries off the support / largest cost (Sec. 4.3)", 1.5, 1e3);
+}
+
+inline void describe(ParameterList& list, IroningOptions& o) {
+    list.add("ironing", o.enabled, "removes reversed patches of the map at the end of each level (Sec. 4.4)");
+    list.add("ironing_samples", o.minimum_samples, "levels with fewer samples are not ironed", 1, 1000000);
+    list.add("ironing_omega", o.omega, "weight of a reversed sample while it is ironed", 0.0, 1.0);
+    list.add("ironing_rounds", o.maximum_rounds, "ironing alternations per level at most", 0, 10000);
+    list.add("ironing_patience", o.patience, "rounds without progress after which a level is left", 1, 10000);
+    list.add("ironing_tolerance", o.tolerated_mass, "share of the mass that may stay reversed", 0.0, 1.0);
+    list.add("reflection_mass", o.reflected_mass, "a map that reverses more than this share of the mass is reflected", 0.0, 1.0);
 }
 
 }  // namespace varimap

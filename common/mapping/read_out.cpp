@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -5,6 +6,7 @@
 #include "common/mapping/plan.h"
 #include "common/mesh/closest_point.h"
 #include "common/mesh/surface.h"
+#include "common/mesh/topology.h"
 #include "common/stage/error.h"
 #include "common/stage/parallel.h"
 
@@ -19,27 +21,17 @@ constexpr double support_share = 0.05;  ///< of its row's maximum: entries from 
 constexpr double reach_for_agreement = 3;
 constexpr double reliable_normal = 0.3;  ///< length of a mean of unit normals below which it says nothing
 
-/// Faces around each vertex, in ascending order, and how far they reach from it.
-struct VertexFaces {
-    std::vector<int> offset, face;
-    std::vector<double> reach;
-
-    explicit VertexFaces(const TriangleMesh& mesh)
-        : offset(std::size_t(mesh.vertex_count()) + 1),
-          face(std::size_t(mesh.faces.size())),
-          reach(std::size_t(mesh.vertex_count())) {
-        for (Eigen::Index k = 0; k < mesh.faces.size(); ++k) ++offset[std::size_t(mesh.faces.data()[k]) + 1];
-        for (std::size_t v = 1; v < offset.size(); ++v) offset[v] += offset[v - 1];
-        std::vector<int> next(offset.begin(), offset.end() - 1);
-        for (Eigen::Index k = 0; k < mesh.faces.size(); ++k) {
-            const int v = mesh.faces.data()[k];
-            face[std::size_t(next[std::size_t(v)]++)] = int(k / 3);
-            for (int corner = 0; corner < 3; ++corner)
-                reach[std::size_t(v)] = std::max(
-                    reach[std::size_t(v)], (mesh.vertex(mesh.faces(k / 3, corner)) - mesh.vertex(v)).norm());
+/// Per vertex: how far its faces reach from it.
+std::vector<double> vertex_reach(const TriangleMesh& mesh) {
+    std::vector<double> reach(std::size_t(mesh.vertex_count()), 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 9; ++k) {
+            const int from = mesh.faces(f, k / 3), to = mesh.faces(f, k % 3);
+            const double length = (mesh.vertex(to) - mesh.vertex(from)).norm();
+            reach[std::size_t(from)] = std::max(reach[std::size_t(from)], length);
         }
-    }
-};
+    return reach;
+}
 
 /// The best of the faces offered: the smallest distance; among equals the lowest face, so that the order in
 /// which they are offered does not matter.
@@ -67,27 +59,46 @@ class SupportReader {
         : centres_(centres),
           plan_(plan),
           target_(target),
-          around_(target),
+          faces_(vertex_faces(target)),
+          reach_(vertex_reach(target)),
           normals_(vertex_normals(target)) {}
 
     /// face -1 if the row is empty.
     SurfacePoint operator()(int row) const {
-        const Vec3 centre = centres_.row(row).transpose();
-        const Vec3 normal = predicted_normal(row);
-        const double threshold = support_share * row_maximum(row);
-        Best any, agreeing;
-        for (SparseMatrix::InnerIterator entry(plan_, row); entry; ++entry)
-            if (entry.value() > 0 && entry.value() >= threshold)
-                offer_faces(int(entry.col()), centre, normal, any, agreeing);
-        return prefer_agreeing(any, agreeing);
+        Search search{centres_.row(row).transpose(), predicted_normal(row), {}, {}};
+        const std::vector<int> vertices = support(row);
+        const auto closer = [&](int a, int b) { return distance(search, a) < distance(search, b); };
+        const auto nearest = std::min_element(vertices.begin(), vertices.end(), closer);
+        if (nearest != vertices.end()) offer_faces(*nearest, search);  // so that few others need a look
+        for (const int vertex : vertices) offer_faces(vertex, search);
+        return prefer_agreeing(search.any, search.agreeing);
     }
 
   private:
-    double row_maximum(int row) const {
+    struct Search {
+        Vec3 centre, normal;
+        Best any, agreeing;
+
+        /// No face farther away can matter.
+        double squared_reach() const {
+            return std::min(std::max(any.squared_distance, agreeing.squared_distance),
+                            reach_for_agreement * reach_for_agreement * any.squared_distance);
+        }
+    };
+
+    double distance(const Search& search, int vertex) const {
+        return (target_.vertex(vertex) - search.centre).norm();
+    }
+
+    std::vector<int> support(int row) const {
         double maximum = 0;
         for (SparseMatrix::InnerIterator entry(plan_, row); entry; ++entry)
             maximum = std::max(maximum, entry.value());
-        return maximum;
+        std::vector<int> vertices;
+        for (SparseMatrix::InnerIterator entry(plan_, row); entry; ++entry)
+            if (entry.value() > 0 && entry.value() >= support_share * maximum)
+                vertices.push_back(int(entry.col()));
+        return vertices;
     }
 
     /// Mean of the target's normals, weighted by the row: the side of a thin part on which most of the mass
@@ -102,24 +113,27 @@ class SupportReader {
         return sum.norm() >= reliable_normal * mass ? sum : Vec3::Zero();
     }
 
-    void offer_faces(int vertex, const Vec3& centre, const Vec3& normal, Best& any, Best& agreeing) const {
-        const double gap = (target_.vertex(vertex) - centre).norm() - around_.reach[std::size_t(vertex)];
-        if (gap > 0 && gap * gap > std::max(any.squared_distance, agreeing.squared_distance)) return;
-        for (int k = around_.offset[std::size_t(vertex)]; k < around_.offset[std::size_t(vertex) + 1]; ++k) {
-            SurfacePoint candidate{around_.face[std::size_t(k)], {}};
-            const auto corners = target_.faces.row(candidate.face);
-            candidate.barycentric = closest_barycentric(
-                centre, target_.vertex(corners[0]), target_.vertex(corners[1]), target_.vertex(corners[2]));
-            const double distance = (position(target_, candidate) - centre).squaredNorm();
-            any.offer(candidate, distance);
-            if (face_normal(target_, candidate.face).dot(normal) > 0) agreeing.offer(candidate, distance);
-        }
+    void offer_faces(int vertex, Search& search) const {
+        const double gap = distance(search, vertex) - reach_[std::size_t(vertex)];
+        if (gap > 0 && gap * gap > search.squared_reach()) return;
+        for (const int face : faces_[vertex]) offer_face(face, search);
+    }
+
+    void offer_face(int face, Search& search) const {
+        const auto corners = target_.faces.row(face);
+        const SurfacePoint candidate{
+            face, closest_barycentric(search.centre, target_.vertex(corners[0]), target_.vertex(corners[1]),
+                                      target_.vertex(corners[2]))};
+        const double squared = (position(target_, candidate) - search.centre).squaredNorm();
+        search.any.offer(candidate, squared);
+        if (face_normal(target_, face).dot(search.normal) > 0) search.agreeing.offer(candidate, squared);
     }
 
     const Points& centres_;
     const SparseMatrix& plan_;
     const TriangleMesh& target_;
-    VertexFaces around_;
+    Adjacency faces_;
+    std::vector<double> reach_;
     Points normals_;
 };
 

@@ -4,27 +4,48 @@
 
 namespace varimap {
 
-Solution solve_level(const LevelPair& pair, const Start& start, int level_index, const AlternationOptions& options,
-                     std::vector<TraceRow>& trace) {
-    const bool euclidean = pair.A.level.kind == LevelKind::euclidean;
-    return minimize_alternatingly(pair.A.side, pair.B.side, start.centres, start.kept, options,
-                                  [&](const Alternation& step) {
-        TraceRow row;
-        row.level = level_index;
-        row.euclidean = euclidean;
-        row.iteration = step.iteration;
-        row.samples_A = int(pair.A.level.samples.size());
-        row.samples_B = int(pair.B.level.samples.size());
-        row.sinkhorn_iterations = step.sinkhorn.iterations;
-        row.entries = step.entries;
-        row.gamma = step.gamma;
-        row.energy = step.energy;
-        row.marginal_error = step.sinkhorn.marginal_error;
-        trace.push_back(row);
+namespace {
+
+/// Appends a row to the trace and writes it to the log.
+class Recorder {
+  public:
+    Recorder(const LevelPair& pair, int level_index, std::vector<TraceRow>& trace) : trace_(trace) {
+        row_.level = level_index;
+        row_.euclidean = pair.A.level.kind == LevelKind::euclidean;
+        row_.iteration = -1;
+        row_.samples_A = int(pair.A.level.samples.size());
+        row_.samples_B = int(pair.B.level.samples.size());
+    }
+
+    void operator()(const Alternation& step) {
+        ++row_.iteration;
+        row_.sinkhorn_iterations = step.sinkhorn.iterations;
+        row_.entries = step.entries;
+        row_.gamma = step.gamma;
+        row_.energy = step.energy;
+        row_.marginal_error = step.sinkhorn.marginal_error;
+        trace_.push_back(row_);
         log("level {} ({}, {} x {}) iteration {}: energy {:.6g}, {} entries, {} Sinkhorn iterations, marginal error {:.2g}",
-            level_index, euclidean ? "Euclidean" : "diffusion", row.samples_A, row.samples_B, step.iteration,
-            step.energy, step.entries, step.sinkhorn.iterations, step.sinkhorn.marginal_error);
-    });
+            row_.level, row_.euclidean ? "Euclidean" : "diffusion", row_.samples_A, row_.samples_B, row_.iteration,
+            row_.energy, step.entries, row_.sinkhorn_iterations, row_.marginal_error);
+    }
+
+  private:
+    TraceRow row_;
+    std::vector<TraceRow>& trace_;
+};
+
+}  // namespace
+
+Solution solve_level(const PairContext& context, LevelPair& pair, const Start& start, int level_index,
+                     const AlternationOptions& options, const IroningOptions& ironing, std::vector<TraceRow>& trace) {
+    Recorder record(pair, level_index, trace);
+    const auto observe = [&](const Alternation& step) { record(step); };
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
+    minimization.start(start.centres, start.kept);
+    minimization.run(observe);
+    Ironing(context, pair, ironing).iron(minimization, observe);
+    return minimization.take_solution();
 }
 
 SparseMatrix to_matrix(const Coupling& plan, const Eigen::VectorXd& row_mass, const Eigen::VectorXd& column_mass) {

@@ -26,8 +26,9 @@ namespace varimap {
 ///       });
 ///   }
 ///
-/// Every stage answers --help, --threads N, --config FILE, and --stale FILE... (prints those of FILE... that
-/// it would write differently now: other parameters, schema or varimap version, or a damaged file).
+/// Every stage answers --help, --version, --threads N, --config FILE, and --stale FILE... (prints those of
+/// FILE... that it would write differently now: other parameters, schema or varimap version, or a damaged
+/// file).
 class Stage {
   public:
     Stage(const std::string& name, const std::string& summary);
@@ -39,7 +40,8 @@ class Stage {
     const std::string& input(const std::string& role, const std::string& help);
     /// One or more positional files behind the others.
     const std::vector<std::string>& input_list(const std::string& role, const std::string& help);
-    /// The positional file that is written; at most one per stage.
+    /// The positional file that is written; at most one per stage. Schema 0: a file that is no artifact, such
+    /// as a picture; it gets no side file and --stale never prints it.
     const std::string& output(const std::string& kind, int schema, const std::string& help);
     /// Options that do not belong to the parameters (they do not change an artifact's meaning).
     const std::string& option(const std::string& name, const std::string& help);
@@ -80,7 +82,8 @@ class Stage {
     Usage usage() const;
 
   private:
-    void write_encoded(const std::string& path, const std::string& kind, int schema, const std::string& payload);
+    void write_encoded(const std::string& path, const std::string& kind, int schema,
+                       const std::string& payload);
     void write_run_file() const;
     struct State;
     std::unique_ptr<State> state_;

@@ -6,24 +6,28 @@ namespace varimap {
 
 namespace {
 
-/// One plan half-step with fixed centres: entropic transport, with gamma annealed down to its final value
-/// from the given divisor of the largest cost.
+/// A full plan of at most this many entries stays full: sparsity would save nothing.
+constexpr long full_plan_entries = 10000;
+
 struct PlanStep {
     double gamma;
     SinkhornReport sinkhorn;
 };
-PlanStep solve_plan(const Side& X, const Side& Y, const Centres& centres, double first_divisor,
-                    const AlternationOptions& options, Potentials& potentials, Coupling& plan) {
-    const Eigen::VectorXd cost = CostFactors(X, Y, centres).on(plan.support);
+
+/// One plan half-step with fixed centres: entropic transport, with gamma annealed down to its final value
+/// from the given divisor of the largest cost.
+PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, const AlternationOptions& options,
+                    Solution& solution) {
+    const Eigen::VectorXd cost = CostFactors(X, Y, solution.step.centres).on(solution.plan.support);
     const double largest = std::max(cost.maxCoeff(), 1e-300);
     PlanStep step{};
     for (double divisor = std::min(first_divisor, options.gamma_divisor);; divisor *= 3) {
         divisor = std::min(divisor, options.gamma_divisor);
         step.gamma = largest / divisor;
-        const TransportProblem problem{plan.support, cost,       X.mass,
-                                       Y.mass,       step.gamma, options.background_factor * largest};
-        const SinkhornReport report =
-            sinkhorn(problem, {options.marginal_tolerance, options.sinkhorn_iterations}, potentials, plan);
+        const TransportProblem problem{solution.plan.support, cost,       X.mass,
+                                       Y.mass,                step.gamma, options.background_factor * largest};
+        const SinkhornReport report = sinkhorn(problem, {options.marginal_tolerance, options.sinkhorn_iterations},
+                                               solution.potentials, solution.plan);
         step.sinkhorn = {step.sinkhorn.iterations + report.iterations, report.marginal_error};
         if (divisor >= options.gamma_divisor) return step;
     }
@@ -31,31 +35,39 @@ PlanStep solve_plan(const Side& X, const Side& Y, const Centres& centres, double
 
 }  // namespace
 
-Solution minimize_alternatingly(const Side& X, const Side& Y, const Centres& start, const KeptEntries& kept,
-                                const AlternationOptions& options,
-                                const std::function<void(const Alternation&)>& observe) {
-    Solution solution;
-    solution.step.centres = start;
-    Potentials potentials = Potentials::zero(int(X.mass.size()), int(Y.mass.size()));
+void AlternatingMinimization::start(const Centres& centres, const KeptEntries& kept) {
+    const int rows = int(X_.mass.size()), columns = int(Y_.mass.size());
+    solution_.step.centres = centres;
+    solution_.potentials = Potentials::zero(rows, columns);
+    solution_.plan.support = kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.weights, Y_.weights);
+    fresh_ = true;
+}
+
+void AlternatingMinimization::renew_support() {
+    const long full = long(X_.mass.size()) * long(Y_.mass.size());
+    if (full <= full_plan_entries && solution_.plan.support.entries() == full) return;
+    const KeptEntries kept = significant_entries(solution_.plan, X_.mass, Y_.mass, options_.support_threshold);
+    solution_.plan.support = enlarged(kept, X_.weights, Y_.weights);
+}
+
+Alternation AlternatingMinimization::step() {
+    if (!fresh_) renew_support();
+    const double first_divisor = fresh_ ? options_.annealing_divisor : options_.gamma_divisor;
+    const PlanStep plan = solve_plan(X_, Y_, first_divisor, options_, solution_);
+    solution_.step = update_centres(X_, Y_, solution_.plan);
+    fresh_ = false;
+    return {solution_.step.energy, plan.gamma, plan.sinkhorn, solution_.plan.support.entries()};
+}
+
+void AlternatingMinimization::run(const std::function<void(const Alternation&)>& observe) {
     double previous = 0;
-    for (int iteration = 0; iteration < options.maximum_alternations; ++iteration) {
-        if (iteration == 0)
-            solution.plan.support = kept.empty() ? Support::dense(int(X.mass.size()), int(Y.mass.size()))
-                                                 : enlarged(kept, X.weights, Y.weights);
-        else if (!kept.empty())
-            solution.plan.support =
-                enlarged(significant_entries(solution.plan, X.mass, Y.mass, options.support_threshold), X.weights,
-                         Y.weights);
-        const double first_divisor = iteration == 0 ? options.annealing_divisor : options.gamma_divisor;
-        const PlanStep plan_step =
-            solve_plan(X, Y, solution.step.centres, first_divisor, options, potentials, solution.plan);
-        solution.step = update_centres(X, Y, solution.plan);
-        observe({iteration, solution.step.energy, plan_step.gamma, plan_step.sinkhorn, solution.plan.support.entries()});
-        const bool settled = std::abs(previous - solution.step.energy) <= options.tolerance * previous;
-        previous = solution.step.energy;
+    for (int iteration = 0; iteration < options_.maximum_alternations; ++iteration) {
+        const Alternation alternation = step();
+        observe(alternation);
+        const bool settled = std::abs(previous - alternation.energy) <= options_.tolerance * previous;
+        previous = alternation.energy;
         if (iteration > 0 && settled) break;
     }
-    return solution;
 }
 
 }  // namespace varimap

@@ -19,28 +19,52 @@ struct AlternationOptions {
     double background_factor = 10;     ///< cost of entries that are not instantiated, times the largest cost
 };
 
-/// What one alternation did; passed to the observer.
+/// Kept entries of a plan, one sorted list of columns per row.
+using KeptEntries = std::vector<std::vector<int>>;
+
+/// What one alternation did.
 struct Alternation {
-    int iteration;
     double energy;  ///< Eq. (3) after both half-steps
     double gamma;
     SinkhornReport sinkhorn;
     int entries;
 };
 
-/// State of a level: the plan, the centres that belong to it, and the samples' own mean images.
+/// State of a level: the plan, its potentials, the centres that belong to it, and the samples' own mean images.
 struct Solution {
     Coupling plan;
+    Potentials potentials;
     CentreStep step;
 };
 
-/// Kept entries to start from, one sorted list of columns per row; empty: the full problem (coarsest level).
-using KeptEntries = std::vector<std::vector<int>>;
+/// Alg. 1 at one level: alternately solves for the plan on a support that follows it (Sec. 4.3) and relocates the
+/// centres. The sides are referred to, not copied: their averaging may be changed between steps (Sec. 4.4).
+class AlternatingMinimization {
+  public:
+    AlternatingMinimization(const Side& X, const Side& Y, const AlternationOptions& options)
+        : X_(X), Y_(Y), options_(options) {}
 
-/// Alg. 1 at one level: from centres, alternately solves for the plan on a support that follows it (Sec. 4.3)
-/// and relocates the centres, until the energy of Eq. (3) settles.
-Solution minimize_alternatingly(const Side& X, const Side& Y, const Centres& start, const KeptEntries& kept,
-                                const AlternationOptions& options,
-                                const std::function<void(const Alternation&)>& observe);
+    /// Begins from centres, on the enlarged kept entries; none: on all entries (coarsest level).
+    void start(const Centres& centres, const KeptEntries& kept);
+    /// One plan half-step, then one centre half-step.
+    Alternation step();
+    /// Steps until the energy of Eq. (3) settles.
+    void run(const std::function<void(const Alternation&)>& observe);
+
+    const Solution& solution() const { return solution_; }
+    Solution take_solution() { return std::move(solution_); }
+    /// Goes on from a solution found elsewhere, for the same sides.
+    void adopt(Solution solution) { solution_ = std::move(solution); }
+    const AlternationOptions& options() const { return options_; }
+
+  private:
+    void renew_support();
+
+    const Side& X_;
+    const Side& Y_;
+    AlternationOptions options_;
+    Solution solution_;
+    bool fresh_ = true;  ///< no step since start(): the support is set and gamma is annealed
+};
 
 }  // namespace varimap

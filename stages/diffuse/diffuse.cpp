@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/mapping/orientation.h"
 #include "common/mapping/solve_level.h"
 #include "common/stage/log.h"
 #include "common/stage/parallel.h"
@@ -72,18 +73,6 @@ std::vector<int> best_partners(const SparseMatrix& plan) {
     return best;
 }
 
-/// Walks on the mesh from `vertex` downhill in distance to `centre` in the embedding, to a local minimum.
-int nearest_by_descent(int vertex, const Eigen::RowVectorXd& centre, const RowMatrix& points, const GeodesicGraph& graph) {
-    double smallest = (points.row(vertex) - centre).squaredNorm();
-    for (int current = vertex;; vertex = current) {
-        for (int e = graph.offset[vertex]; e < graph.offset[vertex + 1]; ++e) {
-            const double d = (points.row(graph.target[e]) - centre).squaredNorm();
-            if (d < smallest) smallest = d, current = graph.target[e];
-        }
-        if (current == vertex) return vertex;
-    }
-}
-
 /// For every vertex of one mesh: the position of the other mesh's vertex nearest to its centre in the embedding.
 Points vertex_positions(const LevelSide& from, const LevelSide& to, const RowMatrix& sample_image, const SparseMatrix& plan,
                         const Surface& target, const GeodesicGraph& target_graph) {
@@ -137,7 +126,7 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params) {
         const Start start = l == 0 ? coarsest_start(pair, context, params)
                                    : hand_down(solution.plan, coarse.A.level, coarse.B.level, pair,
                                                params.alternation.support_threshold);
-        solution = solve_level(pair, start, l, params.alternation, trace);
+        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution, context);

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = landmark_files.empty() ? std::vector<std::pair<int, int>>{}
                                                       : read_landmarks(landmark_files, A.surface.input, B.surface.input);
-        for (const std::string& file : landmark_files) stage.record_file("landmarks", file);
+        for (size_t i = 0; i < landmark_files.size(); ++i)
+            stage.record_file(landmark_files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", landmark_files[i]);
         const auto on_meshes = to_mesh_vertices(landmarks, A.surface, B.surface);
         const PairContext context(std::move(A), std::move(B), on_meshes);
         const Plan plan = diffuse(context, params);

@@ -8,12 +8,14 @@ namespace varimap {
 
 struct DiffuseParams {
     AlternationOptions alternation;
+    IroningOptions ironing;
     std::string start = "zero";    ///< first centres: zero, or those of the Wasserstein-2 plan (aligned surfaces)
     double wasserstein_weight = 0; ///< share of the Wasserstein-2 cost added to Eq. (3), for aligned surfaces
     int levels = 0;                ///< stop after this many diffusion levels; 0: all
 
     void describe(ParameterList& list) {
         varimap::describe(list, alternation);
+        varimap::describe(list, ironing);
         list.add("start", start, "first centres: zero, or wasserstein for rigidly aligned surfaces (Sec. 5)",
                  {"zero", "wasserstein"});
         list.add("wasserstein_weight", wasserstein_weight,

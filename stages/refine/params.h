@@ -6,12 +6,14 @@ namespace varimap {
 
 struct RefineParams {
     AlternationOptions alternation;
+    IroningOptions ironing;
     double metric_weight = 1;       ///< mu of the mixed metric on all but the last level
     double last_metric_weight = 0;  ///< mu on the last level
     int levels = 0;                 ///< stop after this many Euclidean levels; 0: all
 
     void describe(ParameterList& list) {
         varimap::describe(list, alternation);
+        varimap::describe(list, ironing);
         list.add("metric_weight", metric_weight,
                  "weight of diffusion coordinates beside positions in space (0: space alone)", 0.0, 100.0);
         list.add("last_metric_weight", last_metric_weight, "the same on the last level", 0.0, 100.0);

@@ -88,6 +88,23 @@ TEST(CerealEigen, RefusesContradictorySizes) {
     EXPECT_THROW(cereal_decode(cereal_encode(negative), matrix), ArtifactError);
 }
 
+TEST(CerealEigen, RefusesSizesBeyondThePayloadBeforeAllocatingThem) {
+    const std::uint64_t huge = std::uint64_t(1) << 36;  // within what a vector may hold, and 512 GB
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    std::string text;
+    EXPECT_THROW(cereal_decode(cereal_encode(huge), numbers), ArtifactError);
+    EXPECT_THROW(cereal_decode(cereal_encode(huge), texts), ArtifactError);
+    EXPECT_THROW(cereal_decode(cereal_encode(huge), text), ArtifactError);
+    Eigen::MatrixXd matrix;
+    EXPECT_THROW(cereal_decode(cereal_encode(std::pair<std::int64_t, std::int64_t>(huge, 1)), matrix),
+                 ArtifactError);
+    Eigen::SparseMatrix<double, Eigen::RowMajor> sparse;
+    const std::array<std::int64_t, 3> rows{1 << 30, 1, 0}, entries{1, 1, 1 << 30};
+    for (const auto& sizes : {rows, entries})
+        EXPECT_THROW(cereal_decode(cereal_encode(sizes), sparse), ArtifactError);
+}
+
 TEST(CerealEigen, RefusesSparseIndicesOutOfRange) {
     Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(2, 3), read;
     matrix.insert(0, 1) = 1;

@@ -64,7 +64,7 @@ TEST_F(ClosestPointTest, PointTriangleIsItsPoint) {
 
 TEST_F(ClosestPointTest, AgreesWithBruteForceNearAndFarAndOffCentre) {
     for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(1e4, -2e4, 5e3)}) {
-        const TriangleMesh mesh = shapes::moved(shapes::figure(.2), 1, .7, offset);
+        const TriangleMesh mesh = shapes::moved(shapes::figure(.15), 1, .7, offset);
         const ClosestPoint closest(mesh);
         for (int i = 0; i < 300; ++i) {
             const double reach = i % 3 == 0 ? 3 : i % 3 == 1 ? 300 : .01;

@@ -2,15 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include "common/map_shapes.h"
 #include "common/mesh/closest_point.h"
-#include "tests/common/map_shapes.h"
+#include "common/shapes.h"
 
 namespace varimap {
 namespace {
 
-using testing::at_vertices;
-using testing::rectangle;
-using testing::sphere;
+using shapes::at_vertices;
+
+TriangleMesh rectangle(int n, double width, double height) {
+    TriangleMesh mesh = shapes::square(n);
+    mesh.vertices.col(0) *= width;
+    mesh.vertices.col(1) *= height;
+    return mesh;
+}
 
 void expect_all(const Quantiles& q, double value) {
     for (const double quantile : {q.p01, q.p05, q.p50, q.p95, q.p99}) EXPECT_NEAR(quantile, value, 1e-9);
@@ -26,8 +32,8 @@ PointMap map_by(const TriangleMesh& source, const TriangleMesh& target, const Mo
 }
 
 /// A sphere with a long limb upwards.
-TriangleMesh sphere_with_limb(int n) {
-    TriangleMesh mesh = sphere(n);
+TriangleMesh sphere_with_limb(int level) {
+    TriangleMesh mesh = shapes::ellipsoid(level);
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const double z = mesh.vertices(v, 2);
         if (z > 0.9) mesh.vertices(v, 2) = 0.9 + 40 * (z - 0.9);
@@ -44,7 +50,7 @@ TEST(WeightedQuantile, CountsWeights) {
 }
 
 TEST(Quality, IdentityIsPerfect) {
-    for (const TriangleMesh& mesh : {sphere(12), rectangle(9, 3, 1), sphere_with_limb(16)}) {
+    for (const TriangleMesh& mesh : {shapes::ellipsoid(3), rectangle(9, 3, 1), sphere_with_limb(3)}) {
         const PointMap identity = at_vertices(mesh);
         const Distortion d = measure_distortion(identity, mesh, mesh);
         EXPECT_EQ(d.flipped_count, 0);
@@ -61,7 +67,7 @@ TEST(Quality, IdentityIsPerfect) {
 }
 
 TEST(Quality, DoesNotDependOnScaleAndPlace) {
-    const TriangleMesh mesh = sphere(8);
+    const TriangleMesh mesh = shapes::ellipsoid(2);
     TriangleMesh moved = mesh;
     moved.vertices *= 250;
     moved.vertices.rowwise() += Eigen::RowVector3d(1e3, -2e3, 5e2);
@@ -75,7 +81,7 @@ TEST(Quality, DoesNotDependOnScaleAndPlace) {
 }
 
 TEST(Quality, MirrorImageIsAllFlipped) {
-    const TriangleMesh mesh = sphere(10);
+    const TriangleMesh mesh = shapes::ellipsoid(3);
     const PointMap mirror = map_by(mesh, mesh, [](const Vec3& p) { return Vec3(-p[0], p[1], p[2]); });
     const Distortion d = measure_distortion(mirror, mesh, mesh);
     EXPECT_EQ(d.flipped_count, mesh.face_count());
@@ -107,7 +113,7 @@ TEST(Quality, AreaRatioIsImageOverSource) {
 }
 
 TEST(Quality, CollapsedTrianglesAreFlippedAndFinite) {
-    const TriangleMesh mesh = sphere(6);
+    const TriangleMesh mesh = shapes::ellipsoid(2);
     const PointMap point(std::size_t(mesh.vertex_count()), SurfacePoint{5, Vec3(0.2, 0.3, 0.5)});
     const Distortion d = measure_distortion(point, mesh, mesh);
     EXPECT_EQ(d.flipped_count, mesh.face_count());
@@ -119,7 +125,7 @@ TEST(Quality, CollapsedTrianglesAreFlippedAndFinite) {
 }
 
 TEST(Quality, VerticesWithoutImageAreLeftOut) {
-    const TriangleMesh mesh = sphere(6);
+    const TriangleMesh mesh = shapes::ellipsoid(2);
     PointMap map = at_vertices(mesh);
     map[0] = {};
     const Distortion d = measure_distortion(map, mesh, mesh);
@@ -131,24 +137,24 @@ TEST(Quality, VerticesWithoutImageAreLeftOut) {
 
 TEST(Coverage, GoodMapsBetweenUnequalMeshesCoverEverything) {
     const auto outward = [](const Vec3& p) { return p; };
-    for (const auto& [from, to] : {std::pair{10, 40}, {40, 10}, {13, 16}}) {
-        const TriangleMesh source = sphere(from), target = sphere(to);
-        EXPECT_GT(measure_coverage(map_by(source, target, outward), source, target), 0.995)
-            << from << "→" << to;
-    }
-    const TriangleMesh source = sphere_with_limb(12), target = sphere_with_limb(40);
-    EXPECT_GT(measure_coverage(map_by(source, target, outward), source, target), 0.985);
+    const auto covers = [&](const TriangleMesh& source, const TriangleMesh& target) {
+        return measure_coverage(map_by(source, target, outward), source, target);
+    };
+    EXPECT_GT(covers(shapes::ellipsoid(2), shapes::ellipsoid(4)), 0.995);
+    EXPECT_GT(covers(shapes::ellipsoid(4), shapes::ellipsoid(2)), 0.995);
+    EXPECT_GT(covers(shapes::figure(0.12), shapes::figure(0.12, 0.5)), 0.995);
+    EXPECT_GT(covers(shapes::figure(0.12), shapes::figure(0.06)), 0.99);
 }
 
 TEST(Coverage, LosesTheAreaOfAMissedLimb) {
-    const TriangleMesh mesh = sphere_with_limb(24);
+    const TriangleMesh mesh = sphere_with_limb(4);
     const auto is_limb = [&](int f, double z) { return position(mesh, {f, Vec3::Constant(1. / 3)})[2] > z; };
     double limb = 0;
     for (int f = 0; f < mesh.face_count(); ++f)
         if (is_limb(f, 0.9)) limb += face_normal(mesh, f).norm() / 2;
     const double share = limb / surface_area(mesh);
     ASSERT_GT(share, 0.15);
-    const TriangleMesh ball = sphere(24);
+    const TriangleMesh ball = shapes::ellipsoid(4);
     const PointMap flattened =
         map_by(ball, mesh, [](const Vec3& p) { return Vec3(p[0], p[1], std::min(p[2], 0.9)); });
     EXPECT_NEAR(measure_coverage(flattened, ball, mesh), 1 - share, 0.03);

@@ -2,19 +2,20 @@
 
 #include <algorithm>
 
+#include "common/map_shapes.h"
 #include "common/mapping/plan.h"
 #include "common/mesh/surface.h"
+#include "common/shapes.h"
 #include "common/stage/error.h"
-#include "tests/common/map_shapes.h"
 
 namespace varimap {
 namespace {
 
-using testing::plain_surface;
+using shapes::plain_surface;
 
 /// A sphere pressed to a thin sheet with an upper and a lower side.
 Surface sheet(double thickness) {
-    TriangleMesh mesh = testing::sphere(8);
+    TriangleMesh mesh = shapes::ellipsoid(2);
     mesh.vertices.col(2) *= thickness / 2;
     return plain_surface(mesh);
 }
@@ -47,7 +48,7 @@ double largest_distance(const PointMap& map, const Surface& target, const Points
 }
 
 TEST(ReadOut, IdentityGoesToItself) {
-    const Surface surface = plain_surface(testing::sphere(8));
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
     VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
@@ -117,7 +118,7 @@ TEST(ReadOut, OfAnIncompletePlanKeepsTheSidesApart) {
 }
 
 TEST(ReadOut, FallsBackWhereARowIsEmpty) {
-    const Surface surface = plain_surface(testing::sphere(8));
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
     plan.plan.coeffRef(3, 3) = 0;
     plan.plan.prune(0.0);
@@ -126,7 +127,7 @@ TEST(ReadOut, FallsBackWhereARowIsEmpty) {
 }
 
 TEST(ReadOut, LandmarksAreExact) {
-    const Surface surface = plain_surface(testing::sphere(8));
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
     plan.landmarks = {{5, 40}};
     const VertexMaps maps = read_out(plan, surface, surface);
@@ -135,7 +136,7 @@ TEST(ReadOut, LandmarksAreExact) {
 }
 
 TEST(ReadOut, RefusesAPlanOfOtherSurfaces) {
-    const Surface surface = plain_surface(testing::sphere(8)), other = plain_surface(testing::sphere(6));
+    const Surface surface = plain_surface(shapes::ellipsoid(2)), other = plain_surface(shapes::ellipsoid(1));
     EXPECT_THROW(read_out(identity_plan(surface), surface, other), ArtifactError);
     Plan plan = identity_plan(surface);
     plan.position_B(0, 0) = std::nan("");

@@ -72,7 +72,7 @@ TEST(Shapes, ThePosedFigureIsNearlyIsometric) {
 }
 
 TEST(Shapes, TessellationsOfOneSurfaceAreClose) {
-    EXPECT_LT(distance(shapes::figure(.12, .5), shapes::figure(.1)), .03);
+    EXPECT_LT(distance(shapes::figure(.1, .5), shapes::figure(.08)), .04);
     EXPECT_LT(distance(shapes::tube(50, 24, true, .3), shapes::tube(60, 29, true)), .015);
 }
 

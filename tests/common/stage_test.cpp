@@ -9,19 +9,19 @@
 
 namespace varimap {
 
-struct Sample {
+struct TestArtifact {
     std::string text;
 };
 template <>
-struct ArtifactType<Sample> {
+struct ArtifactType<TestArtifact> {
     static constexpr const char* kind = "sample";
     static constexpr const char* stage = "varimap-sample";
     static constexpr int schema = 1;
 };
-std::string encode(const Sample& sample) {
+std::string encode(const TestArtifact& sample) {
     return sample.text;
 }
-void decode(const std::string& payload, Sample& sample) {
+void decode(const std::string& payload, TestArtifact& sample) {
     sample.text = payload;
 }
 
@@ -29,7 +29,7 @@ namespace {
 
 using testing::HasSubstr;
 
-struct SampleParams {
+struct TestParams {
     double length = 0.1;
     int count = 5;
     bool aligned = false;
@@ -47,13 +47,13 @@ struct Outcome {
     std::string out, err;
 };
 
-/// One command line of a small stage that writes a Sample made from a file.
+/// One command line of a small stage that writes a TestArtifact made from a file.
 Outcome run_sample(std::vector<std::string> arguments, const std::function<void(Stage&)>& extra = {},
-                   SampleParams* used = nullptr) {
+                   TestParams* used = nullptr) {
     arguments.insert(arguments.begin(), "varimap-sample");
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());
-    SampleParams params;
+    TestParams params;
     Stage stage("sample", "A stage for tests");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     const std::string& in = stage.input("source", "any file");
@@ -64,7 +64,7 @@ Outcome run_sample(std::vector<std::string> arguments, const std::function<void(
         stage.record_file("source", in);
         stage.record_number("levels", 4);
         if (extra) extra(stage);
-        stage.write(out, Sample{params.start});
+        stage.write(out, TestArtifact{params.start});
     });
     if (used != nullptr) *used = params;
     return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
@@ -83,7 +83,7 @@ class StageRun : public testing::Test {
 
 TEST_F(StageRun, WritesTheArtifactWithItsHistory) {
     EXPECT_EQ(run_sample({in, out, "--length", "0.25"}).code, 0);
-    const auto artifact = read_artifact<Sample>(out);
+    const auto artifact = read_artifact<TestArtifact>(out);
     EXPECT_EQ(artifact.value.text, "none");
     EXPECT_EQ(artifact.header.stage, "varimap-sample");
     EXPECT_EQ(artifact.header.input_hash("source"), content_hash("input"));
@@ -204,7 +204,7 @@ TEST_F(StageRun, ConfigFileGivesWayToTheCommandLineAndOtherStagesSectionsDoNotCo
     write_file_atomically(
         folder / "preset.toml",
         "[sample]\nlength = 0.5\ncount = 9\naligned = true\nstart = \"both\"\n[other]\ncount = 3\n");
-    SampleParams params;
+    TestParams params;
     EXPECT_EQ(run_sample({in, out, "--config", folder / "preset.toml", "--count", "8"}, {}, &params).code, 0);
     EXPECT_EQ(params.length, 0.5);
     EXPECT_EQ(params.count, 8);
@@ -221,7 +221,7 @@ TEST_F(StageRun, ConfigFileWithUnknownOrBadEntriesExitsWith2) {
 
 TEST_F(StageRun, ValuesReadBackExactlyAndTheLastOneCounts) {
     for (const std::string text : {"0.1", "1e-09", "0.30000000000000004", "5e-324", "1"}) {
-        SampleParams params;
+        TestParams params;
         ASSERT_EQ(run_sample({in, out, "--length", "0.7", "--length", text}, {}, &params).code, 0);
         EXPECT_EQ(read_header(out).parameters.front().second, text);
         EXPECT_EQ(fmt::format("{}", params.length), text);

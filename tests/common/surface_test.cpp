@@ -46,7 +46,7 @@ TEST(Masses, ArePositiveExactlyWhereFacesAre) {
     EXPECT_EQ(mass[3], 0);
     EXPECT_GT(mass[4], 0);
     EXPECT_LT(mass[4], 1e-9);
-    for (const TriangleMesh& mesh : {shapes::figure(.2), shapes::tube(9, 30, false)}) {
+    for (const TriangleMesh& mesh : {shapes::figure(.15), shapes::tube(9, 30, false)}) {
         EXPECT_GT(voronoi_masses(mesh).minCoeff(), 0);
         EXPECT_NEAR(voronoi_masses(mesh).sum(), 1, 1e-13);
     }
@@ -92,7 +92,7 @@ class SurfaceTest : public ::testing::Test {
     static Surface make() {
         PreprocessParams params;
         params.target_edge_length = .1;
-        return preprocess(shapes::moved(shapes::figure(.3), 2, .5, {1, 2, 3}), params);
+        return preprocess(shapes::moved(shapes::figure(.15), 2, .5, {1, 2, 3}), params);
     }
 };
 

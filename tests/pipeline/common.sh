@@ -78,7 +78,7 @@ map() {
 
 # ran: which stages ran since the last map, sorted, with how often.
 ran() {
-    sed -n 's/^\[\([a-z]*\)\] done:.*/\1/p' log | sort | uniq -c | awk '{ printf "%s%s%s", sep, $2, $1 > 1 ? "*" $1 : ""; sep = " " }'
+    sed -n 's/^\[\([a-z]*\)\] done:.*/\1/p' log | sort | uniq -c | awk '{ printf "%s%s%s", sep, $2, ($1 > 1 ? "*" $1 : ""); sep = " " }'
 }
 
 expect_ran() {  # STAGES: what `ran` must say

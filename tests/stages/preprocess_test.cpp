@@ -18,7 +18,7 @@ PreprocessParams with_target(double target) {
 
 TEST(Preprocess, NormalisesAreaAndCentre) {
     const Surface surface =
-        preprocess(shapes::moved(shapes::figure(.25), 17, .4, {9, 8, 7}), with_target(.1));
+        preprocess(shapes::moved(shapes::figure(.15), 17, .4, {9, 8, 7}), with_target(.1));
     EXPECT_NEAR(surface_area(surface.mesh), 1, 1e-12);
     EXPECT_LT(area_centroid(surface.mesh).norm(), 1e-12);
     EXPECT_NEAR(surface.mass.sum(), 1, 1e-13);
@@ -30,7 +30,7 @@ TEST(Preprocess, NormalisesAreaAndCentre) {
 }
 
 TEST(Preprocess, ReachesTheAutomaticTarget) {
-    const TriangleMesh input = shapes::figure(.25);
+    const TriangleMesh input = shapes::tube(20, 12, true);
     const Surface surface = preprocess(input, {});
     const double target = 2 * 1.0746 / 50;
     EXPECT_EQ(target_edge_length({}, input.vertex_count()), target);
@@ -56,7 +56,7 @@ TEST(Preprocess, LeavesOutUnusedVerticesAndKeepsTheOrderOfTheOthers) {
 }
 
 TEST(Preprocess, MovingTurningAndScalingChangeRoundingOnly) {
-    const TriangleMesh input = shapes::figure(.25);
+    const TriangleMesh input = shapes::figure(.15);
     const Surface rest = preprocess(input, with_target(.06));
     for (const double scale : {1e-3, 1., 1e4}) {
         const Surface other =

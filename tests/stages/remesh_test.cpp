@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/map_shapes.h"
+#include "common/shapes.h"
 #include "stages/remesh/quality_json.h"
-#include "tests/common/map_shapes.h"
 
 namespace varimap {
 namespace {
@@ -16,8 +17,8 @@ using Json = nlohmann::json;
 
 /// A sphere with a vertex no face uses in front of the others, scaled and moved.
 Surface sphere_with_spare_vertex(double scale, const Vec3& centre) {
-    const TriangleMesh sphere = testing::sphere(8);
-    Surface surface = testing::plain_surface(sphere);
+    const TriangleMesh sphere = shapes::ellipsoid(2);
+    Surface surface = shapes::plain_surface(sphere);
     const int n = sphere.vertex_count();
     surface.input.vertices.resize(n + 1, 3);
     surface.input.vertices.row(0) << 3, 3, 3;

@@ -1,0 +1,138 @@
+#include "common/mapping/ironing.h"
+
+#include "common/mesh/ray_mesh.h"
+#include "common/stage/log.h"
+#include "common/stage/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+/// Per row: the other side's vertex of the largest entry.
+std::vector<int> best_rows(const Coupling& plan, const std::vector<int>& column_samples) {
+    const Support& s = plan.support;
+    std::vector<int> best(s.rows(), column_samples[0]);
+    for (int i = 0; i < s.rows(); ++i) {
+        double largest = -1;
+        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
+            if (plan.value[e] > largest) largest = plan.value[e], best[i] = column_samples[s.column[e]];
+    }
+    return best;
+}
+
+std::vector<int> best_columns(const Coupling& plan, const std::vector<int>& row_samples) {
+    const Support& s = plan.support;
+    std::vector<int> best(s.columns(), row_samples[0]);
+    for (int j = 0; j < s.columns(); ++j) {
+        double largest = -1;
+        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e)
+            if (plan.value[s.by_row[e]] > largest) largest = plan.value[s.by_row[e]], best[j] = row_samples[s.row[e]];
+    }
+    return best;
+}
+
+/// Where the inward normal of a vertex leaves the surface on the other side: the nearest vertex there.
+class Antipodes {
+  public:
+    explicit Antipodes(const TriangleMesh& mesh) : mesh_(mesh), normals_(vertex_normals(mesh)), rays_(mesh) {}
+
+    int of(int vertex) const {
+        constexpr double lift = 1e-4;  // units of sqrt(area): past the faces around the vertex itself
+        const Vec3 inward = -normals_.row(vertex).transpose();
+        const SurfacePoint hit = rays_.first_hit(mesh_.vertex(vertex) + lift * inward, inward);
+        if (hit.face < 0) return vertex;
+        int corner;
+        hit.barycentric.maxCoeff(&corner);
+        return mesh_.faces(hit.face, corner);
+    }
+
+  private:
+    const TriangleMesh& mesh_;
+    Points normals_;
+    RayMesh rays_;
+};
+
+SparseMatrix damped(const SparseMatrix& weights, const Orientation& orientation, double omega) {
+    Eigen::VectorXd factor(weights.cols());
+    for (int i = 0; i < factor.size(); ++i) factor[i] = orientation.determinant[i] < 0 ? omega : 1.0;
+    return weights * factor.asDiagonal();
+}
+
+}  // namespace
+
+Ironing::Ironing(const PairContext& context, LevelPair& pair, const IroningOptions& options)
+    : context_(context),
+      pair_(pair),
+      options_(options),
+      oriented_A_(context.A().surface.mesh),
+      oriented_B_(context.B().surface.mesh) {}
+
+PairOrientation Ironing::measure(const Solution& solution) const {
+    return {measure_orientation(pair_.A, oriented_A_, pair_.B, oriented_B_, context_.graph_B(), solution.step.centres.row,
+                                best_rows(solution.plan, pair_.B.level.samples)),
+            measure_orientation(pair_.B, oriented_B_, pair_.A, oriented_A_, context_.graph_A(), solution.step.centres.column,
+                                best_columns(solution.plan, pair_.A.level.samples))};
+}
+
+Centres Ironing::reflected_centres(const PairOrientation& orientation, const Centres& centres) const {
+    // g = antipode . f and g^-1 = f^-1 . antipode.
+    const Antipodes antipodes(context_.B().surface.mesh);
+    Centres reflected = centres;
+    for (Eigen::Index k = 0; k < centres.row.rows(); ++k)
+        reflected.row.row(k) = pair_.B.vertex_points.row(antipodes.of(orientation.A_to_B.image_vertex[k]));
+    for (Eigen::Index l = 0; l < centres.column.rows(); ++l) {
+        const int opposite = antipodes.of(pair_.B.level.samples[l]);
+        reflected.column.row(l) = centres.column.row(pair_.B.level.cell[opposite]);
+    }
+    reflected.row = pair_.A.side.averaging * reflected.row;
+    reflected.column = pair_.B.side.averaging * reflected.column;
+    pin_landmarks(pair_.A.side, pair_.B.side, reflected);
+    return reflected;
+}
+
+void Ironing::reflect(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
+    const PairOrientation before = measure(minimization.solution());
+    if (before.reversed_mass() <= options_.reflected_mass) return;
+    AlternatingMinimization trial(pair_.A.side, pair_.B.side, minimization.options());
+    trial.start(reflected_centres(before, minimization.solution().step.centres), {});
+    trial.run(observe);
+    const double after = measure(trial.solution()).reversed_mass();
+    log("reflected a map that reversed {:.1f}% of the mass: now {:.1f}%", 100 * before.reversed_mass(), 100 * after);
+    if (after < before.reversed_mass()) minimization.adopt(trial.take_solution());
+}
+
+void Ironing::set_weights(const PairOrientation& orientation) {
+    pair_.A.side.averaging = averaging_operator(damped(pair_.A.side.weights, orientation.A_to_B, options_.omega), pair_.A.side.mass);
+    pair_.B.side.averaging = averaging_operator(damped(pair_.B.side.weights, orientation.B_to_A, options_.omega), pair_.B.side.mass);
+}
+
+void Ironing::restore_weights() {
+    pair_.A.side.averaging = averaging_operator(pair_.A.side.weights, pair_.A.side.mass);
+    pair_.B.side.averaging = averaging_operator(pair_.B.side.weights, pair_.B.side.mass);
+}
+
+void Ironing::iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
+    const auto samples = std::min(pair_.A.level.samples.size(), pair_.B.level.samples.size());
+    if (!options_.enabled || int(samples) < options_.minimum_samples) return;
+    reflect(minimization, observe);
+    PairOrientation orientation = measure(minimization.solution());
+    const double before = orientation.reversed_mass();
+    double least = before;
+    int round = 0, stalled = 0;
+    while (round < options_.maximum_rounds && stalled < options_.patience &&
+           orientation.reversed_mass() > options_.tolerated_mass) {
+        set_weights(orientation);
+        observe(minimization.step());
+        orientation = measure(minimization.solution());
+        stalled = orientation.reversed_mass() < 0.95 * least ? 0 : stalled + 1;
+        least = std::min(least, orientation.reversed_mass());
+        ++round;
+    }
+    if (round == 0) return;
+    restore_weights();
+    minimization.run(observe);
+    log("ironed {} rounds: {:.2f}% of the mass reversed before, {:.2f}% after, {:.2f}% with full weights", round,
+        100 * before, 100 * orientation.reversed_mass(), 100 * measure(minimization.solution()).reversed_mass());
+}
+
+}  // namespace varimap

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "common/mapping/level_transfer.h"
+#include "common/mapping/orientation.h"
+#include "common/mapping/pair_context.h"
+
+namespace varimap {
+
+/// Keeping the map orientation-preserving (Sec. 4.4). At the end of a level the orientation of the map and of its
+/// inverse is measured at every sample. A map that is reversed on most of the surface is reflected: composed with
+/// the step to the opposite side of the target. Reversed patches are then ironed out: their samples count less
+/// (omega) in the centres and in the cost, so that the well-oriented surroundings pull them over.
+struct IroningOptions {
+    bool enabled = true;
+    int minimum_samples = 100;     ///< below that many samples orientation means nothing
+    double omega = 0.1;            ///< weight of a reversed sample
+    int maximum_rounds = 20;       ///< alternations with reduced weights, per level
+    int patience = 3;              ///< rounds without progress after which a level is left as it is
+    double tolerated_mass = 0.002; ///< stop when less than this share of the mass is reversed
+    double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
+};
+
+/// Orientation of both directions at a level.
+struct PairOrientation {
+    Orientation A_to_B, B_to_A;
+    double reversed_mass() const { return (A_to_B.reversed_mass + B_to_A.reversed_mass) / 2; }
+};
+
+class Ironing {
+  public:
+    Ironing(const PairContext& context, LevelPair& pair, const IroningOptions& options);
+
+    /// Alternates on `minimization`, which must refer to the sides of this pair and have settled; on return it has
+    /// settled again with full weights.
+    void iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
+
+    PairOrientation measure(const Solution& solution) const;
+
+  private:
+    void reflect(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
+    Centres reflected_centres(const PairOrientation& orientation, const Centres& centres) const;
+    void set_weights(const PairOrientation& orientation);
+    void restore_weights();
+
+    const PairContext& context_;
+    LevelPair& pair_;
+    IroningOptions options_;
+    OrientedSurface oriented_A_, oriented_B_;
+};
+
+}  // namespace varimap

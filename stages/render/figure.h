@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "common/mapping/chord_mesh.h"
+#include "common/mesh/ray_mesh.h"
+#include "stages/render/colour.h"
+
+namespace varimap {
+
+/// A surface ready to be seen: where rays hit it, how it is lit, and what colour its points have.
+class Figure {
+  public:
+    using Paint = std::function<Colour(const SurfacePoint&)>;
+
+    /// The mesh must have unit area. Triangles with `flagged` get the warning colour.
+    Figure(TriangleMesh mesh, Paint paint, std::vector<bool> flagged);
+
+    const TriangleMesh& mesh() const { return mesh_; }
+    const RayMesh& rays() const { return rays_; }
+    /// Light that leaves a point towards a viewer; `view` gives its rows right, up and towards the viewer.
+    Colour shade(const SurfacePoint& point, const Eigen::Matrix3d& view) const;
+
+  private:
+    TriangleMesh mesh_;
+    Paint paint_;
+    std::vector<bool> flagged_;
+    RayMesh rays_;
+    Points normals_;
+    std::vector<double> openness_;
+};
+
+/// Triangles of the chord mesh's source whose image is reversed (quality.h), or none at all.
+std::vector<bool> reversed_faces(const ChordMesh& chords);
+
+}  // namespace varimap

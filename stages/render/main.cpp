@@ -1,0 +1,23 @@
+#include "common/artifact/artifact.h"
+#include "common/mapping/surface_map.h"
+#include "common/mesh/mesh_file.h"
+#include "common/stage/stage_main.h"
+#include "stages/render/render.h"
+
+int main(int argc, char** argv) {
+    using namespace varimap;
+    RenderParams params;
+    Stage stage("render", "Picture of a map: the source's colours carried to the target, from two sides");
+    stage.parameters([&](ParameterList& list) { params.describe(list); });
+    const auto& source = stage.input("source-mesh", "mesh the map starts from");
+    const auto& target = stage.input("target-mesh", "mesh the map leads to");
+    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
+    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    const auto& out = stage.output("picture", 0, "PNG to write");
+    return stage.main(argc, argv, [&] {
+        const Image image =
+            render(read_mesh(source), read_mesh(target), read_csv_map(there), read_csv_map(back), params);
+        write_file_atomically(out, to_png(image));
+        log("{} x {} pixels to {}", image.width, image.height, out);
+    });
+}

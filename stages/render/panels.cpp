@@ -1,0 +1,148 @@
+#include "stages/render/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/stage/error.h"
+#include "common/stage/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+/// One figure from one side, and the rectangle of the picture that shows it.
+struct Panel {
+    const Figure* figure;
+    View view;
+    Points seen;                                   ///< the vertices: right, up, towards the viewer
+    Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< their bounding box
+    int x = 0, y = 0, width = 0, height = 0;       ///< pixels, y downwards
+    double scale = 1;                              ///< pixels per unit
+
+    Panel(const Figure& f, const View& v)
+        : figure(&f),
+          view(v),
+          seen(f.mesh().vertices * v.transpose()),
+          low(seen.colwise().minCoeff()),
+          high(seen.colwise().maxCoeff()) {}
+    /// Pixel coordinates within the panel of a seen point.
+    Eigen::Vector2d to_pixel(const Vec3& p) const {
+        return {width / 2. + (p[0] - (low[0] + high[0]) / 2) * scale,
+                height / 2. - (p[1] - (low[1] + high[1]) / 2) * scale};
+    }
+    Vec3 ray_origin(double px, double py) const {
+        return view.transpose() * Vec3((low[0] + high[0]) / 2 + (px - width / 2.) / scale,
+                                       (low[1] + high[1]) / 2 - (py - height / 2.) / scale, high[2] + 1);
+    }
+};
+
+/// Places the panels (source, its back, target, its back); returns the height of the picture.
+int lay_out(std::array<Panel, 4>& panels, int picture_width) {
+    constexpr double margin = .12;  // in units of sqrt(area), around every panel's figure
+    double widths[2], height = 0;
+    for (int i : {0, 1}) {
+        const Vec3 a = panels[2 * i].high - panels[2 * i].low;
+        const Vec3 b = panels[2 * i + 1].high - panels[2 * i + 1].low;
+        widths[i] = std::max(a[0], b[0]) + margin;
+        height = std::max({height, a[1] + margin, b[1] + margin});
+    }
+    const bool in_a_row = height > .8 * (widths[0] + widths[1]);
+    const double total = (in_a_row ? 2 : 1) * (widths[0] + widths[1]);
+    // A long thin figure must not make the picture endless.
+    const double scale = std::min(picture_width / total, 2. * picture_width / ((in_a_row ? 1 : 2) * height));
+    const int panel_height = std::max(1, int(std::lround(height * scale)));
+    for (int i = 0; i < 4; ++i) {
+        Panel& p = panels[size_t(i)];
+        const double left =
+            in_a_row ? (i >= 2 ? 2 * widths[0] : 0) + (i % 2) * widths[i / 2] : (i >= 2 ? widths[0] : 0);
+        const double right = left + widths[i / 2];
+        p.x = int(std::lround(left / total * picture_width));
+        p.width = int(std::lround(right / total * picture_width)) - p.x;
+        p.y = !in_a_row && i % 2 ? panel_height : 0;
+        p.height = panel_height;
+        p.scale = scale;
+    }
+    return in_a_row ? panel_height : 2 * panel_height;
+}
+
+/// Pixels whose rays may hit the figure: those under the bounding boxes of its triangles.
+std::vector<bool> touched_pixels(const Panel& panel) {
+    std::vector<bool> touched(size_t(panel.width) * size_t(panel.height));
+    const TriangleMesh& mesh = panel.figure->mesh();
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Array2d p = panel.to_pixel(panel.seen.row(mesh.faces(f, k)).transpose()).array();
+            low = low.min(p), high = high.max(p);
+        }
+        const int x_end = std::min(panel.width, int(high[0] + .01) + 1);
+        const int y_end = std::min(panel.height, int(high[1] + .01) + 1);
+        for (int y = std::max(0, int(low[1] - .01)); y < y_end; ++y)
+            for (int x = std::max(0, int(low[0] - .01)); x < x_end; ++x)
+                touched[size_t(y) * size_t(panel.width) + size_t(x)] = true;
+    }
+    return touched;
+}
+
+/// Places within a pixel: the R2 sequence (Roberts 2018), evenly spread for any number.
+std::vector<Eigen::Vector2d> sample_places(int count) {
+    std::vector<Eigen::Vector2d> places;
+    for (int i = 0; i < count; ++i) {
+        const double u = .5 + .7548776662466927 * i, v = .5 + .5698402909980532 * i;
+        places.emplace_back(u - std::floor(u), v - std::floor(v));
+    }
+    return places;
+}
+
+Colour sample_colour(const Panel& panel, double px, double py) {
+    const SurfacePoint hit =
+        panel.figure->rays().first_hit(panel.ray_origin(px, py), -panel.view.row(2).transpose());
+    if (hit.face < 0) return Colour::Ones();
+    return panel.figure->shade(hit, panel.view).cwiseMin(1);
+}
+
+/// Mean over the places; where the first few agree, the pixel lies inside a cell and needs no more.
+Colour pixel_colour(const Panel& panel, int x, int y, const std::vector<Eigen::Vector2d>& places) {
+    constexpr int few = 4;
+    constexpr double agreement = .015;
+    Colour sum = Colour::Zero(), low = Colour::Ones(), high = Colour::Zero();
+    int count = 0;
+    for (const auto& place : places) {
+        const Colour colour = sample_colour(panel, x + place[0], y + place[1]);
+        sum += colour, low = low.cwiseMin(colour), high = high.cwiseMax(colour);
+        if (++count == few && (high - low).maxCoeff() < agreement) break;
+    }
+    return sum / count;
+}
+
+void trace(const Panel& panel, const std::vector<Eigen::Vector2d>& places, Image& image) {
+    const auto touched = touched_pixels(panel);
+    parallel_for_each_index(panel.height, 4, [&](int y) {
+        for (int x = 0; x < panel.width; ++x) {
+            if (!touched[size_t(y) * size_t(panel.width) + size_t(x)]) continue;
+            const Colour colour = pixel_colour(panel, x, y, places);
+            unsigned char* pixel =
+                &image.rgb[3 * (size_t(panel.y + y) * size_t(image.width) + size_t(panel.x + x))];
+            for (int k = 0; k < 3; ++k) pixel[k] = encode_channel(colour[k]);
+        }
+    });
+}
+
+}  // namespace
+
+Image draw_panels(const Figure& source, const View& source_view, const Figure& target,
+                  const View& target_view, const RenderParams& params) {
+    const auto panel = [&](const Figure& figure, const View& view, double turn) {
+        return Panel(figure, moved(view, params.azimuth + turn, params.elevation));
+    };
+    std::array panels{panel(source, source_view, 0), panel(source, source_view, 180),
+                      panel(target, target_view, 0), panel(target, target_view, 180)};
+    Image image{params.width, lay_out(panels, params.width), {}};
+    image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);
+    const auto places = sample_places(params.samples);
+    for (const Panel& p : panels) trace(p, places, image);
+    return image;
+}
+
+}  // namespace varimap

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "common/stage/parameters.h"
+
+namespace varimap {
+
+struct RenderParams {
+    int width = 1600;
+    int samples = 12;
+    double checker = .09;
+    double azimuth = 20;
+    double elevation = 8;
+    std::string up = "auto";
+    bool flips = false;
+
+    void describe(ParameterList& list) {
+        list.add("width", width, "width of the picture, pixels", 64, 16384);
+        list.add("samples", samples, "rays per pixel; four where these agree", 1, 256);
+        list.add("checker", checker, "edge of the checkerboard's cells, in units of sqrt(source area)", 1e-3,
+                 10);
+        list.add("azimuth", azimuth, "turns the camera to the right around the surfaces, degrees", -360, 360);
+        list.add("elevation", elevation, "raises the camera, degrees", -89, 89);
+        list.add("up", up, "axis of the source that points up; auto guesses", {"auto", "x", "y", "z"});
+        list.add("flips", flips, "shows triangles in magenta whose image is reversed");
+    }
+};
+
+}  // namespace varimap

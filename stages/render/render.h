@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/mesh/triangle_mesh.h"
+#include "stages/render/params.h"
+
+namespace varimap {
+
+/// 8-bit sRGB, three bytes a pixel, rows from the top.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<unsigned char> rgb;
+};
+
+/// The source and the target from two opposite views: four panels in a row (source, source from behind,
+/// target, target from behind) where the surfaces are tall, else two columns (source, target) and two rows.
+///
+/// The source is coloured by position (SourceColour). A point of the target gets the colour of the point of
+/// the source closest to its image under target_to_source, linear on target triangles; grey where a corner
+/// has no image. Throws InputError where a map does not fit the meshes.
+Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
+             const PointMap& target_to_source, const RenderParams& params);
+
+/// The bytes of a PNG file.
+std::string to_png(const Image& image);
+
+}  // namespace varimap

@@ -1,0 +1,120 @@
+#include "common/mapping/vertex_list.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/artifact/artifact.h"
+#include "common/stage/error.h"
+#include "common/temporary_folder.h"
+
+namespace varimap {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+/// A strip of triangles over vertices 0 to 9; vertex 10 belongs to no face.
+TriangleMesh strip() {
+    TriangleMesh mesh{Points(11, 3), Faces(8, 3)};
+    for (int v = 0; v < 11; ++v) mesh.vertices.row(v) << v / 2, v % 2, .1 * v;
+    for (int f = 0; f < 8; ++f) mesh.faces.row(f) << f, f + 1, f + 2;
+    return mesh;
+}
+
+class VertexList : public testing::Test {
+  protected:
+    std::string write(const std::string& name, const std::string& text) {
+        const std::string path = folder_ / name;
+        write_file_atomically(path, text);
+        return path;
+    }
+    /// The message of the InputError that reading the pairs or lists throws; empty if it throws none.
+    std::string error_of(const std::vector<std::string>& files) {
+        try {
+            read_landmarks(files, mesh_, mesh_);
+            return {};
+        } catch (const InputError& error) {
+            return error.what();
+        }
+    }
+    TemporaryFolder folder_;
+    const TriangleMesh mesh_ = strip();
+};
+
+TEST_F(VertexList, ReadsNumbersCommentsAndBlankLines) {
+    const auto path = write("a.pinned", "# five\n 3\n\n0 # first\r\n\t7\n");
+    EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 0, 7));
+    EXPECT_THAT(read_vertex_list(path, IndexBase::zero, nullptr), ElementsAre(3, 0, 7));
+}
+
+TEST_F(VertexList, ShiftsWhereNumbersStartAtOne) {
+    const auto path = write("a.vts", "1\n8\n");
+    EXPECT_THAT(read_vertex_list(path, IndexBase::one, &mesh_), ElementsAre(0, 7));
+}
+
+TEST_F(VertexList, LetsCoordinatesDecideTheBase) {
+    const auto zero = write("zero.vts", "2 1 0 0.2\n5 2 1 0.5\n"),
+               one = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
+    EXPECT_THAT(read_vertex_list(zero, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
+    EXPECT_THAT(read_vertex_list(one, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
+    EXPECT_THAT(read_vertex_list(one, IndexBase::zero, &mesh_), ElementsAre(3, 6));
+}
+
+TEST_F(VertexList, StartsAtZeroWhereCoordinatesSayNothing) {
+    const auto path = write("a.vts", "3 0.0 0.0 0.0\n6 0.0 0.0 0.0\n");
+    EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 6));
+}
+
+TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"1\nx\n", ":2: 'x' is not a number"},
+        {"1 2\n", ":1: expected a vertex number"},
+        {"1\n2.5\n", ":2: 2.5 is not a vertex number"},
+        {"-1\n", ":1: vertex -1 is out of range"},
+        {"1\n11\n", ":2: vertex 11 is out of range: the mesh has 11"},
+        {"1 0 nan 0\n", ":1: 'nan' is not a number"},
+        {"# nothing\n", "holds no vertex numbers"}};
+    for (const auto& [text, message] : cases) {
+        const auto path = write("bad.txt", text);
+        try {
+            read_vertex_list(path, IndexBase::zero, &mesh_);
+            ADD_FAILURE() << text;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(path));
+            EXPECT_THAT(error.what(), HasSubstr(message));
+        }
+    }
+    EXPECT_THROW(read_vertex_list(write("one.txt", "0\n"), IndexBase::one, &mesh_), InputError);
+    EXPECT_THROW(read_vertex_list(folder_ / "absent", IndexBase::zero, nullptr), IoError);
+}
+
+TEST_F(VertexList, ReadsLandmarksFromPairsOrFromTwoLists) {
+    const auto expected = ElementsAre(Pair(3, 0), Pair(5, 9));
+    const auto pairs = write("pairs.txt", "# source target\n3 0\n5 9\n");
+    EXPECT_THAT(read_landmark_pairs(pairs), expected);
+    EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_), expected);
+    const auto sources = write("s.pinned", "3\n5\n"), targets = write("t.vts", "1 0 0 0\n10 4 1 .9\n");
+    EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_), expected);
+    EXPECT_THROW(read_landmarks({pairs, pairs, pairs}, mesh_, mesh_), UsageError);
+}
+
+TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
+    EXPECT_THAT(error_of({write("a", "1 2\n3 4\n1 5\n")}),
+                HasSubstr(":3: source vertex 1 is already the landmark of line 1"));
+    EXPECT_THAT(error_of({write("a", "1 2\n3 2\n")}), HasSubstr(":2: target vertex 2 is already"));
+    EXPECT_THAT(error_of({write("a", "1 2\n3 12\n")}),
+                HasSubstr(":2: vertex 12 is out of range: the mesh has 11 vertices"));
+    EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr(":1: target vertex 10 belongs to no face"));
+    EXPECT_THAT(error_of({write("a", "1\n")}), HasSubstr(":1: expected two vertex numbers"));
+    EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
+}
+
+TEST(IndexBaseText, IsReadOrRefused) {
+    EXPECT_EQ(index_base_from("auto"), IndexBase::automatic);
+    EXPECT_EQ(index_base_from("1"), IndexBase::one);
+    EXPECT_THROW(index_base_from("2"), UsageError);
+}
+
+}  // namespace
+}  // namespace varimap

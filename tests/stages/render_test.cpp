@@ -1,0 +1,192 @@
+#include "stages/render/render.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "common/stage/error.h"
+#include "stages/render/colour.h"
+#include "stages/render/view.h"
+
+namespace varimap {
+namespace {
+
+/// An egg that stands upright along y and has no symmetry but about y; open at the bottom.
+TriangleMesh egg(int rings, int sectors) {
+    TriangleMesh mesh{Points(rings * sectors + 1, 3), Faces((2 * rings - 1) * sectors, 3)};
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < sectors; ++j) {
+            const double u = .9 * std::numbers::pi * (i + 1) / rings, v = 2 * std::numbers::pi * j / sectors;
+            mesh.vertices.row(i * sectors + j) << 1.1 * std::sin(u) * std::sin(v), 2 * std::cos(u),
+                (1 + .2 * std::cos(u)) * std::sin(u) * std::cos(v);
+        }
+    mesh.vertices.row(rings * sectors) << 0, 2, 0;
+    int f = 0;
+    for (int j = 0; j < sectors; ++j) {
+        const int next = (j + 1) % sectors;
+        mesh.faces.row(f++) << rings * sectors, j, next;
+        for (int i = 0; i + 1 < rings; ++i) {
+            const int a = i * sectors + j, b = i * sectors + next;
+            mesh.faces.row(f++) << a, a + sectors, b + sectors;
+            mesh.faces.row(f++) << a, b + sectors, b;
+        }
+    }
+    return mesh;
+}
+
+PointMap identity(const TriangleMesh& mesh) {
+    PointMap map(size_t(mesh.vertex_count()));
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) map[size_t(mesh.faces(f, k))] = {f, Vec3::Unit(k)};
+    return map;
+}
+
+RenderParams small() {
+    RenderParams params;
+    params.width = 400;
+    params.samples = 9;
+    return params;
+}
+
+using Pixel = std::array<int, 3>;
+Pixel pixel(const Image& image, int x, int y) {
+    const unsigned char* p = &image.rgb[3 * size_t(y * image.width + x)];
+    return {p[0], p[1], p[2]};
+}
+const Pixel white{255, 255, 255};
+
+class Render : public testing::Test {
+  protected:
+    const TriangleMesh mesh_ = egg(20, 30);
+    const PointMap map_ = identity(mesh_);
+};
+
+TEST_F(Render, HasTheWidthAskedForAndAWhiteBackground) {
+    const Image image = render(mesh_, mesh_, map_, map_, small());
+    ASSERT_EQ(image.width, 400);
+    ASSERT_EQ(image.rgb.size(), 3 * size_t(image.width) * size_t(image.height));
+    for (int x : {0, 100, 200, 300, 399}) {
+        EXPECT_EQ(pixel(image, x, 0), white);
+        EXPECT_EQ(pixel(image, x, image.height - 1), white);
+    }
+    // Tall figures stand in a row of four, each in the middle of its panel.
+    for (int panel = 0; panel < 4; ++panel)
+        EXPECT_NE(pixel(image, 100 * panel + 50, image.height / 2), white);
+}
+
+TEST_F(Render, CarriesTheSourcesColoursThroughTheMap) {
+    const Image image = render(mesh_, mesh_, map_, map_, small());
+    int different = 0, coloured = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < 200; ++x) {
+            coloured += pixel(image, x, y) != white;
+            different += pixel(image, x, y) != pixel(image, x + 200, y);
+        }
+    EXPECT_GT(coloured, 10000);
+    EXPECT_LT(different, coloured / 500);  // rounding at the edges of cells
+}
+
+TEST_F(Render, TurnsTheTargetsViewWithTheMap) {
+    TriangleMesh turned = mesh_;  // y up becomes z up
+    turned.vertices.col(1) = -mesh_.vertices.col(2);
+    turned.vertices.col(2) = mesh_.vertices.col(1);
+    const Image straight = render(mesh_, mesh_, map_, map_, small()),
+                image = render(mesh_, turned, map_, map_, small());
+    ASSERT_EQ(straight.rgb.size(), image.rgb.size());
+    int different = 0;
+    for (size_t i = 0; i < image.rgb.size(); ++i) different += std::abs(image.rgb[i] - straight.rgb[i]) > 8;
+    EXPECT_LT(different, int(image.rgb.size()) / 500);
+}
+
+TEST_F(Render, IsTheSameForAnyNumberOfThreads) {
+    using tbb::global_control;
+    const Image image = render(mesh_, mesh_, map_, map_, small());
+    const global_control one(global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(render(mesh_, mesh_, map_, map_, small()).rgb, image.rgb);
+}
+
+TEST_F(Render, ShowsWhatHasNoImageInGrey) {
+    const Image image = render(mesh_, mesh_, map_, PointMap(map_.size()), small());
+    const Pixel p = pixel(image, 250, image.height / 2);
+    EXPECT_EQ(p[0], p[1]);
+    EXPECT_EQ(p[1], p[2]);
+    EXPECT_NE(p, white);
+}
+
+TEST_F(Render, MarksReversedTrianglesOnDemand) {
+    PointMap back = map_;  // the target's middle rings exchange their images
+    for (int j = 0; j < 30; ++j) std::swap(back[size_t(9 * 30 + j)], back[size_t(10 * 30 + j)]);
+    RenderParams flips = small();
+    flips.flips = true;
+    const auto marked = [&](const PointMap& map) {
+        const Image plain = render(mesh_, mesh_, map_, map, small()),
+                    image = render(mesh_, mesh_, map_, map, flips);
+        int count = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) count += pixel(image, x, y) != pixel(plain, x, y);
+        return count;
+    };
+    EXPECT_EQ(marked(map_), 0);
+    EXPECT_GT(marked(back), 100);
+}
+
+TEST_F(Render, RefusesMapsThatDoNotFit) {
+    const PointMap shorter(map_.begin(), map_.end() - 1);
+    EXPECT_THROW(render(mesh_, mesh_, shorter, map_, small()), InputError);
+    EXPECT_THROW(render(mesh_, mesh_, map_, shorter, small()), InputError);
+    PointMap beyond = map_;
+    beyond[3].face = mesh_.face_count();
+    EXPECT_THROW(render(mesh_, mesh_, map_, beyond, small()), InputError);
+}
+
+TEST_F(Render, WritesAPngThatReadsBack) {
+    const Image image = render(mesh_, mesh_, map_, map_, small());
+    const std::string bytes = to_png(image);
+    png_image header{};
+    header.version = PNG_IMAGE_VERSION;
+    ASSERT_TRUE(png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()));
+    header.format = PNG_FORMAT_RGB;
+    ASSERT_EQ(int(header.width), image.width);
+    ASSERT_EQ(int(header.height), image.height);
+    std::vector<unsigned char> rgb(image.rgb.size());
+    ASSERT_TRUE(png_image_finish_read(&header, nullptr, rgb.data(), 0, nullptr));
+    EXPECT_EQ(rgb, image.rgb);
+}
+
+TEST(SourceColour, IsACheckerboardOverASmoothFunction) {
+    const TriangleMesh mesh = egg(10, 10);
+    const SourceColour colour(mesh, .05);
+    const Vec3 p = mesh.vertices.colwise().mean();
+    const Vec3 step(.05, 0, 0);  // into the next cell
+    EXPECT_LT((colour(p) - colour(p + 2 * step)).norm(), .8 * (colour(p) - colour(p + step)).norm());
+    EXPECT_LT((colour(p) - colour(p + .001 * step)).norm(), .01);
+}
+
+TEST(SourceColour, KnowsOkLab) {
+    EXPECT_LT((from_oklch(1, 0, 0) - Colour::Ones()).norm(), 1e-6);
+    const Colour red = from_oklch(.627955, .257683, 29.2339 * std::numbers::pi / 180);
+    EXPECT_LT((red - Colour(1, 0, 0)).norm(), 1e-3);
+    EXPECT_EQ(encode_channel(0), 0);
+    EXPECT_EQ(encode_channel(1), 255);
+    EXPECT_EQ(encode_channel(.2140411), 127);  // middle of the encoding
+}
+
+TEST(View, IsARotationThatKeepsUpUp) {
+    const TriangleMesh mesh = egg(10, 10);
+    for (const char* up : {"auto", "x", "y", "z"}) {
+        const View view = moved(natural_view(mesh, up), 0, 0);
+        EXPECT_LT((view * view.transpose() - View::Identity()).norm(), 1e-12) << up;
+        EXPECT_NEAR(view.determinant(), 1, 1e-12) << up;
+    }
+    EXPECT_EQ(Vec3(natural_view(mesh, "z").row(1)), Vec3::UnitZ());
+    EXPECT_EQ(Vec3(natural_view(mesh, "auto").row(1)), Vec3::UnitY());
+    EXPECT_LT((moved(natural_view(mesh, "y"), 180, 0).row(2) + natural_view(mesh, "y").row(2)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace varimap
