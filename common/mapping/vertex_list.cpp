@@ -78,8 +78,9 @@ int to_vertex(const Row& row, size_t column, int first, const std::string& path,
         fail(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
     if (mesh && vertex >= mesh->vertex_count())
         fail(path, row.line,
-             fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}",
-                         number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first));
+             fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
+                         number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
+                         first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
     return vertex;
 }
 

@@ -78,7 +78,8 @@ PolygonSoup parse_ascii(const std::string& bytes, const std::string& path) {
             if (soup.corners.size() != 3 * soup.ends.size()) scanner.fail("a facet does not have 3 corners");
         }
     }
-    if (!ended) scanner.fail("the file ends without 'endsolid' (is it truncated?)");
+    if (!ended || soup.corners.size() != 3 * soup.ends.size())
+        scanner.fail("the last facet or 'endsolid' is missing (is the file truncated?)");
     return soup;
 }
 

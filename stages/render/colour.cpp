@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "stages/render/bounds.h"
+
 namespace varimap {
 
 SourceColour::SourceColour(const TriangleMesh& source, double cell)
-    : low_(source.vertices.colwise().minCoeff()),
-      extent_((source.vertices.colwise().maxCoeff() - source.vertices.colwise().minCoeff()).transpose()),
+    : low_(bounds(source.vertices, source.faces).min()),
+      extent_(bounds(source.vertices, source.faces).sizes()),
       cell_(cell) {
     std::array<int, 3> axes{0, 1, 2};
     std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return extent_[a] > extent_[b]; });

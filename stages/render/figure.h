@@ -14,7 +14,7 @@ class Figure {
   public:
     using Paint = std::function<Colour(const SurfacePoint&)>;
 
-    /// The mesh must have unit area. Triangles with `flagged` get the warning colour.
+    /// The mesh must have unit area. `flagged` triangles get the warning colour.
     Figure(TriangleMesh mesh, Paint paint, std::vector<bool> flagged);
 
     const TriangleMesh& mesh() const { return mesh_; }
@@ -31,7 +31,7 @@ class Figure {
     std::vector<double> openness_;
 };
 
-/// Triangles of the chord mesh's source whose image is reversed (quality.h), or none at all.
+/// Per triangle of the chord mesh's source: whether its image is reversed (as quality.h counts flips).
 std::vector<bool> reversed_faces(const ChordMesh& chords);
 
 }  // namespace varimap

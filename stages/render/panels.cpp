@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/stage/error.h"
 #include "common/stage/parallel.h"
+#include "stages/render/bounds.h"
 
 namespace varimap {
 
@@ -15,25 +15,21 @@ namespace {
 struct Panel {
     const Figure* figure;
     View view;
-    Points seen;                                   ///< the vertices: right, up, towards the viewer
-    Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< their bounding box
-    int x = 0, y = 0, width = 0, height = 0;       ///< pixels, y downwards
-    double scale = 1;                              ///< pixels per unit
+    Points seen;                              ///< the vertices: right, up, towards the viewer
+    Eigen::AlignedBox3d box;                  ///< of the faces there
+    int x = 0, y = 0, width = 0, height = 0;  ///< pixels, y downwards
+    double scale = 1;                         ///< pixels per unit
 
     Panel(const Figure& f, const View& v)
-        : figure(&f),
-          view(v),
-          seen(f.mesh().vertices * v.transpose()),
-          low(seen.colwise().minCoeff()),
-          high(seen.colwise().maxCoeff()) {}
+        : figure(&f), view(v), seen(f.mesh().vertices * v.transpose()), box(bounds(seen, f.mesh().faces)) {}
     /// Pixel coordinates within the panel of a seen point.
     Eigen::Vector2d to_pixel(const Vec3& p) const {
-        return {width / 2. + (p[0] - (low[0] + high[0]) / 2) * scale,
-                height / 2. - (p[1] - (low[1] + high[1]) / 2) * scale};
+        return {width / 2. + (p[0] - box.center()[0]) * scale,
+                height / 2. - (p[1] - box.center()[1]) * scale};
     }
     Vec3 ray_origin(double px, double py) const {
-        return view.transpose() * Vec3((low[0] + high[0]) / 2 + (px - width / 2.) / scale,
-                                       (low[1] + high[1]) / 2 - (py - height / 2.) / scale, high[2] + 1);
+        return view.transpose() * Vec3(box.center()[0] + (px - width / 2.) / scale,
+                                       box.center()[1] - (py - height / 2.) / scale, box.max()[2] + 1);
     }
 };
 
@@ -42,8 +38,8 @@ int lay_out(std::array<Panel, 4>& panels, int picture_width) {
     constexpr double margin = .12;  // in units of sqrt(area), around every panel's figure
     double widths[2], height = 0;
     for (int i : {0, 1}) {
-        const Vec3 a = panels[2 * i].high - panels[2 * i].low;
-        const Vec3 b = panels[2 * i + 1].high - panels[2 * i + 1].low;
+        const Vec3 a = panels[2 * i].box.sizes();
+        const Vec3 b = panels[2 * i + 1].box.sizes();
         widths[i] = std::max(a[0], b[0]) + margin;
         height = std::max({height, a[1] + margin, b[1] + margin});
     }

@@ -41,6 +41,8 @@ Colour carried_colour(const ChordMesh& back, const ClosestPoint& closest, const 
 
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params) {
+    if (!(surface_area(source) > 0) || !(surface_area(target) > 0))
+        throw InputError("a mesh without area cannot be shown");
     require_fit(source_to_target, source, target, "source_to_target", "source", "target");
     require_fit(target_to_source, target, source, "target_to_source", "target", "source");
     const ChordMesh there(source_to_target, source, target), back(target_to_source, target, source);

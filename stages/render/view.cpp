@@ -1,9 +1,10 @@
 #include "stages/render/view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "stages/render/bounds.h"
 
 namespace varimap {
 
@@ -23,10 +24,10 @@ int guess_up(const TriangleMesh& mesh, const Vec3& areas) {
     constexpr double preference = 1.1;
     if (areas[z] * preference >= areas.maxCoeff() && areas[z] >= areas[y]) return y;
     if (areas[y] * preference >= areas.maxCoeff()) return z;
-    const Vec3 low = mesh.vertices.colwise().minCoeff(), high = mesh.vertices.colwise().maxCoeff();
-    const auto stands_on_zero = [&](int axis) { return std::abs(low[axis]) < .05 * (high - low)[axis]; };
+    const auto box = bounds(mesh.vertices, mesh.faces);
+    const auto stands_on_zero = [&](int axis) { return std::abs(box.min()[axis]) < .05 * box.sizes()[axis]; };
     if (stands_on_zero(y) != stands_on_zero(z)) return stands_on_zero(y) ? y : z;
-    return (high - low)[y] < (high - low)[z] ? y : z;
+    return box.sizes()[y] < box.sizes()[z] ? y : z;
 }
 
 View view_along(int towards, double sign, int up) {

@@ -157,6 +157,7 @@ TEST_F(MeshFile, StlIsWeldedByFirstAppearance) {
     EXPECT_TRUE(from_text.faces == from_binary.faces);
     EXPECT_LT((from_text.vertices - from_binary.vertices).cwiseAbs().maxCoeff(), 1e-7);
     EXPECT_THAT(complaint("c.stl", text), HasSubstr("endsolid"));
+    EXPECT_THAT(complaint("c.stl", text + "vertex 1 2 3\nendsolid x\n"), HasSubstr("facet"));
 }
 
 TEST_F(MeshFile, DoublesAreKeptAndTheLocaleDoesNotMatter) {

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/common.sh"
 figure a.off 6
 figure b.off 6 .5
-map() { "$varimap" map "$@"; }
+map() { "$varimap" map "${small_picture[@]}" "$@"; }
 
 refuse() {  # CODE ARGUMENTS
     local code=$1
@@ -36,8 +36,11 @@ VARIMAP_BIN=$PWD refuse 6 a.off b.off -o out
 refuse 2 a.off b.off -o out --set eigen.colour=1
 refuse 2 a.off b.off -o out --set eigen.count=many
 map a.off b.off -o out >/dev/null 2>log || fail "a good pair"
+cp out/artifacts/a--b.map good.map
 refuse 2 a.off b.off -o out --set eigen.count=-3
 refuse 2 a.off b.off -o out --set refine.colour=1
+map a.off b.off -o out >/dev/null 2>log || fail "the good pair after refusals"
+expect_ran ""
 
 echo "nothing of the kind" >text.off
 head -c 2000 a.off >cut.off
@@ -62,5 +65,6 @@ printf '1\n2\n' >two.txt
 refuse 3 a.off b.off -o out --landmarks three.txt two.txt
 printf '1 1\n1 2\n' >twice.txt
 refuse 3 a.off b.off -o out --landmarks twice.txt
+same out/artifacts/a--b.map good.map
 map a.off b.off -o out >/dev/null 2>log || fail "the good pair again"
-expect_ran ""
+same out/artifacts/a--b.map good.map

@@ -71,9 +71,10 @@ landmarks_of_figure() {
         END { for (k = 0; k < 5; k++) print at[k], at[k] }' "$1"
 }
 
-# map ARGUMENTS: runs the front end; what the stages say goes to the file log.
+# map ARGUMENTS: runs the front end, with a small picture; what the stages say goes to the file log.
+small_picture=(--set render.width=64 --set render.samples=1)
 map() {
-    "$varimap" map "$@" >out.txt 2>log || fail "varimap map $* (exit $?)"
+    "$varimap" map "${small_picture[@]}" "$@" >out.txt 2>log || fail "varimap map $* (exit $?)"
 }
 
 # ran: which stages ran since the last map, sorted, with how often.

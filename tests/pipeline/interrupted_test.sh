@@ -35,14 +35,14 @@ done
 
 # The whole pipeline, ended by an interrupt (which it answers) and by a kill (which it cannot).
 for moment in .1 .4 .8 1.2; do
-    "$varimap" map a.off b.off -o out -j 2 >/dev/null 2>log &
+    "$varimap" map "${small_picture[@]}" a.off b.off -o out -j 2 >/dev/null 2>log &
     front_end=$!
     sleep $moment
     kill -TERM $front_end 2>/dev/null || true
     wait $front_end 2>/dev/null || true
     find out -name '*.surface' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.diffusion' -o -name '*.plan' \
         -o -name '*.map' | while read -r artifact; do
-        "$inspect" --check "$artifact" >/dev/null || fail "$artifact is damaged after an interrupt"
+        "$inspect" --check "$artifact" &>/dev/null || fail "$artifact is damaged after an interrupt"
     done
 done
 map a.off b.off -o out
@@ -51,7 +51,7 @@ for artifact in reference/artifacts/*.{surface,basis,hierarchy,diffusion,plan,ma
 done
 
 # Two runs at the same time in one folder.
-"$varimap" map a.off b.off -o twice >/dev/null 2>first &
+"$varimap" map "${small_picture[@]}" a.off b.off -o twice >/dev/null 2>first &
 first=$!
 map b.off a.off -o twice
 wait $first || fail "the first of two runs"

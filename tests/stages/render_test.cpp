@@ -139,9 +139,23 @@ TEST_F(Render, RefusesMapsThatDoNotFit) {
     const PointMap shorter(map_.begin(), map_.end() - 1);
     EXPECT_THROW(render(mesh_, mesh_, shorter, map_, small()), InputError);
     EXPECT_THROW(render(mesh_, mesh_, map_, shorter, small()), InputError);
+    TriangleMesh flat = mesh_;
+    flat.vertices.setZero();
+    EXPECT_THROW(render(mesh_, flat, map_, map_, small()), InputError);
     PointMap beyond = map_;
     beyond[3].face = mesh_.face_count();
     EXPECT_THROW(render(mesh_, mesh_, map_, beyond, small()), InputError);
+}
+
+TEST_F(Render, DoesNotShrinkFiguresForVerticesThatNoFaceUses) {
+    TriangleMesh stray = mesh_;
+    stray.vertices.conservativeResize(mesh_.vertex_count() + 1, 3);
+    stray.vertices.bottomRows(1) << 50, 0, 0;
+    PointMap map = map_;
+    map.emplace_back();
+    const Image image = render(stray, stray, map, map, small());
+    EXPECT_EQ(image.height, render(mesh_, mesh_, map_, map_, small()).height);
+    EXPECT_NE(pixel(image, 50, image.height / 2), white);
 }
 
 TEST_F(Render, WritesAPngThatReadsBack) {
