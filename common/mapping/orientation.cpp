@@ -34,11 +34,14 @@ class OffsetFit {
     }
 
     double normalised_determinant() const {
-        const double scale = std::sqrt(moments_A_.determinant() * moments_B_.determinant());
-        return scale > 0 ? products_.determinant() / scale : 0;
+        // Offsets along one line, or none: no orientation, which rounding must not invent.
+        if (is_degenerate(moments_A_) || is_degenerate(moments_B_)) return 0;
+        return products_.determinant() / std::sqrt(moments_A_.determinant() * moments_B_.determinant());
     }
 
   private:
+    static bool is_degenerate(const Eigen::Matrix2d& m) { return !(m.determinant() > 1e-9 * m.trace() * m.trace()); }
+
     const OrientedSurface &A_, &B_;
     int a_, b_;
     Eigen::Matrix<double, 3, 2> plane_A_, plane_B_;

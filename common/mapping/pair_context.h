@@ -35,7 +35,7 @@ class PairContext {
     int euclidean_levels() const;
     /// Levels in the mixed metric (x, mu c psi): positions in R^3 beside normalised diffusion coordinates
     /// psi = Phi / sqrt(1 + K) at the last diffusion level's time, scaled by c so that short edges measure alike
-    /// in both. The second part keeps apart limbs that are close in space. mu = 0: R^3 alone.
+    /// in both, reduced to its principal directions. The second part keeps apart limbs that are close in space. mu = 0: R^3 alone.
     LevelPair euclidean_level(int index, double mu) const;
 
   private:

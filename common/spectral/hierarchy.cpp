@@ -125,7 +125,7 @@ SparseMatrix geodesic_weights(const std::vector<int>& samples, const Surface& su
             double radius = rule.radius;
             const int limit = std::min<int>(rule.minimum_neighbours, int(samples.size()));
             ball.grow(samples[k], [&](int v, double d) {
-                if (d > radius && int(row.size()) >= limit) return false;
+                if (d > radius * (1 + 1e-9) && int(row.size()) >= limit) return false;
                 if (index[v] < 0) return true;
                 if (int(row.size()) < limit) radius = std::max(radius, d);
                 if (normals.row(v).dot(normals.row(samples[k])) > 0 || v == samples[k]) row.emplace_back(index[v], d);

@@ -29,7 +29,7 @@ void FarthestPointSampling::insert(int vertex) {
     samples_.push_back(vertex);
     grow_(vertex, [&](int v, double d) {
         // A sample is always its own nearest sample, also among coincident vertices.
-        if (is_sample_[v] ? v != vertex : !(d < distance_[v])) return false;
+        if (is_sample_[v] ? v != vertex : !(d < distance_[v] * (1 - 1e-9))) return false;
         if (v == vertex && cell_[v] == index) return false;
         distance_[v] = d;
         cell_[v] = index;
