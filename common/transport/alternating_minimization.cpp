@@ -14,6 +14,13 @@ struct PlanStep {
     SinkhornReport sinkhorn;
 };
 
+/// Scales the plan to total mass 1, which relaxed marginals do not ensure.
+void normalise(Coupling& plan) {
+    const double total = row_sums(plan).sum();
+    plan.value /= total;
+    plan.row_background /= total;
+}
+
 /// One plan half-step with fixed centres: entropic transport, with gamma annealed down to its final value
 /// from the given divisor of the largest cost.
 PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, const AlternationOptions& options,
@@ -24,12 +31,15 @@ PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, const Al
     for (double divisor = std::min(first_divisor, options.gamma_divisor);; divisor *= 3) {
         divisor = std::min(divisor, options.gamma_divisor);
         step.gamma = largest / divisor;
-        const TransportProblem problem{solution.plan.support, cost,       X.mass,
-                                       Y.mass,                step.gamma, options.background_factor * largest};
+        TransportProblem problem{solution.plan.support, cost,       X.mass,
+                                 Y.mass,                step.gamma, options.background_factor * largest};
+        if (options.mass_penalty > 0) problem.mass_penalty = options.mass_penalty * largest;
         const SinkhornReport report = sinkhorn(problem, {options.marginal_tolerance, options.sinkhorn_iterations},
                                                solution.potentials, solution.plan);
         step.sinkhorn = {step.sinkhorn.iterations + report.iterations, report.marginal_error};
-        if (divisor >= options.gamma_divisor) return step;
+        if (divisor < options.gamma_divisor) continue;
+        if (options.mass_penalty > 0) normalise(solution.plan);
+        return step;
     }
 }
 

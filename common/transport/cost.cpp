@@ -36,13 +36,39 @@ void pin(const Side& side, const Side& other, RowMatrix& centres) {
         if (side.partner[k] >= 0) centres.row(k) = other.points.row(side.partner[k]);
 }
 
-/// sum_k m_k var[image of the k-th neighbourhood, eta_k]; `image` has squared norms in its last column.
-double side_energy(const Side& side, const RowMatrix& image, const RowMatrix& centres) {
-    const RowMatrix mean = side.averaging * image;
-    const Eigen::Index D = centres.cols();
-    const Eigen::VectorXd variance = mean.col(D) - 2 * mean.leftCols(D).cwiseProduct(centres).rowwise().sum() +
-                                     centres.rowwise().squaredNorm();
-    return side.mass.dot(variance);
+/// Mean images of a side's samples and what their neighbourhoods make of them.
+struct SideImages {
+    RowMatrix mean;             ///< samples x D: mean image of each sample
+    RowMatrix sums;             ///< per neighbourhood: sum_i p_ki rho_i / m_i (mean image)
+    Eigen::VectorXd squares;    ///< the same sum of squared norms
+    Eigen::VectorXd weights;    ///< the same sum of 1
+
+    /// `image` has squared norms in its last column; rho are the transported masses.
+    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho) {
+        const Eigen::Index D = image.cols() - 1;
+        const Eigen::VectorXd share = rho.cwiseQuotient(side.mass);
+        const RowMatrix all = side.averaging * RowMatrix(share.asDiagonal() * image);
+        mean = image.leftCols(D);
+        sums = all.leftCols(D);
+        squares = all.col(D);
+        weights = side.averaging * share;
+    }
+
+    RowMatrix centres() const { return weights.cwiseInverse().asDiagonal() * sums; }
+
+    /// sum_k m_k var[image of the k-th neighbourhood, eta_k].
+    double energy(const Eigen::VectorXd& mass, const RowMatrix& eta) const {
+        const Eigen::VectorXd spread = squares - 2 * sums.cwiseProduct(eta).rowwise().sum() +
+                                       weights.cwiseProduct(Eigen::VectorXd(eta.rowwise().squaredNorm()));
+        return mass.dot(spread);
+    }
+};
+
+SideImages images_of_rows(const Side& X, const Side& Y, const Coupling& plan) {
+    return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan)};
+}
+SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan) {
+    return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan)};
 }
 
 }  // namespace
@@ -87,20 +113,19 @@ Eigen::VectorXd CostFactors::on(const Support& support) const {
 }
 
 CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan) {
-    const RowMatrix row_image = row_barycentres(plan, with_squared_norms(Y.points));
-    const RowMatrix column_image = column_barycentres(plan, with_squared_norms(X.points));
+    SideImages rows = images_of_rows(X, Y, plan), columns = images_of_columns(X, Y, plan);
     CentreStep step;
-    step.row_image = row_image.leftCols(Y.points.cols());
-    step.column_image = column_image.leftCols(X.points.cols());
-    step.centres = {X.averaging * step.row_image, Y.averaging * step.column_image};
+    step.centres = {rows.centres(), columns.centres()};
     pin_landmarks(X, Y, step.centres);
-    step.energy = side_energy(X, row_image, step.centres.row) + side_energy(Y, column_image, step.centres.column);
+    step.energy = rows.energy(X.mass, step.centres.row) + columns.energy(Y.mass, step.centres.column);
+    step.row_image = std::move(rows.mean);
+    step.column_image = std::move(columns.mean);
     return step;
 }
 
 double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres) {
-    return side_energy(X, row_barycentres(plan, with_squared_norms(Y.points)), centres.row) +
-           side_energy(Y, column_barycentres(plan, with_squared_norms(X.points)), centres.column);
+    return images_of_rows(X, Y, plan).energy(X.mass, centres.row) +
+           images_of_columns(X, Y, plan).energy(Y.mass, centres.column);
 }
 
 }  // namespace varimap

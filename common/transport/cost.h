@@ -39,8 +39,9 @@ class CostFactors {
     RowMatrix u_, v_;
 };
 
-/// Half-step over the centres: eta_xk = sum_i p_ki (mean image of x_i), landmarks pinned; and the energy of Eq. (3)
-/// for the plan and these centres, without the Wasserstein-2 term.
+/// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m_i, landmarks pinned;
+/// and the energy of Eq. (3) for the plan and these centres, without the Wasserstein-2 term. rho_i is the
+/// transported mass of row i, which is m_i unless the marginals are relaxed.
 struct CentreStep {
     Centres centres;
     RowMatrix row_image, column_image;  ///< mean images of the samples themselves (pi_X(delta_x), pi_Y(delta_y))

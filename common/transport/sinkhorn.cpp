@@ -59,7 +59,7 @@ void update_rows(const TransportProblem& p, const LogKernel& kernel, Potentials&
     const Eigen::ArrayXd other = q.column.array() / p.gamma + p.column_mass.array().log();
     const double background = kernel.background + log_total(p.column_mass, q.column, p.gamma);
     parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
-        q.row[i] = -p.gamma * log_sum_line(p.support.row_begin[i], p.support.row_begin[i + 1], background, other,
+        q.row[i] = -p.relaxation() * p.gamma * log_sum_line(p.support.row_begin[i], p.support.row_begin[i + 1], background, other,
                                            [&](int e) { return std::pair(p.support.column[e], kernel.entry[e]); });
     });
 }
@@ -69,7 +69,7 @@ void update_columns(const TransportProblem& p, const LogKernel& kernel, Potentia
     const double background = kernel.background + log_total(p.row_mass, q.row, p.gamma);
     parallel_for_each_index(0 + p.support.columns(), rows_per_task, [&](int j) {
         q.column[j] =
-            -p.gamma * log_sum_line(p.support.column_begin[j], p.support.column_begin[j + 1], background, other,
+            -p.relaxation() * p.gamma * log_sum_line(p.support.column_begin[j], p.support.column_begin[j + 1], background, other,
                                     [&](int e) {
                                         return std::pair(p.support.row[e], kernel.entry[p.support.by_row[e]]);
                                     });
@@ -90,10 +90,6 @@ void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potenti
     const double shift = (u.maxCoeff() - w.maxCoeff() - kernel.background) / 2;
     plan.row_background = (u - shift).exp();
     plan.column_background = (w + shift + kernel.background).exp();
-}
-
-double marginal_error(const Coupling& plan, const Eigen::VectorXd& row_mass) {
-    return (row_sums(plan) - row_mass).lpNorm<1>();
 }
 
 /// Scalings beyond this range (or its inverse) are absorbed into the potentials.
@@ -175,6 +171,26 @@ bool in_safe_range(const Eigen::VectorXd& scaling) {
     return scaling.minCoeff() > 1 / safe_scaling && scaling.maxCoeff() < safe_scaling;
 }
 
+/// Scalings that solve one side given its products with the other's: (mass / product)^lambda, corrected for the
+/// potentials that the kernel has absorbed.
+class ScalingUpdate {
+  public:
+    ScalingUpdate(const TransportProblem& p, const Eigen::VectorXd& mass, const Eigen::VectorXd& absorbed)
+        : mass_(mass), lambda_(p.relaxation()) {
+        if (lambda_ < 1) correction_ = (-(1 - lambda_) / p.gamma * absorbed.array()).exp();
+    }
+    Eigen::VectorXd operator()(const Eigen::VectorXd& product) const {
+        const Eigen::ArrayXd ratio = mass_.array() / product.array();
+        if (lambda_ == 1) return ratio;
+        return ratio.pow(lambda_) * correction_;
+    }
+
+  private:
+    const Eigen::VectorXd& mass_;
+    double lambda_;
+    Eigen::ArrayXd correction_;
+};
+
 void scale_plan(const TransportProblem& p, const Eigen::VectorXd& u, const Eigen::VectorXd& w, Coupling& plan) {
     parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
         for (int e = p.support.row_begin[i]; e < p.support.row_begin[i + 1]; ++e)
@@ -199,14 +215,15 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
 
         const ScaledKernel kernel(p, plan, 1e-10 * options.tolerance);
         Eigen::VectorXd u = Eigen::VectorXd::Ones(p.row_mass.size()), w = Eigen::VectorXd::Ones(p.column_mass.size());
+        const ScalingUpdate update_u(p, p.row_mass, potentials.row), update_w(p, p.column_mass, potentials.column);
         bool safe = true, done = false;
         while (true) {
             const Eigen::VectorXd row = kernel.times(w);
-            report.marginal_error = (u.cwiseProduct(row) - p.row_mass).lpNorm<1>();
+            const Eigen::VectorXd next_u = update_u(row);
+            report.marginal_error = row.cwiseProduct(u - next_u).lpNorm<1>();
             done = report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations;
             if (done) break;
-            const Eigen::VectorXd next_u = p.row_mass.cwiseQuotient(row);
-            const Eigen::VectorXd next_w = p.column_mass.cwiseQuotient(kernel.transposed_times(next_u));
+            const Eigen::VectorXd next_w = update_w(kernel.transposed_times(next_u));
             safe = in_safe_range(next_u) && in_safe_range(next_w);
             if (!safe) break;
             u = next_u;
@@ -226,12 +243,16 @@ SinkhornReport sinkhorn_log_domain(const TransportProblem& p, const SinkhornOpti
                                    Coupling& plan) {
     const LogKernel kernel(p);
     SinkhornReport report;
+    update_rows(p, kernel, potentials);
     do {
-        update_rows(p, kernel, potentials);
         update_columns(p, kernel, potentials);
         form_plan(p, kernel, potentials, plan);
         ++report.iterations;
-        report.marginal_error = marginal_error(plan, p.row_mass);
+        const Potentials before = potentials;
+        update_rows(p, kernel, potentials);
+        const Eigen::ArrayXd change = ((potentials.row - before.row).array() / p.gamma).exp() - 1;
+        report.marginal_error = (row_sums(plan).array() * change).abs().sum();
+        if (report.marginal_error <= options.tolerance) potentials = before;  // those that belong to the plan
     } while (report.marginal_error > options.tolerance && report.iterations < options.maximum_iterations);
     return report;
 }
