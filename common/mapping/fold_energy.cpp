@@ -6,6 +6,12 @@
 
 namespace varimap {
 
+namespace {
+
+constexpr double aligned = 0.5;  ///< cosine from which on a chord's normal counts as that of the target
+
+}  // namespace
+
 double FoldEnergy::chi(double D) const {
     const double root = std::sqrt(D * D + regularisation * regularisation);
     // The second form has no cancellation where D is negative.
@@ -51,7 +57,13 @@ Chord::Chord(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec
     q = (rest.cotangent[0] * e0.squaredNorm() + rest.cotangent[1] * e1.squaredNorm() +
          rest.cotangent[2] * e2.squaredNorm()) /
         (2 * rest.area);
-    D = e2.cross(-e1).dot(m) / (2 * rest.area);
+    const Vec3 n = e2.cross(-e1);
+    const double size = n.norm();
+    if (n.dot(m) > aligned * size)
+        up = n / size;
+    else
+        up = m / aligned;
+    D = n.dot(up) / (2 * rest.area);
 }
 
 }  // namespace varimap

@@ -114,7 +114,7 @@ void Ironing::restore_weights() {
 void Ironing::iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
     const auto samples = std::min(pair_.A.level.samples.size(), pair_.B.level.samples.size());
     if (!options_.enabled || int(samples) < options_.minimum_samples) return;
-    reflect(minimization, observe);
+    if (int(samples) <= options_.reflected_samples) reflect(minimization, observe);
     PairOrientation orientation = measure(minimization.solution());
     const double before = orientation.reversed_mass();
     double least = before;

@@ -16,11 +16,12 @@ namespace varimap {
 struct IroningOptions {
     bool enabled = true;
     int minimum_samples = 100;     ///< below that many samples orientation means nothing
-    double omega = 0.1;            ///< weight of a reversed sample
-    int maximum_rounds = 20;       ///< alternations with reduced weights, per level
-    int patience = 3;              ///< rounds without progress after which a level is left as it is
+    double omega = 0.01;           ///< weight of a reversed sample (the paper has 0.5, which measured worse)
+    int maximum_rounds = 15;       ///< alternations with reduced weights, per level
+    int patience = 5;              ///< rounds without progress after which a level is left as it is
     double tolerated_mass = 0.002; ///< stop when less than this share of the mass is reversed
     double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
+    int reflected_samples = 1000;  ///< only on levels with at most that many samples: the reflected map starts from the full plan
 };
 
 /// Orientation of both directions at a level.

@@ -20,7 +20,8 @@ struct SurfaceWalk::State {
     int slides = 0;
 };
 
-SurfaceWalk::SurfaceWalk(const TriangleMesh& mesh) : mesh_(mesh), beyond_(std::size_t(3 * mesh.face_count()), -1) {
+SurfaceWalk::SurfaceWalk(const TriangleMesh& mesh)
+    : mesh_(mesh), beyond_(std::size_t(3 * mesh.face_count()), -1) {
     const Edges edges = find_edges(mesh);
     for (int e = 0; e < edges.size(); ++e) {
         const auto sides = edges.sides[e];

@@ -4,6 +4,7 @@
 #include <Spectra/SymEigsShiftSolver.h>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/artifact/cereal_eigen.h"
 #include "common/spectral/laplacian.h"
@@ -32,26 +33,96 @@ class ShiftInvert {
             throw ConvergenceError("the shifted Laplacian cannot be factorised; check the mesh for degenerate triangles");
     }
 
+    /// Restricts the operator to the complement of these orthonormal columns.
+    void deflate(const Eigen::MatrixXd& vectors) { known_ = vectors; }
+
     void perform_op(const double* in, double* out) const {
-        const Eigen::Map<const Eigen::VectorXd> x(in, rows());
-        Eigen::Map<Eigen::VectorXd>(out, rows()) = root_mass_.cwiseProduct(factors_.solve(root_mass_.cwiseProduct(x)));
+        const Eigen::VectorXd x = complement(Eigen::Map<const Eigen::VectorXd>(in, rows()));
+        Eigen::Map<Eigen::VectorXd>(out, rows()) =
+            complement(root_mass_.cwiseProduct(factors_.solve(root_mass_.cwiseProduct(x))));
     }
 
   private:
+    Eigen::VectorXd complement(Eigen::VectorXd x) const {
+        if (known_.cols() > 0) x -= known_ * (known_.transpose() * x);
+        return x;
+    }
+
     const Eigen::SparseMatrix<double>& L_;
     const Eigen::VectorXd& mass_;
     Eigen::VectorXd root_mass_;
+    Eigen::MatrixXd known_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
 };
 
-/// Number of leading eigenvalues after which a gap follows, so that no eigenspace is cut in two.
+/// Eigenvalues, ascending, and eigenvectors of M^-1/2 L M^-1/2.
+struct EigenPairs {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd vectors;
+};
+
+EigenPairs smallest_pairs(ShiftInvert& op, int count, const EigenSolverOptions& options) {
+    const int krylov = std::min(int(op.rows()), std::max(2 * count, count + 20));
+    Spectra::SymEigsShiftSolver<ShiftInvert> solver(op, count, krylov, options.shift);
+    solver.init();
+    const int converged =
+        int(solver.compute(Spectra::SortRule::LargestMagn, 1000, options.tolerance, Spectra::SortRule::SmallestAlge));
+    if (solver.info() != Spectra::CompInfo::Successful || converged < count)
+        throw ConvergenceError("only " + std::to_string(converged) + " of " + std::to_string(count) +
+                               " eigenpairs converged; lower --count or check the mesh for degenerate triangles");
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+/// Whether a gap separates the first k eigenvalues from the next, so that no eigenspace is cut there.
+bool gap_follows(const Eigen::VectorXd& ascending, int k) {
+    return k >= int(ascending.size()) || ascending[k] - ascending[k - 1] > 1e-6 * ascending[k];
+}
+
+/// Number of leading eigenvalues, at most `wanted`, after which a gap follows.
 int complete_eigenspaces(const Eigen::VectorXd& ascending, int wanted) {
     int count = std::min<int>(wanted, int(ascending.size()));
-    const auto gap_follows = [&](int k) {
-        return k >= int(ascending.size()) || ascending[k] - ascending[k - 1] > 1e-6 * ascending[k];
-    };
-    while (count > 2 && !gap_follows(count)) --count;
+    while (count > 2 && !gap_follows(ascending, count)) --count;
     return count;
+}
+
+/// Number of eigenvalues below a bound: negative pivots of L - bound M (Sylvester's law of inertia).
+int eigenvalues_below(double bound, const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& mass) {
+    Eigen::SparseMatrix<double> shifted = L;
+    shifted.diagonal() -= bound * mass;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(shifted);
+    return factors.info() == Eigen::Success ? int((factors.vectorD().array() < 0).count()) : 0;
+}
+
+/// The smallest of two sets of pairs.
+EigenPairs merged(const EigenPairs& a, const EigenPairs& b, Eigen::Index count) {
+    Eigen::VectorXd values(a.values.size() + b.values.size());
+    values << a.values, b.values;
+    std::vector<int> order(values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return values[i] < values[j]; });
+    order.resize(count);
+    Eigen::MatrixXd vectors(a.vectors.rows(), values.size());
+    vectors << a.vectors, b.vectors;
+    return {values(order), vectors(Eigen::all, order)};
+}
+
+/// A Krylov space holds one vector of each eigenspace; the others come in through rounding, late, so that the
+/// solver can pass over some of a multiple eigenvalue. What a count shows to be missing is looked for in the
+/// complement of what is known.
+void add_missed_pairs(ShiftInvert& op, const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& mass,
+                      const EigenSolverOptions& options, EigenPairs& pairs) {
+    constexpr int most_rounds = 20;
+    for (int round = 0; round < most_rounds; ++round) {
+        const int found = complete_eigenspaces(pairs.values, int(pairs.values.size()) - 1);
+        const double bound = (pairs.values[found - 1] + pairs.values[found]) / 2;
+        const int missed = eigenvalues_below(bound, L, mass) - found;
+        if (missed <= 0) return;
+        op.deflate(pairs.vectors);
+        const int possible = int(op.rows() - pairs.values.size());
+        const EigenPairs others = smallest_pairs(op, std::min(missed, possible), options);
+        if (others.values[0] > bound) return;
+        pairs = merged(pairs, others, pairs.values.size());
+    }
 }
 
 Eigen::VectorXd relative_residuals(const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& mass,
@@ -74,23 +145,15 @@ Basis compute_eigenbasis(const Surface& surface, const EigenSolverOptions& optio
     const int computed = std::min(options.count + 1, n - 1);
     if (computed < 3)
         throw InputError("a surface of " + std::to_string(n) + " vertices has too few eigenfunctions; refine the mesh");
-    const int krylov = std::min(n, std::max(2 * computed, computed + 20));
-
     const Eigen::SparseMatrix<double> L = cotangent_laplacian(surface.mesh);
     ShiftInvert op(L, surface.mass);
-    Spectra::SymEigsShiftSolver<ShiftInvert> solver(op, computed, krylov, options.shift);
-    solver.init();
-    const int converged = int(solver.compute(Spectra::SortRule::LargestMagn, 1000, options.tolerance,
-                                             Spectra::SortRule::SmallestAlge));
-    if (solver.info() != Spectra::CompInfo::Successful || converged < computed)
-        throw ConvergenceError("only " + std::to_string(converged) + " of " + std::to_string(computed) +
-                               " eigenpairs converged; lower --count or check the mesh for degenerate triangles");
+    EigenPairs pairs = smallest_pairs(op, computed, options);
+    add_missed_pairs(op, L, surface.mass, options, pairs);
 
-    const Eigen::VectorXd values = solver.eigenvalues();
-    const int count = complete_eigenspaces(values, std::min(options.count, computed));
+    const int count = complete_eigenspaces(pairs.values, std::min(options.count, computed));
     Basis basis;
-    basis.eigenvalues = values.head(count);
-    basis.functions = surface.mass.cwiseSqrt().cwiseInverse().asDiagonal() * solver.eigenvectors().leftCols(count);
+    basis.eigenvalues = pairs.values.head(count);
+    basis.functions = surface.mass.cwiseSqrt().cwiseInverse().asDiagonal() * pairs.vectors.leftCols(count);
     // The kernel of L is known exactly for a connected surface.
     basis.eigenvalues[0] = 0;
     basis.functions.col(0).setConstant(1 / std::sqrt(surface.mass.sum()));

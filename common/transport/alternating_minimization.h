@@ -16,7 +16,7 @@ struct AlternationOptions {
     double marginal_tolerance = 1e-2;  ///< Sinkhorn stops at this L1 error of the row sums
     int sinkhorn_iterations = 1000;
     double support_threshold = 1e-2;   ///< entries below this share of their row's and column's mass do not spread
-    double mass_penalty = 0;           ///< rho of relaxed marginals / largest instantiated cost; 0: exact marginals
+    double mass_penalty = 0.1;         ///< rho of relaxed marginals / largest instantiated cost; 0: exact marginals
     double background_factor = 10;     ///< cost of entries that are not instantiated, times the largest cost
 };
 

@@ -244,17 +244,18 @@ SinkhornReport sinkhorn_log_domain(const TransportProblem& p, const SinkhornOpti
     const LogKernel kernel(p);
     SinkhornReport report;
     update_rows(p, kernel, potentials);
-    do {
+    while (true) {
         update_columns(p, kernel, potentials);
         form_plan(p, kernel, potentials, plan);
         ++report.iterations;
-        const Potentials before = potentials;
-        update_rows(p, kernel, potentials);
-        const Eigen::ArrayXd change = ((potentials.row - before.row).array() / p.gamma).exp() - 1;
+        Potentials next = potentials;
+        update_rows(p, kernel, next);
+        const Eigen::ArrayXd change = ((next.row - potentials.row).array() / p.gamma).exp() - 1;
         report.marginal_error = (row_sums(plan).array() * change).abs().sum();
-        if (report.marginal_error <= options.tolerance) potentials = before;  // those that belong to the plan
-    } while (report.marginal_error > options.tolerance && report.iterations < options.maximum_iterations);
-    return report;
+        // The potentials left behind are those that belong to the plan.
+        if (report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations) return report;
+        potentials = std::move(next);
+    }
 }
 
 }  // namespace varimap

@@ -160,9 +160,7 @@ std::vector<std::vector<int>> significant_entries(const Coupling& plan, const Ei
 Support enlarged(const std::vector<std::vector<int>>& kept, const SparseMatrix& row_neighbours,
                  const SparseMatrix& column_neighbours) {
     const int columns = int(column_neighbours.rows());
-    // Row x' takes from the rows x in whose neighbourhood it lies; neighbourhoods need not be mutual.
-    const SparseMatrix neighbour_of = row_neighbours.transpose();
-    return Support(union_over_neighbours(neighbour_of, union_over_entries(kept, column_neighbours), columns), columns);
+    return Support(union_over_neighbours(row_neighbours, union_over_entries(kept, column_neighbours), columns), columns);
 }
 
 std::vector<std::vector<int>> inherited(const std::vector<std::vector<int>>& kept, const std::vector<int>& row_parent,

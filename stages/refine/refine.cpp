@@ -45,7 +45,9 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
         LevelPair pair = context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
         const Start start =
             hand_down(solution.plan, coarse.A.level, coarse.B.level, pair, params.alternation.support_threshold);
-        solution = solve_level(context, pair, start, first_index + l, params.alternation, params.ironing, trace);
+        IroningOptions ironing = params.ironing;
+        ironing.enabled &= l + 1 < all;  // neighbourhoods of the last level are too small to move a patch
+        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution);

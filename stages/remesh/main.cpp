@@ -23,8 +23,10 @@ void export_map(const std::string& folder, const SurfaceMap& map, const Surface&
 }  // namespace
 
 int main(int argc, char** argv) {
+    RemeshParams params;
     Stage stage("remesh",
                 "The map in both directions on the input meshes, cross-remeshing and quality numbers");
+    stage.parameters([&](ParameterList& list) { params.describe(list); });
     const std::string& surface_A = stage.input("A.surface", "artifact of varimap-preprocess: the source");
     const std::string& surface_B = stage.input("B.surface", "artifact of varimap-preprocess: the target");
     const std::string& plan_file = stage.input("plan", "artifact of varimap-refine or varimap-diffuse");
@@ -41,7 +43,7 @@ int main(int argc, char** argv) {
         Stage::require_lineage(plan.header, plan_file, "A.surface", A.header, surface_A);
         Stage::require_lineage(plan.header, plan_file, "B.surface", B.header, surface_B);
         log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
-        const SurfaceMap map = remesh(A.value, B.value, plan.value);
+        const SurfaceMap map = remesh(A.value, B.value, plan.value, params);
         stage.write(out, map);
         if (folder.empty()) return;
         export_map(folder, map, A.value, B.value);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/mapping/quality.h"
+#include "common/mapping/verification.h"
 
 namespace varimap {
 
@@ -16,6 +17,26 @@ Json to_json(const Quantiles& q) {
     return {{"p01", q.p01}, {"p05", q.p05}, {"p50", q.p50}, {"p95", q.p95}, {"p99", q.p99}};
 }
 
+Json to_json(const Verification& found) {
+    Json json = {{"reversed_count", found.reversed_faces.size()},
+                 {"reversed_area_percent", found.reversed_area_percent},
+                 {"branch_points", found.branch_vertices.size()},
+                 {"signed_area_ratio", found.signed_area_ratio}};
+    if (found.degree) json["degree"] = *found.degree;
+    return json;
+}
+
+Json to_json(const UntanglingReport& report) {
+    return {{"flipped_before", report.flipped_before},
+            {"flipped_area_percent_before", report.flipped_area_percent_before},
+            {"flipped_after", report.flipped_after},
+            {"flipped_area_percent_after", report.flipped_area_percent_after},
+            {"global_steps", report.global_steps},
+            {"sweeps", report.sweeps},
+            {"mirrored_parts", report.mirrored_parts},
+            {"gated_area_percent", report.gated_area_percent}};
+}
+
 Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
     const Distortion distortion = measure_distortion(map, source, target);
     return {{"flipped_count", distortion.flipped_count},
@@ -24,7 +45,8 @@ Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMe
             {"area_ratio", to_json(distortion.area_ratio)},
             {"conformal_distortion", to_json(distortion.conformal_distortion)},
             {"dirichlet_energy", distortion.dirichlet_energy},
-            {"coverage", measure_coverage(map, source, target)}};
+            {"coverage", measure_coverage(map, source, target)},
+            {"verification", to_json(verify_map(map, source, target))}};
 }
 
 Json sizes(const Surface& surface) {
@@ -96,12 +118,15 @@ bool add_run(Json& stages, const std::string& path) {
 
 }  // namespace
 
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan) {
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan,
+                         const UntanglingReports& untangling) {
     Json quality;
     if (!plan.trace.empty()) quality["energy"] = plan.trace.back().energy;
     quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
     quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
     quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);
+    quality["source_to_target"]["untangling"] = to_json(untangling.A_to_B);
+    quality["target_to_source"]["untangling"] = to_json(untangling.B_to_A);
     const RoundTrip round_trip = measure_round_trip(map.A_to_B, map.B_to_A, A.input, B.input);
     quality["round_trip"] = {{"mean", round_trip.mean}, {"p95", round_trip.p95}};
     quality["source"] = sizes(A);

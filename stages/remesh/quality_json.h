@@ -5,10 +5,15 @@
 
 #include "common/mapping/plan.h"
 #include "common/mapping/surface_map.h"
+#include "common/mapping/untangling.h"
 #include "common/mesh/surface.h"
 #include "common/stage/stage_main.h"
 
 namespace varimap {
+
+struct UntanglingReports {
+    UntanglingReport A_to_B, B_to_A;
+};
 
 /// The part of quality.json that depends on the inputs and parameters alone; finite numbers only. A is the
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
@@ -17,10 +22,16 @@ namespace varimap {
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
 ///       conformal_distortion {the same}, dirichlet_energy, coverage          (definitions: quality.h)
+///       verification      reversed_count, reversed_area_percent, branch_points, signed_area_ratio; degree
+///                         between closed surfaces (definitions: verification.h)
+///       untangling        flipped_before, flipped_area_percent_before, flipped_after,
+///                         flipped_area_percent_after, global_steps, sweeps, mirrored_parts,
+///                         gated_area_percent (definitions: untangling.h)
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan);
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan,
+                         const UntanglingReports& untangling);
 
 /// The whole quality.json: `quality` and `stages`, one entry for each run file (<artifact>.run.json), named
 /// after the stage and the artifact without its ending ("eigen cat0", "diffuse cat0--dog1"), and one named

@@ -3,13 +3,16 @@
 #include "common/mapping/plan.h"
 #include "common/mapping/surface_map.h"
 #include "common/mesh/surface.h"
+#include "stages/remesh/params.h"
 
 namespace varimap {
 
 /// The map in both directions on the INPUT meshes (Sec. 5, cross-remeshing): read_out (plan.h) gives the
 /// images of the preprocessed surfaces' vertices, of which the input vertices are the first; the images go to
-/// the input faces that hold them. `quality` holds the deterministic part of quality.json.
-SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan);
+/// the input faces that hold them, where they are untangled (untangling.h). Where bisection made most of the
+/// vertices, the preprocessed surfaces are untangled first: the input alone would be too coarse to find the
+/// way. `quality` holds the deterministic part of quality.json.
+SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const RemeshParams& params = {});
 
 /// The source's input mesh with its vertices moved to their images, in the target's input coordinates.
 /// Vertices no face uses have no image: they keep their place relative to the source's centroid, scaled like

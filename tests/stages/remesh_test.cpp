@@ -94,6 +94,11 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
         EXPECT_EQ(numbers["flipped_area_percent"], 0);
         EXPECT_NEAR(numbers["dirichlet_energy"], 1, 1e-9);
         EXPECT_NEAR(numbers["coverage"], 1, 1e-9);
+        EXPECT_EQ(numbers["verification"]["reversed_count"], 0);
+        EXPECT_EQ(numbers["verification"]["reversed_area_percent"], 0);
+        EXPECT_EQ(numbers["verification"]["branch_points"], 0);
+        EXPECT_NEAR(numbers["verification"]["signed_area_ratio"], 1, 1e-9);
+        EXPECT_EQ(numbers["verification"]["degree"], 1);
         for (const char* name : {"area_ratio", "conformal_distortion"})
             for (const char* share : {"p01", "p05", "p50", "p95", "p99"})
                 EXPECT_NEAR(numbers[name][share], 1, 1e-9);

@@ -1,0 +1,214 @@
+#include "common/mapping/global_relaxation.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace varimap {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Frame = Eigen::Matrix<double, 3, 2>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr int halvings = 6;
+constexpr double longest_step = 0.05;  ///< of one vertex, in units of sqrt(area)
+
+struct FaceSystem {
+    double value;  ///< energy per area
+    Vector6 gradient;
+    Matrix6 hessian;
+};
+
+/// The robust function of the excess energy, and its derivative.
+struct RobustExcess {
+    double least;       ///< the energy of an isometry
+    double robustness;  ///< 0: linear
+
+    RobustExcess(const FoldEnergy& energy, double r) : least(energy.value(2, 1)), robustness(r) {}
+    double excess(double value) const { return std::max(0.0, value - least); }
+    double value(double v) const {
+        return robustness > 0 ? robustness * std::log1p(excess(v) / robustness) : excess(v);
+    }
+    double slope(double v) const { return robustness > 0 ? 1 / (1 + excess(v) / robustness) : 1; }
+};
+
+/// Gradient and convex Hessian of one face by the tangent coordinates of its corners.
+FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, int f,
+                       const FoldEnergy& energy) {
+    const auto corners = map.source().faces.row(f);
+    const RestTriangle& rest = map.rest(f);
+    const Chord chord = map.chord(f);
+    const auto d = energy.derivatives(chord.q, chord.D);
+    Vector6 q, D;
+    Matrix6 hessian;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const Vec3 &x = map.image(corners[i]), &y = map.image(corners[j]), &z = map.image(corners[k]);
+        const Frame& frame = frames[std::size_t(corners[i])];
+        const double cj = rest.cotangent[j], ck = rest.cotangent[k];
+        q.segment<2>(2 * i) = frame.transpose() * (ck * (x - y) + cj * (x - z)) / rest.area;
+        D.segment<2>(2 * i) = frame.transpose() * chord.up.cross(z - y) / (2 * rest.area);
+        hessian.block<2, 2>(2 * i, 2 * i) = d.f_q * (cj + ck) * Eigen::Matrix2d::Identity();
+        const Eigen::Matrix2d mixed = -d.f_q * ck * frame.transpose() * frames[std::size_t(corners[j])];
+        hessian.block<2, 2>(2 * i, 2 * j) = mixed;
+        hessian.block<2, 2>(2 * j, 2 * i) = mixed.transpose();
+    }
+    hessian +=
+        rest.area * (d.f_qD * (q * D.transpose() + D * q.transpose()) + d.convex_DD * D * D.transpose());
+    return {d.f, rest.area * (d.f_q * q + d.f_D * D), hessian};
+}
+
+}  // namespace
+
+struct GlobalRelaxation::State {
+    MovingMap& map;
+    std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
+    std::vector<int> free;
+    Sparse matrix;  ///< lower triangle
+    /// Per face and pair of corners (k, l) with unknown k >= unknown l: where the block's two columns start.
+    std::vector<std::array<int, 18>> slot;
+    Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver;
+    std::vector<Frame> frames;
+    Eigen::VectorXd gradient;
+
+    State(MovingMap& m, const std::vector<char>& fixed);
+    void build_pattern();
+    int find(int row, int column) const;
+    void assemble(const FoldEnergy& energy, const RobustExcess& robust);
+    void add(int f, const FaceSystem& system, double weight);
+    void walk(const PointMap& start, const Eigen::VectorXd& direction, double share);
+    double total(const FoldEnergy& energy, const RobustExcess& robust) const;
+};
+
+GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed)
+    : map(m), unknown(fixed.size(), -1), frames(fixed.size()) {
+    std::vector<char> used(fixed.size(), 0);
+    for (int f = 0; f < map.source().face_count(); ++f)
+        for (int k = 0; k < 3 && map.is_mapped(f); ++k) used[std::size_t(map.source().faces(f, k))] = 1;
+    for (std::size_t v = 0; v < fixed.size(); ++v) {
+        if (fixed[v] || !used[v]) continue;
+        unknown[v] = int(free.size());
+        free.push_back(int(v));
+    }
+    build_pattern();
+}
+
+void GlobalRelaxation::State::build_pattern() {
+    std::vector<Eigen::Triplet<double>> entries;
+    const int n = 2 * int(free.size());
+    const auto each_block = [&](const auto& body) {
+        for (int f = 0; f < map.source().face_count(); ++f)
+            for (int k = 0; k < 3 && map.is_mapped(f); ++k)
+                for (int l = 0; l < 3; ++l) {
+                    const int row = unknown[std::size_t(map.source().faces(f, k))];
+                    const int column = unknown[std::size_t(map.source().faces(f, l))];
+                    if (column >= 0 && row >= column) body(f, k, l, row, column);
+                }
+    };
+    each_block([&](int, int, int, int row, int column) {
+        for (int a = 0; a < 2; ++a)
+            for (int b = 0; b < 2; ++b)
+                if (row > column || a >= b) entries.emplace_back(2 * row + a, 2 * column + b, 0.0);
+    });
+    matrix.resize(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    slot.resize(std::size_t(map.source().face_count()));
+    each_block([&](int f, int k, int l, int row, int column) {
+        auto* slots = slot[std::size_t(f)].data() + 6 * k + 2 * l;
+        slots[0] = find(2 * row, 2 * column);
+        slots[1] = find(2 * row + (row == column), 2 * column + 1);
+    });
+    solver.analyzePattern(matrix);
+}
+
+int GlobalRelaxation::State::find(int row, int column) const {
+    const int* begin = matrix.innerIndexPtr();
+    return int(std::lower_bound(begin + matrix.outerIndexPtr()[column],
+                                begin + matrix.outerIndexPtr()[column + 1], row) -
+               begin);
+}
+
+void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExcess& robust) {
+    for (std::size_t v = 0; v < unknown.size(); ++v)
+        frames[v] = unknown[v] < 0 ? Frame(Frame::Zero()) : map.tangents(int(v));
+    Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).setZero();
+    gradient = Eigen::VectorXd::Zero(matrix.rows());
+    for (int f = 0; f < map.source().face_count(); ++f) {
+        if (!map.is_mapped(f)) continue;
+        const FaceSystem system = face_system(map, frames, f, energy);
+        add(f, system, robust.slope(system.value));
+    }
+    for (int i = 0; i < matrix.rows(); ++i) matrix.valuePtr()[matrix.outerIndexPtr()[i]] *= 1 + 1e-8;
+}
+
+void GlobalRelaxation::State::add(int f, const FaceSystem& system, double weight) {
+    const auto corners = map.source().faces.row(f);
+    for (int k = 0; k < 3; ++k) {
+        const int row = unknown[std::size_t(corners[k])];
+        if (row < 0) continue;
+        gradient.segment<2>(2 * row) += weight * system.gradient.segment<2>(2 * k);
+        for (int l = 0; l < 3; ++l) {
+            const int column = unknown[std::size_t(corners[l])];
+            if (column < 0 || row < column) continue;
+            const int* slots = slot[std::size_t(f)].data() + 6 * k + 2 * l;
+            double* values = matrix.valuePtr();
+            const bool diagonal = row == column;
+            values[slots[0]] += weight * system.hessian(2 * k, 2 * l);
+            values[slots[0] + 1] += weight * system.hessian(2 * k + 1, 2 * l);
+            if (!diagonal) values[slots[1]] += weight * system.hessian(2 * k, 2 * l + 1);
+            values[slots[1] + !diagonal] += weight * system.hessian(2 * k + 1, 2 * l + 1);
+        }
+    }
+}
+
+double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExcess& robust) const {
+    double sum = 0;
+    for (int f = 0; f < map.source().face_count(); ++f) {
+        if (!map.is_mapped(f)) continue;
+        const Chord chord = map.chord(f);
+        sum += map.rest(f).area * robust.value(energy.value(chord.q, chord.D));
+    }
+    return sum;
+}
+
+/// Moves all free vertices from `start` by that share of their step.
+void GlobalRelaxation::State::walk(const PointMap& start, const Eigen::VectorXd& direction, double share) {
+    for (const int v : free) {
+        Vec3 step = frames[std::size_t(v)] * direction.segment<2>(2 * unknown[std::size_t(v)]);
+        const double length = step.norm();
+        if (length > longest_step) step *= longest_step / length;
+        map.place(v, start[std::size_t(v)]);
+        map.move(v, share * step);
+    }
+}
+
+GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed)
+    : state_(std::make_unique<State>(map, fixed)) {}
+GlobalRelaxation::~GlobalRelaxation() = default;
+
+double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
+    State& s = *state_;
+    const RobustExcess robust(energy, robustness);
+    s.assemble(energy, robust);
+    s.solver.factorize(s.matrix);
+    if (s.solver.info() != Eigen::Success) return 0;
+    const Eigen::VectorXd direction = -s.solver.solve(s.gradient);
+    if (!direction.allFinite()) return 0;
+    const PointMap start = s.map.points();
+    const double before = s.total(energy, robust);
+    double share = 1;
+    for (int i = 0; i <= halvings; ++i, share /= 2) {
+        s.walk(start, direction, share);
+        const double after = s.total(energy, robust);
+        if (getenv("VV")) fprintf(stderr,"share %g  %g -> %g\n",share,before,after);
+        if (after < before) return 1 - after / before;
+    }
+    for (const int v : s.free) s.map.place(v, start[std::size_t(v)]);
+    return 0;
+}
+
+}  // namespace varimap

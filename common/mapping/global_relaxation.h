@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/mapping/moving_map.h"
+
+namespace varimap {
+
+/// Descent of the fold energy in all vertices at once: Newton's method in the tangent planes of the images
+/// with the convex part of each face's Hessian, one sparse Cholesky factorisation per step. It moves what
+/// local relaxation would need thousands of sweeps for: whole limbs along the target.
+class GlobalRelaxation {
+  public:
+    /// Vertices with fixed[v] stay. Keeps a reference to the map.
+    GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed);
+    ~GlobalRelaxation();
+
+    /// One step, halved until the energy falls; returns the share of it lost, 0 where the map stays as it is.
+    /// Robust: what is summed is area * r log(1 + x / r) with the excess x of a face's energy (per area) over
+    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; r = 0: area * x.
+    double step(const FoldEnergy& energy, double robustness);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace varimap

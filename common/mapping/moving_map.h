@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "common/mapping/fold_energy.h"
+#include "common/mesh/surface_walk.h"
+#include "common/mesh/topology.h"
+#include "common/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// A map whose images slide on the target: the state that the relaxations of untangling.h work on. Both
+/// meshes are brought to unit area.
+class MovingMap {
+  public:
+    MovingMap(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+
+    const TriangleMesh& source() const { return source_; }
+    const TriangleMesh& target() const { return target_; }
+    const PointMap& points() const { return points_; }
+    const Adjacency& faces_of_vertex() const { return faces_of_vertex_; }
+    const RestTriangle& rest(int f) const { return rest_[std::size_t(f)]; }
+    /// Whether a face counts: it has area, and all its corners have an image.
+    bool is_mapped(int f) const { return rest_[std::size_t(f)].area > 0; }
+    /// Position in space of a vertex's image.
+    const Vec3& image(int v) const { return image_[std::size_t(v)]; }
+    /// Unit mean of the target's normals at a face's three images; zero where they cancel.
+    Vec3 mean_normal(int f) const;
+    Chord chord(int f) const;
+    /// Two orthonormal directions in the plane of the target's face that holds the image.
+    Eigen::Matrix<double, 3, 2> tangents(int v) const;
+    /// Walks a vertex's image along a tangent vector, from where it is.
+    void move(int v, const Vec3& step) { place(v, walk_(points_[std::size_t(v)], step)); }
+    void place(int v, const SurfacePoint& point);
+
+  private:
+    TriangleMesh source_, target_, normals_;  ///< normals_: the target's, as a mesh to interpolate on
+    std::vector<RestTriangle> rest_;
+    Adjacency faces_of_vertex_;
+    SurfaceWalk walk_;
+    PointMap points_;
+    std::vector<Vec3> image_, normal_;
+};
+
+}  // namespace varimap

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "common/mapping/untangling.h"
+#include "common/stage/parameters.h"
+
+namespace varimap {
+
+struct RemeshParams {
+    UntanglingOptions untangling;
+
+    void describe(ParameterList& list) {
+        UntanglingOptions& o = untangling;
+        list.add("untangle", o.enabled, "removes reversed triangles and relaxes the map towards an isometry");
+        list.add("relaxation_steps", o.global_steps, "global relaxation steps, each of two times", 0, 1000);
+        list.add("area_weight", o.area_weight, "weight of areas against angles in the relaxation", 1e-3, 1e3);
+        list.add("robustness", o.robustness,
+                 "excess energy at which a triangle counts half in the relaxation; 0: all count fully", 0,
+                 1e6);
+        list.add("fold_sweeps", o.fold_sweeps, "sweeps that remove folds, per patch size", 0, 100'000);
+        list.add("mirror_area", o.gate.area,
+                 "share of the area from which on a mirrored part is left as it is, with a warning", 0, 1);
+    }
+};
+
+}  // namespace varimap

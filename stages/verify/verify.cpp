@@ -1,0 +1,71 @@
+#include "stages/verify/verify.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/mapping/surface_map.h"
+#include "common/mesh/mesh_file.h"
+#include "common/stage/error.h"
+
+namespace varimap {
+
+namespace {
+
+TriangleMesh read_surface(const std::string& path) {
+    TriangleMesh mesh = read_mesh(path);
+    require_manifold(mesh, path);
+    return mesh;
+}
+
+void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& source,
+                 const TriangleMesh& target) {
+    if (int(map.size()) != source.vertex_count())
+        throw InputError(
+            fmt::format("{}: {} rows, but the source mesh has {} vertices; give the mesh the map starts "
+                        "from first, then the one it leads to",
+                        path, map.size(), source.vertex_count()));
+    for (std::size_t v = 0; v < map.size(); ++v)
+        if (map[v].face >= target.face_count())
+            throw InputError(fmt::format("{}:{}: face {}, but the target mesh has {} faces", path, v + 2,
+                                         map[v].face, target.face_count()));
+}
+
+}  // namespace
+
+Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
+                          const std::string& map) {
+    const TriangleMesh source = read_surface(source_mesh), target = read_surface(target_mesh);
+    const PointMap images = read_csv_map(map);
+    require_fit(images, map, source, target);
+    return verify_map(images, source, target);
+}
+
+std::string as_text(const Verification& found) {
+    std::string text;
+    const auto row = [&](const char* name, const std::string& value) {
+        text += fmt::format("{:<20}{:>10}\n", name, value);
+    };
+    row("reversed triangles", fmt::format("{}", found.reversed_faces.size()));
+    row("reversed area", fmt::format("{:.4f} %", found.reversed_area_percent));
+    row("branch points", fmt::format("{}", found.branch_vertices.size()));
+    row("signed area ratio", fmt::format("{:.4f}", found.signed_area_ratio));
+    row("degree", found.degree ? fmt::format("{:.4f}", *found.degree) : "none");
+    if (found.left_out_count > 0) row("left out", fmt::format("{}", found.left_out_count));
+    return text;
+}
+
+std::string as_json(const Verification& found) {
+    nlohmann::ordered_json json;
+    json["reversed_count"] = found.reversed_faces.size();
+    json["reversed_area_percent"] = found.reversed_area_percent;
+    json["branch_points"] = found.branch_vertices.size();
+    json["signed_area_ratio"] = found.signed_area_ratio;
+    if (found.degree) json["degree"] = *found.degree;
+    json["left_out_count"] = found.left_out_count;
+    json["reversed_faces"] = found.reversed_faces;
+    json["branch_vertices"] = found.branch_vertices;
+    return json.dump() + "\n";
+}
+
+}  // namespace varimap

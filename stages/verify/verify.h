@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "common/mapping/verification.h"
+
+namespace varimap {
+
+/// Reads two meshes and a map between them and judges the map. Throws InputError (a mesh that is not one
+/// manifold surface, a map that does not fit the meshes), IoError.
+Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
+                          const std::string& map);
+
+/// The numbers, one per line.
+std::string as_text(const Verification& found);
+/// An object: reversed_count, reversed_area_percent, branch_points, signed_area_ratio, degree (absent if it
+/// has none), left_out_count, reversed_faces and branch_vertices (0-based, of the source).
+std::string as_json(const Verification& found);
+
+}  // namespace varimap

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "common/mapping/level_transfer.h"
+
+namespace varimap::benchmarks {
+
+/// The problem of the last level: a tube of about `vertices` vertices mapped onto itself, every vertex a
+/// sample.
+struct Example {
+    LevelPair pair;
+    GeodesicGraph graph;
+    TriangleMesh mesh;
+    Centres centres;  ///< those of the identity
+    Support support;  ///< neighbours of the identity
+    Eigen::VectorXd cost;
+};
+
+/// Built once for each size.
+const Example& example(int vertices);
+
+}  // namespace varimap::benchmarks

@@ -1,0 +1,55 @@
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/example.h"
+#include "common/mesh/closest_point.h"
+#include "common/spectral/sampling.h"
+
+namespace varimap::benchmarks {
+namespace {
+
+/// Cells grow in straight distances. Items: vertices; half of them become samples.
+void sampling(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const FarthestPointSampling::Grow grow = [&](int sample, const FarthestPointSampling::Claim& claim) {
+        std::vector<int> queue;
+        if (claim(sample, 0)) queue.push_back(sample);
+        for (std::size_t head = 0; head < queue.size(); ++head)
+            for (int k = e.graph.offset[queue[head]]; k < e.graph.offset[queue[head] + 1]; ++k) {
+                const int v = e.graph.target[k];
+                if (claim(v, (e.mesh.vertex(v) - e.mesh.vertex(sample)).norm())) queue.push_back(v);
+            }
+    };
+    for (auto _ : state) {
+        FarthestPointSampling sampling(e.mesh.vertex_count(), grow);
+        sampling.insert(0);
+        sampling.cover(0, e.mesh.vertex_count() / 2);
+        benchmark::DoNotOptimize(sampling.samples().back());
+    }
+    state.SetItemsProcessed(state.iterations() * e.mesh.vertex_count());
+}
+
+/// Items: queries, one from a little off each vertex.
+void closest_point(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const ClosestPoint closest(e.mesh);
+    const Points normals = vertex_normals(e.mesh);
+    for (auto _ : state)
+        for (int v = 0; v < e.mesh.vertex_count(); ++v) {
+            const Vec3 query = e.mesh.vertex(v) - .02 * normals.row(v).transpose();
+            benchmark::DoNotOptimize(closest(query, normals.row(v).transpose()).squared_distance);
+        }
+    state.SetItemsProcessed(state.iterations() * e.mesh.vertex_count());
+}
+
+void closest_point_tree(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(ClosestPoint(e.mesh));
+}
+
+#define AT_SIZES Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime()
+BENCHMARK(sampling)->AT_SIZES;
+BENCHMARK(closest_point)->AT_SIZES;
+BENCHMARK(closest_point_tree)->AT_SIZES;
+
+}  // namespace
+}  // namespace varimap::benchmarks

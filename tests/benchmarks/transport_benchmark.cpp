@@ -1,0 +1,82 @@
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/example.h"
+#include "common/transport/sinkhorn.h"
+
+namespace varimap::benchmarks {
+namespace {
+
+constexpr int iterations = 20;
+
+template <class Method>
+void run_sinkhorn(benchmark::State& state, const Method& method) {
+    const Example& e = example(int(state.range(0)));
+    const double largest = e.cost.maxCoeff();
+    const TransportProblem problem{e.support,          e.cost,        e.pair.A.side.mass,
+                                   e.pair.B.side.mass, largest / 300, 10 * largest};
+    Coupling plan;
+    plan.support = e.support;
+    for (auto _ : state) {
+        Potentials potentials = Potentials::zero(e.support.rows(), e.support.columns());
+        method(problem, {0, iterations}, potentials, plan);
+        benchmark::DoNotOptimize(plan.value.data());
+    }
+    state.SetItemsProcessed(state.iterations() * iterations * e.support.entries());
+}
+
+/// Items: entries of the support times iterations.
+void sinkhorn_iterations(benchmark::State& state) {
+    run_sinkhorn(state, sinkhorn);
+}
+void sinkhorn_iterations_in_log_domain(benchmark::State& state) {
+    run_sinkhorn(state, sinkhorn_log_domain);
+}
+
+/// Items: entries of the support.
+void cost(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(CostFactors(e.pair.A.side, e.pair.B.side, e.centres).on(e.support));
+    state.SetItemsProcessed(state.iterations() * e.support.entries());
+}
+
+/// A solved plan of the example.
+Coupling solved_plan(const Example& e) {
+    const double largest = e.cost.maxCoeff();
+    Coupling plan;
+    plan.support = e.support;
+    Potentials potentials = Potentials::zero(e.support.rows(), e.support.columns());
+    sinkhorn({e.support, e.cost, e.pair.A.side.mass, e.pair.B.side.mass, largest / 300, 10 * largest},
+             {1e-2, 1000}, potentials, plan);
+    return plan;
+}
+
+/// Items: entries of the grown support.
+void support_growth(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const Coupling plan = solved_plan(e);
+    long entries = 0;
+    for (auto _ : state) {
+        const auto kept = significant_entries(plan, e.pair.A.side.mass, e.pair.B.side.mass, 1e-2);
+        entries = enlarged(kept, e.pair.A.side.weights, e.pair.B.side.weights).entries();
+    }
+    state.SetItemsProcessed(state.iterations() * entries);
+}
+
+/// Items: samples.
+void centres(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const Coupling plan = solved_plan(e);
+    for (auto _ : state) benchmark::DoNotOptimize(update_centres(e.pair.A.side, e.pair.B.side, plan).energy);
+    state.SetItemsProcessed(state.iterations() * (e.support.rows() + e.support.columns()));
+}
+
+#define AT_SIZES Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime()
+BENCHMARK(sinkhorn_iterations)->AT_SIZES;
+BENCHMARK(sinkhorn_iterations_in_log_domain)->AT_SIZES;
+BENCHMARK(cost)->AT_SIZES;
+BENCHMARK(support_growth)->AT_SIZES;
+BENCHMARK(centres)->AT_SIZES;
+
+}  // namespace
+}  // namespace varimap::benchmarks

@@ -1,0 +1,128 @@
+#include "stages/diffuse/diffuse.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+
+#include "common/known_pair.h"
+#include "common/surface_data.h"
+
+namespace varimap {
+namespace {
+
+using shapes::known_pair;
+using shapes::KnownPair;
+
+KnownPair ellipsoids(const std::vector<Vec3>& landmarks) {
+    const TriangleMesh rest = shapes::ellipsoid(3, {1, 1.5, 2.2});
+    return known_pair(rest, shapes::shuffled(rest, 1), {}, 60, landmarks);
+}
+
+KnownPair ellipsoids_with_landmarks() {
+    return ellipsoids({{0, 0, 2.2}, {0, 1.5, 0}, {1, 0, 0}});
+}
+
+// Bounds on mean errors are about 1.5 times what was measured; 0.02 is an edge of these meshes.
+
+TEST(Diffuse, MapsAFigureOntoItsPoseWithoutLandmarks) {
+    const KnownPair figures = shapes::figure_pair(1, false);
+    EXPECT_LT(mean_error(diffuse(figures.context(), {}), figures), .025);  // measured .0157
+}
+
+TEST(Diffuse, GivesAPlanOfTheLastLevel) {
+    const KnownPair pair = ellipsoids_with_landmarks();
+    const PairContext context = pair.context();
+    const Plan plan = diffuse(context, {});
+    EXPECT_LT(mean_error(plan, pair), .02);  // measured .0134
+    const LevelPair last = context.diffusion_level(context.diffusion_levels() - 1);
+    EXPECT_EQ(plan.samples_A, last.A.level.samples);
+    EXPECT_EQ(plan.samples_B, last.B.level.samples);
+    EXPECT_EQ(plan.mass_A, last.A.level.mass);
+    EXPECT_EQ(plan.landmarks, pair.landmarks);
+    const Eigen::VectorXd rows = plan.plan * Eigen::VectorXd::Ones(plan.plan.cols());
+    EXPECT_LT((rows - plan.mass_A).lpNorm<1>(), .02);
+    EXPECT_NEAR(plan.plan.sum(), 1, .01);
+    ASSERT_EQ(plan.position_A.rows(), pair.A.surface.mesh.vertex_count());
+    ASSERT_EQ(plan.position_B.rows(), pair.B.surface.mesh.vertex_count());
+}
+
+TEST(Diffuse, TracesEveryAlternation) {
+    const KnownPair pair = ellipsoids_with_landmarks();
+    const Plan plan = diffuse(pair.context(), {});
+    ASSERT_FALSE(plan.trace.empty());
+    for (std::size_t i = 0; i < plan.trace.size(); ++i) {
+        const TraceRow& row = plan.trace[i];
+        const bool new_level = i == 0 || row.level != plan.trace[i - 1].level;
+        EXPECT_EQ(row.level, i == 0 ? 0 : plan.trace[i - 1].level + new_level);
+        EXPECT_EQ(row.iteration, new_level ? 0 : plan.trace[i - 1].iteration + 1);
+        EXPECT_EQ(row.euclidean, 0);
+        EXPECT_GT(row.energy, 0);
+        EXPECT_GT(row.gamma, 0);
+        EXPECT_LE(row.marginal_error, .011);
+        EXPECT_LE(row.entries, double(row.samples_A) * row.samples_B);
+    }
+    EXPECT_EQ(plan.trace.back().samples_A, int(plan.samples_A.size()));
+}
+
+TEST(Diffuse, StopsAfterTheLevelsAskedFor) {
+    const KnownPair pair = ellipsoids_with_landmarks();
+    const PairContext context = pair.context();
+    DiffuseParams params;
+    params.levels = 3;
+    const Plan plan = diffuse(context, params);
+    EXPECT_EQ(plan.trace.back().level, 2);
+    EXPECT_EQ(plan.samples_A, context.diffusion_level(2).A.level.samples);
+}
+
+TEST(Diffuse, TellsSymmetriesOfAlignedSurfacesApartByWassersteinDistance) {
+    // An ellipsoid has three mirror planes: nothing but position tells its eight octants apart.
+    const KnownPair pair = ellipsoids({});
+    DiffuseParams params;
+    EXPECT_GT(mean_error(diffuse(pair.context(), params), pair), .1);
+    params.start = "wasserstein";
+    params.wasserstein_weight = .1;
+    EXPECT_LT(mean_error(diffuse(pair.context(), params), pair), .02);  // measured .0141
+}
+
+TEST(Diffuse, IsTheSameToTheLastBitForAnyThreads) {
+    const KnownPair pair = ellipsoids_with_landmarks();
+    const auto bytes = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return encode(diffuse(pair.context(), {}));
+    };
+    EXPECT_EQ(bytes(1), bytes(2));
+}
+
+TEST(Diffuse, IgnoresTheSignsOfEigenfunctions) {
+    KnownPair pair = ellipsoids_with_landmarks();
+    DiffuseParams params;
+    params.levels = 6;
+    const Plan before = diffuse(pair.context(), params);
+    for (int k = 1; k < pair.B.basis.functions.cols(); k += 2) pair.B.basis.functions.col(k) *= -1;
+    const Plan after = diffuse(pair.context(), params);
+    EXPECT_EQ(before.samples_B, after.samples_B);
+    EXPECT_LT((before.plan - after.plan).norm(), 1e-9 * before.plan.norm());
+}
+
+TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
+    const KnownPair pair = ellipsoids_with_landmarks();
+    const auto energy_with = [&](const TriangleMesh& other, const std::vector<int>& old_vertex) {
+        KnownPair changed = pair;
+        changed.B = shapes::surface_data(shapes::unit_surface(other), 60);
+        for (auto& [a, b] : changed.landmarks)
+            b = int(std::find(old_vertex.begin(), old_vertex.end(), b) - old_vertex.begin());
+        const Plan plan = diffuse(changed.context(), {});
+        return plan.trace.back().energy;
+    };
+    const TriangleMesh& B = pair.B.surface.mesh;
+    std::vector<int> old_vertex;
+    const double plain = energy_with(B, pair.B.surface.vertex_of_input);
+    EXPECT_NEAR(energy_with(shapes::moved(B, 30, 1, {4, 5, 6}), pair.B.surface.vertex_of_input), plain,
+                .01 * plain);
+    const TriangleMesh shuffled = shapes::shuffled(B, 9, &old_vertex);
+    EXPECT_NEAR(energy_with(shuffled, old_vertex), plain, .03 * plain);
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,105 @@
+#include "stages/refine/refine.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "common/known_pair.h"
+#include "common/stage/error.h"
+#include "stages/diffuse/diffuse.h"
+
+namespace varimap {
+namespace {
+
+using shapes::known_pair;
+using shapes::KnownPair;
+
+KnownPair ellipsoids() {
+    const TriangleMesh rest = shapes::ellipsoid(3, {1, 1.5, 2.2});
+    return known_pair(rest, shapes::shuffled(rest, 1), {}, 60, {{0, 0, 2.2}, {0, 1.5, 0}, {1, 0, 0}});
+}
+
+/// A plan of both stages has every vertex as a sample, maps landmarks exactly, and is within `bound` of the
+/// truth on average, nearer than the diffusion levels leave it.
+void expect_refined(const KnownPair& pair, double bound) {
+    const PairContext context = pair.context();
+    const Plan coarse = diffuse(context, {}), plan = refine(context, coarse, {});
+    const double before = mean_error(coarse, pair), after = mean_error(plan, pair);
+    EXPECT_LT(after, before);
+    EXPECT_LT(after, bound) << "from " << before;
+    EXPECT_EQ(int(plan.samples_A.size()), pair.A.surface.mesh.vertex_count());
+    EXPECT_EQ(int(plan.samples_B.size()), pair.B.surface.mesh.vertex_count());
+    EXPECT_EQ(plan.mass_A, pair.A.surface.mass);
+    EXPECT_EQ(plan.landmarks, pair.landmarks);
+    for (const auto& [a, b] : pair.landmarks) {
+        EXPECT_LT((plan.position_A.row(a) - pair.B.surface.mesh.vertices.row(b)).norm(), 1e-12);
+        EXPECT_LT((plan.position_B.row(b) - pair.A.surface.mesh.vertices.row(a)).norm(), 1e-12);
+    }
+}
+
+// Bounds on mean errors are about 1.5 times what was measured; 0.02 is an edge of these meshes.
+
+TEST(Refine, MapsAFigureOntoItsPose) {
+    expect_refined(shapes::figure_pair(1, true), .015);
+}  // measured .0093
+
+TEST(Refine, MapsAnEllipsoid) {
+    expect_refined(ellipsoids(), .005);
+}  // measured .0027
+
+TEST(Refine, MapsABentTubeWithOpenEnds) {
+    // Hardly anything but landmarks on all its sides tells how a tube is turned about its axis.
+    expect_refined(
+        known_pair(shapes::tube(50, 24, false), shapes::tube(46, 26, false, .4), shapes::tube_pose(1.2), 60,
+                   {{0, .45, 0}, {0, 0, .36}, {4, .29, 0}, {4, 0, .23}, {1, .35, .45}, {2, -.37, 0}}),
+        .03);  // measured .018
+}
+
+TEST(Refine, GoesOnWithTheTrace) {
+    const KnownPair pair = ellipsoids();
+    const PairContext context = pair.context();
+    const Plan coarse = diffuse(context, {});
+    RefineParams params;
+    params.levels = 1;
+    const Plan plan = refine(context, coarse, params);
+    ASSERT_GT(plan.trace.size(), coarse.trace.size());
+    for (std::size_t i = 0; i < coarse.trace.size(); ++i)
+        EXPECT_EQ(plan.trace[i].energy, coarse.trace[i].energy);
+    EXPECT_EQ(plan.trace.back().level, coarse.trace.back().level + 1);
+    EXPECT_EQ(plan.trace.back().euclidean, 1);
+}
+
+TEST(Refine, StoppedEarlyStillHasACentreForEveryVertex) {
+    const KnownPair pair = ellipsoids();
+    const PairContext context = pair.context();
+    RefineParams params;
+    params.levels = 1;
+    const Plan plan = refine(context, diffuse(context, {}), params);
+    EXPECT_EQ(plan.samples_A, context.euclidean_level(0, 1).A.level.samples);
+    EXPECT_EQ(plan.position_A.rows(), pair.A.surface.mesh.vertex_count());
+    EXPECT_EQ(plan.position_B.rows(), pair.B.surface.mesh.vertex_count());
+    EXPECT_LT(mean_error(plan, pair), .03);
+}
+
+TEST(Refine, RefusesThePlanOfOtherSurfaces) {
+    const KnownPair pair = ellipsoids();
+    const PairContext context = pair.context();
+    DiffuseParams coarse;
+    coarse.levels = 3;
+    Plan plan = diffuse(context, coarse);
+    plan.samples_B.back() = plan.samples_B.front();
+    EXPECT_THROW(refine(context, plan, {}), ArtifactError);
+}
+
+TEST(Refine, IsTheSameToTheLastBitForAnyThreads) {
+    const KnownPair pair = ellipsoids();
+    const PairContext context = pair.context();
+    const Plan coarse = diffuse(context, {});
+    const auto bytes = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return encode(refine(context, coarse, {}));
+    };
+    EXPECT_EQ(bytes(1), bytes(2));
+}
+
+}  // namespace
+}  // namespace varimap
