@@ -14,8 +14,8 @@ using Frame = Eigen::Matrix<double, 3, 2>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int halvings = 6;
-constexpr double longest_step = 0.05;  ///< of one vertex, in units of sqrt(area)
+constexpr double least_share = 1.0 / 64;  ///< of a step
+constexpr double longest_step = 0.05;     ///< of one vertex, in units of sqrt(area)
 
 struct FaceSystem {
     double value;  ///< energy per area
@@ -36,30 +36,45 @@ struct RobustExcess {
     double slope(double v) const { return robustness > 0 ? 1 / (1 + excess(v) / robustness) : 1; }
 };
 
-/// Gradient and convex Hessian of one face by the tangent coordinates of its corners.
+/// A tangent frame turned into the plane with unit normal `up` the shortest way.
+Frame turned(const Frame& frame, const Vec3& up) {
+    const Vec3 normal = frame.col(0).cross(frame.col(1));
+    const double cosine = normal.dot(up);
+    if (cosine < -0.999) return frame;
+    return frame - (normal + up) * (up.transpose() * frame) / (1 + cosine);
+}
+
+/// Gradient and convex Hessian of one face by the tangent coordinates of its corners. The Hessian takes the
+/// surface as unfolded into the face's plane: in space, what bends with the surface would count as strain.
 FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, int f,
                        const FoldEnergy& energy) {
     const auto corners = map.source().faces.row(f);
     const RestTriangle& rest = map.rest(f);
     const Chord chord = map.chord(f);
     const auto d = energy.derivatives(chord.q, chord.D);
-    Vector6 q, D;
+    const Vec3 up = chord.up.normalized();
+    Frame flat[3];
+    for (int i = 0; i < 3; ++i) flat[i] = turned(frames[std::size_t(corners[i])], up);
+    Vector6 q, D, gradient;
     Matrix6 hessian;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const Vec3 &x = map.image(corners[i]), &y = map.image(corners[j]), &z = map.image(corners[k]);
-        const Frame& frame = frames[std::size_t(corners[i])];
         const double cj = rest.cotangent[j], ck = rest.cotangent[k];
-        q.segment<2>(2 * i) = frame.transpose() * (ck * (x - y) + cj * (x - z)) / rest.area;
-        D.segment<2>(2 * i) = frame.transpose() * chord.up.cross(z - y) / (2 * rest.area);
+        const Vec3 by_q = (ck * (x - y) + cj * (x - z)) / rest.area;
+        const Vec3 by_D = chord.up.cross(z - y) / (2 * rest.area);
+        gradient.segment<2>(2 * i) =
+            rest.area * frames[std::size_t(corners[i])].transpose() * (d.f_q * by_q + d.f_D * by_D);
+        q.segment<2>(2 * i) = flat[i].transpose() * by_q;
+        D.segment<2>(2 * i) = flat[i].transpose() * by_D;
         hessian.block<2, 2>(2 * i, 2 * i) = d.f_q * (cj + ck) * Eigen::Matrix2d::Identity();
-        const Eigen::Matrix2d mixed = -d.f_q * ck * frame.transpose() * frames[std::size_t(corners[j])];
+        const Eigen::Matrix2d mixed = -d.f_q * ck * flat[i].transpose() * flat[j];
         hessian.block<2, 2>(2 * i, 2 * j) = mixed;
         hessian.block<2, 2>(2 * j, 2 * i) = mixed.transpose();
     }
     hessian +=
         rest.area * (d.f_qD * (q * D.transpose() + D * q.transpose()) + d.convex_DD * D * D.transpose());
-    return {d.f, rest.area * (d.f_q * q + d.f_D * D), hessian};
+    return {d.f, gradient, hessian};
 }
 
 }  // namespace
@@ -200,15 +215,19 @@ double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     if (!direction.allFinite()) return 0;
     const PointMap start = s.map.points();
     const double before = s.total(energy, robust);
-    double share = 1;
-    for (int i = 0; i <= halvings; ++i, share /= 2) {
+    // Curved targets make full steps overshoot: the share is halved for as long as that helps.
+    double best = before, best_share = 0;
+    for (double share = 1; share >= least_share; share /= 2) {
         s.walk(start, direction, share);
         const double after = s.total(energy, robust);
-        if (getenv("VV")) fprintf(stderr,"share %g  %g -> %g\n",share,before,after);
-        if (after < before) return 1 - after / before;
+        if (after >= best && best_share > 0) break;
+        if (after < best) {
+            best = after;
+            best_share = share;
+        }
     }
-    for (const int v : s.free) s.map.place(v, start[std::size_t(v)]);
-    return 0;
+    s.walk(start, direction, best_share);
+    return before > 0 ? 1 - best / before : 0;
 }
 
 }  // namespace varimap

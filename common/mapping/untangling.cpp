@@ -1,6 +1,7 @@
 #include "common/mapping/untangling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/mapping/fold_removal.h"
@@ -12,8 +13,12 @@ namespace varimap {
 
 namespace {
 
-constexpr double first_regularisation = 0.3;  ///< folds still pass through each other
-constexpr double last_regularisation = 0.1;
+/// Two rounds of relaxation and removal of folds.
+struct Round {
+    double regularisation;     ///< e; where it is large, folds pass through each other
+    double robustness_factor;  ///< on the option
+};
+constexpr std::array<Round, 2> rounds{{{0.3, 3}, {0.1, 1}}};
 constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
 std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fixed) {
@@ -24,16 +29,16 @@ std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fi
 }
 
 /// Global steps, each followed by a local sweep that lets single vertices out of corners.
-int relax(MovingMap& map, const std::vector<char>& fixed, double regularisation,
+int relax(MovingMap& map, const std::vector<char>& fixed, const Round& round,
           const UntanglingOptions& options) {
     if (options.global_steps == 0) return 0;
-    const FoldEnergy energy{options.area_weight, regularisation};
+    const FoldEnergy energy{options.area_weight, round.regularisation};
     GlobalRelaxation global(map, fixed);
     LocalRelaxation local(map, 99);
     std::vector<int> vertices = free_vertices(map, fixed);
     int steps = 0;
     for (; steps < options.global_steps; ++steps) {
-        const double gain = global.step(energy, options.robustness);
+        const double gain = global.step(energy, round.robustness_factor * options.robustness);
         local.sweep(vertices, energy, false);
         if (gain < converged && steps > 2) break;
     }
@@ -65,8 +70,8 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
     std::vector<char> fixed = pinned;
     fix_mirrored_parts(moving, options.gate, fixed, report);
     const FoldRemoval remove_folds{options.fold_sweeps};
-    for (const double regularisation : {first_regularisation, last_regularisation}) {
-        report.global_steps += relax(moving, fixed, regularisation, options);
+    for (const Round& round : rounds) {
+        report.global_steps += relax(moving, fixed, round, options);
         report.sweeps += remove_folds(moving, fixed);
     }
     const Distortion after = measure_distortion(moving.points(), source, target);

@@ -40,7 +40,8 @@ double log_sum_line(int begin, int end, double log_background, const Eigen::Arra
     double sum = std::exp(log_background - top);
     for (int e = begin; e < end; ++e) {
         const auto [k, log_kernel] = entry(e);
-        sum += std::exp(other[k] + log_kernel - top);
+        const double below_top = other[k] + log_kernel - top;
+        if (below_top > -40) sum += std::exp(below_top);  // less is beyond the sum's last digit
     }
     return top + std::log(sum);
 }
@@ -93,7 +94,7 @@ void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potenti
 }
 
 /// Scalings beyond this range (or its inverse) are absorbed into the potentials.
-constexpr double safe_scaling = 1e3;
+constexpr double safe_scaling = 1e2;
 
 /// A sparse matrix in the order in which one of the two products reads it.
 struct CompressedLines {
@@ -191,10 +192,16 @@ class ScalingUpdate {
     Eigen::ArrayXd correction_;
 };
 
-void scale_plan(const TransportProblem& p, const Eigen::VectorXd& u, const Eigen::VectorXd& w, Coupling& plan) {
+/// The plan from the absorbed kernel and its scalings. Entries that the products left out become zero, so that
+/// later sums can skip them.
+void scale_plan(const TransportProblem& p, const Eigen::VectorXd& u, const Eigen::VectorXd& w, double negligible,
+                Coupling& plan) {
     parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
-        for (int e = p.support.row_begin[i]; e < p.support.row_begin[i + 1]; ++e)
-            plan.value[e] *= u[i] * w[p.support.column[e]];
+        for (int e = p.support.row_begin[i]; e < p.support.row_begin[i + 1]; ++e) {
+            const int j = p.support.column[e];
+            const bool counts = plan.value[e] >= negligible * std::min(p.row_mass[i], p.column_mass[j]);
+            plan.value[e] = counts ? plan.value[e] * u[i] * w[j] : 0.0;
+        }
     });
     plan.row_background = plan.row_background.cwiseProduct(u);
     plan.column_background = plan.column_background.cwiseProduct(w);
@@ -204,6 +211,7 @@ void scale_plan(const TransportProblem& p, const Eigen::VectorXd& u, const Eigen
 
 SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& options, Potentials& potentials,
                         Coupling& plan) {
+    const double negligible = 1e-8 * options.tolerance;
     const LogKernel log_kernel(p);
     SinkhornReport report;
     while (true) {
@@ -213,7 +221,7 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
         form_plan(p, log_kernel, potentials, plan);
         ++report.iterations;
 
-        const ScaledKernel kernel(p, plan, 1e-10 * options.tolerance);
+        const ScaledKernel kernel(p, plan, negligible);
         Eigen::VectorXd u = Eigen::VectorXd::Ones(p.row_mass.size()), w = Eigen::VectorXd::Ones(p.column_mass.size());
         const ScalingUpdate update_u(p, p.row_mass, potentials.row), update_w(p, p.column_mass, potentials.column);
         bool safe = true, done = false;
@@ -233,7 +241,7 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
         potentials.row.array() += p.gamma * u.array().log();
         potentials.column.array() += p.gamma * w.array().log();
         if (done) {
-            scale_plan(p, u, w, plan);
+            scale_plan(p, u, w, negligible, plan);
             return report;
         }
     }
