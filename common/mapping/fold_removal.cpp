@@ -11,11 +11,11 @@ namespace varimap {
 
 namespace {
 
-constexpr int patience = 60;   ///< sweeps without fewer folds or a better worst face
+constexpr int patience = 40;   ///< sweeps without fewer folds or a better worst face
 constexpr int polishing = 10;  ///< sweeps once nothing is folded
 constexpr int leap_period = 4;
 constexpr double least_regularisation = 1e-4;
-constexpr std::array<double, 4> weights{1, 0.2, 1, 0.05};  ///< one round each, with new orders
+constexpr std::array<double, 3> weights{1, 0.2, 0.05};
 constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
 
 /// Vertices that may move to unfold `folded`: those of the faces and of `rings` rings around them.
@@ -122,8 +122,8 @@ int FoldRemoval::operator()(MovingMap& map, const std::vector<char>& fixed) cons
     int sweeps = 0;
     double visits = most_visits * double(map.points().size());
     std::uint32_t seed = 1;
-    for (const double weight : weights)
-        for (const int reach : rings) {
+    for (const int reach : rings)
+        for (const double weight : weights) {
             const std::vector<int> folded = folded_faces(map, fixed);
             if (folded.empty()) return sweeps;
             const std::vector<int> patch = patch_around(map, folded, reach, fixed);

@@ -15,6 +15,14 @@ RowMatrix cell_means(const Level& level, const LevelSide& fine) {
     return total.cwiseInverse().asDiagonal() * mean;
 }
 
+/// The members with W >= 0.7: about half of a Gaussian neighbourhood cut at 0.5. Euclidean neighbourhoods are rich
+/// enough to let the support grow by these alone.
+SparseMatrix nearer_half(const SparseMatrix& weights) {
+    SparseMatrix near = weights;
+    near.prune([](Eigen::Index, Eigen::Index, double w) { return w >= 0.7; });
+    return near;
+}
+
 RowMatrix rows_of(const RowMatrix& matrix, const std::vector<int>& rows) { return matrix(rows, Eigen::all); }
 
 }  // namespace
@@ -24,6 +32,7 @@ LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::Vec
     side.points = rows_of(vertex_points, level.samples);
     side.mass = level.mass;
     side.weights = level.weights;
+    side.reach = level.kind == LevelKind::euclidean ? nearer_half(level.weights) : level.weights;
     side.averaging = averaging_operator(level.weights, level.mass);
     side.partner.assign(level.samples.size(), -1);
     return {std::move(level), std::move(vertex_points), vertex_mass, std::move(side)};

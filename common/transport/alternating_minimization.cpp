@@ -49,7 +49,7 @@ void AlternatingMinimization::start(const Centres& centres, const KeptEntries& k
     const int rows = int(X_.mass.size()), columns = int(Y_.mass.size());
     solution_.step.centres = centres;
     solution_.potentials = Potentials::zero(rows, columns);
-    solution_.plan.support = kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.weights, Y_.weights);
+    solution_.plan.support = kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.reach, Y_.reach);
     fresh_ = true;
 }
 
@@ -57,7 +57,7 @@ void AlternatingMinimization::renew_support() {
     const long full = long(X_.mass.size()) * long(Y_.mass.size());
     if (full <= full_plan_entries && solution_.plan.support.entries() == full) return;
     const KeptEntries kept = significant_entries(solution_.plan, X_.mass, Y_.mass, options_.support_threshold);
-    solution_.plan.support = enlarged(kept, X_.weights, Y_.weights);
+    solution_.plan.support = enlarged(kept, X_.reach, Y_.reach);
 }
 
 Alternation AlternatingMinimization::step() {

@@ -12,6 +12,7 @@ struct Side {
     RowMatrix points;          ///< samples x D: the embedding in which the OTHER side's images are averaged and spread
     Eigen::VectorXd mass;      ///< per sample, sums to 1
     SparseMatrix weights;      ///< row k: W_k(x_i) over its neighbourhood
+    SparseMatrix reach;        ///< pattern of the neighbourhoods by which the plan's support grows; holds the diagonal
     SparseMatrix averaging;    ///< P: p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'); rows sum to 1
     std::vector<int> partner;  ///< per sample: the other side's sample it is pinned to (a landmark), or -1
     RowMatrix aligned;          ///< samples x 3 positions times sqrt(weight) of the Wasserstein-2 term; may be empty

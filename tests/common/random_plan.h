@@ -52,6 +52,7 @@ class Generator {
         side.points = points(n, dimension);
         side.mass = mass(n);
         side.weights = weights(n, .2);
+        side.reach = side.weights;
         side.averaging = averaging_operator(side.weights, side.mass);
         side.partner.assign(n, -1);
         return side;
