@@ -19,6 +19,8 @@ struct Round {
     double robustness_factor;  ///< on the option
 };
 constexpr std::array<Round, 2> rounds{{{0.3, 3}, {0.1, 1}}};
+constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
+constexpr int least_steps = 2;
 constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
 std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fixed) {
@@ -36,8 +38,11 @@ int relax(MovingMap& map, const std::vector<char>& fixed, const Round& round,
     GlobalRelaxation global(map, fixed);
     LocalRelaxation local(map, 99);
     std::vector<int> vertices = free_vertices(map, fixed);
+    // A factorisation takes more than linear time; the first steps are those that matter.
+    const double affordable = options.global_steps * large / double(vertices.size() + 1);
+    const int most = std::min(options.global_steps, std::max(least_steps, int(affordable)));
     int steps = 0;
-    for (; steps < options.global_steps; ++steps) {
+    for (; steps < most; ++steps) {
         const double gain = global.step(energy, round.robustness_factor * options.robustness);
         local.sweep(vertices, energy, false);
         if (gain < converged && steps > 2) break;

@@ -65,6 +65,7 @@ TEST(AlternatingMinimization, RunsUntilTheEnergySettles) {
     const LevelPair pair = tube_level();
     AlternationOptions options;
     options.maximum_alternations = 100;
+    options.mass_penalty = 0;  // exact marginals
     AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
     minimization.start(zero_centres(pair), {});
     std::vector<Alternation> steps;

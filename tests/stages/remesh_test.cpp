@@ -39,6 +39,13 @@ class Remesh : public ::testing::Test {
             B_ = sphere_with_spare_vertex(0.5, Vec3(-1, 0, 5));
     Plan plan_ = identity_plan();
 
+    /// The map as the plan has it.
+    SurfaceMap read_only() const {
+        RemeshParams params;
+        params.untangling.enabled = false;
+        return remesh(A_, B_, plan_, params);
+    }
+
     Plan identity_plan() const {
         Plan plan;
         const int n = A_.mesh.vertex_count();
@@ -57,7 +64,7 @@ class Remesh : public ::testing::Test {
 };
 
 TEST_F(Remesh, MapsInputVerticesToInputFaces) {
-    const SurfaceMap map = remesh(A_, B_, plan_);
+    const SurfaceMap map = read_only();
     ASSERT_EQ(int(map.A_to_B.size()), A_.input.vertex_count());
     EXPECT_EQ(map.A_to_B[0].face, -1);
     for (int v = 1; v < A_.input.vertex_count(); ++v) {
@@ -68,7 +75,7 @@ TEST_F(Remesh, MapsInputVerticesToInputFaces) {
 }
 
 TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
-    const SurfaceMap map = remesh(A_, B_, plan_);
+    const SurfaceMap map = read_only();
     const TriangleMesh moved = cross_remesh(map.A_to_B, A_, B_);
     EXPECT_EQ(moved.faces, A_.input.faces);
     EXPECT_LT((moved.vertices - B_.input.vertices).norm(), 1e-12)
@@ -83,7 +90,7 @@ void expect_finite_numbers(const Json& json, const std::string& where) {
 }
 
 TEST_F(Remesh, QualityHasTheDocumentedKeys) {
-    const Json quality = Json::parse(remesh(A_, B_, plan_).quality);
+    const Json quality = Json::parse(read_only().quality);
     expect_finite_numbers(quality, "");
     EXPECT_EQ(quality["energy"], 0.25);
     ASSERT_EQ(quality["landmarks"].size(), 1u);
@@ -94,6 +101,9 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
         EXPECT_EQ(numbers["flipped_area_percent"], 0);
         EXPECT_NEAR(numbers["dirichlet_energy"], 1, 1e-9);
         EXPECT_NEAR(numbers["coverage"], 1, 1e-9);
+        EXPECT_EQ(numbers["untangling"]["flipped_before"], 0);
+        EXPECT_EQ(numbers["untangling"]["flipped_after"], 0);
+        EXPECT_EQ(numbers["untangling"]["mirrored_parts"], 0);
         EXPECT_EQ(numbers["verification"]["reversed_count"], 0);
         EXPECT_EQ(numbers["verification"]["reversed_area_percent"], 0);
         EXPECT_EQ(numbers["verification"]["branch_points"], 0);
@@ -110,8 +120,23 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
     EXPECT_EQ(quality["source"]["vertices"], A_.mesh.vertex_count());
 }
 
+TEST_F(Remesh, Untangles) {
+    for (int v = 40; v < 60; ++v) plan_.position_A.row(v).swap(plan_.position_A.row(v + 60));
+    plan_.samples_A.pop_back();  // so that the centres alone decide
+    plan_.plan.conservativeResize(int(plan_.samples_A.size()), plan_.plan.cols());
+    const Json tangled = Json::parse(read_only().quality)["source_to_target"];
+    EXPECT_GT(tangled["flipped_count"], 50);
+    EXPECT_EQ(tangled["untangling"]["flipped_after"], tangled["flipped_count"]);
+    const Json quality = Json::parse(remesh(A_, B_, plan_).quality)["source_to_target"];
+    EXPECT_EQ(quality["untangling"]["flipped_before"], tangled["flipped_count"]);
+    EXPECT_EQ(quality["untangling"]["flipped_after"], 0);
+    EXPECT_EQ(quality["flipped_count"], 0);
+    EXPECT_LT((position(B_.input, remesh(A_, B_, plan_).A_to_B[6]) - B_.input.vertex(6)).norm(), 1e-12)
+        << "the landmark, behind the spare vertex";
+}
+
 TEST_F(Remesh, QualitySumsUpTheLevels) {
-    const Json levels = Json::parse(remesh(A_, B_, plan_).quality)["levels"];
+    const Json levels = Json::parse(read_only().quality)["levels"];
     ASSERT_EQ(levels.size(), 2u);
     EXPECT_EQ(levels[0]["kind"], "diffusion");
     EXPECT_EQ(levels[0]["iterations"], 2);
@@ -124,7 +149,7 @@ TEST_F(Remesh, QualitySumsUpTheLevels) {
 TEST_F(Remesh, QualityHoldsFiniteNumbersOnly) {
     plan_.trace.back().energy = std::nan("");
     plan_.trace.front().energy = std::numeric_limits<double>::infinity();
-    const Json quality = Json::parse(remesh(A_, B_, plan_).quality);
+    const Json quality = Json::parse(read_only().quality);
     expect_finite_numbers(quality, "");
     EXPECT_FALSE(quality.contains("energy"));
 }
@@ -133,7 +158,7 @@ TEST_F(Remesh, CollapsedMapsHaveFiniteQuality) {
     plan_.position_A.setZero();
     plan_.samples_A.pop_back();
     plan_.plan.conservativeResize(int(plan_.samples_A.size()), plan_.plan.cols());
-    const Json quality = Json::parse(remesh(A_, B_, plan_).quality);
+    const Json quality = Json::parse(read_only().quality);
     expect_finite_numbers(quality, "");
     EXPECT_GT(quality["source_to_target"]["flipped_area_percent"], 90);
 }
