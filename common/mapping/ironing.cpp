@@ -1,5 +1,6 @@
 #include "common/mapping/ironing.h"
 
+#include "common/mapping/reanchoring.h"
 #include "common/mesh/ray_mesh.h"
 #include "common/stage/log.h"
 #include "common/stage/parallel.h"
@@ -111,10 +112,7 @@ void Ironing::restore_weights() {
     pair_.B.side.averaging = averaging_operator(pair_.B.side.weights, pair_.B.side.mass);
 }
 
-void Ironing::iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
-    const auto samples = std::min(pair_.A.level.samples.size(), pair_.B.level.samples.size());
-    if (!options_.enabled || int(samples) < options_.minimum_samples) return;
-    if (int(samples) <= options_.reflected_samples) reflect(minimization, observe);
+void Ironing::damp(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
     PairOrientation orientation = measure(minimization.solution());
     const double before = orientation.reversed_mass();
     double least = before;
@@ -133,6 +131,50 @@ void Ironing::iron(AlternatingMinimization& minimization, const std::function<vo
     minimization.run(observe);
     log("ironed {} rounds: {:.2f}% of the mass reversed before, {:.2f}% after, {:.2f}% with full weights", round,
         100 * before, 100 * orientation.reversed_mass(), 100 * measure(minimization.solution()).reversed_mass());
+}
+
+void Ironing::reanchor(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
+    const PairOrientation before = measure(minimization.solution());
+    const auto parts_A = reversed_parts(pair_.A, before.A_to_B, options_.reanchored_mass);
+    const auto parts_B = reversed_parts(pair_.B, before.B_to_A, options_.reanchored_mass);
+    if (parts_A.empty() && parts_B.empty()) return;
+
+    const Solution& now = minimization.solution();
+    Centres centres = now.step.centres;
+    KeptEntries kept = significant_entries(now.plan, pair_.A.side.mass, pair_.B.side.mass,
+                                           minimization.options().support_threshold);
+    for (const ReversedPart& part : parts_A) {
+        const auto images = reanchored_images(part, pair_.A, before.A_to_B, context_.graph_A(), pair_.B, context_.graph_B());
+        for (size_t n = 0; n < images.size(); ++n) {
+            centres.row.row(part.samples[n]) = pair_.B.side.points.row(images[n]);
+            kept[part.samples[n]].push_back(images[n]);
+        }
+    }
+    for (const ReversedPart& part : parts_B) {
+        const auto images = reanchored_images(part, pair_.B, before.B_to_A, context_.graph_B(), pair_.A, context_.graph_A());
+        for (size_t n = 0; n < images.size(); ++n) {
+            centres.column.row(part.samples[n]) = pair_.A.side.points.row(images[n]);
+            kept[images[n]].push_back(part.samples[n]);
+        }
+    }
+    pin_landmarks(pair_.A.side, pair_.B.side, centres);
+
+    AlternatingMinimization trial(pair_.A.side, pair_.B.side, minimization.options());
+    trial.start(centres, kept);
+    trial.run(observe);
+    const double after = measure(trial.solution()).reversed_mass();
+    log("placed {} and {} reversed parts anew: {:.2f}% of the mass reversed before, {:.2f}% after; energy {:.6g} before, "
+        "{:.6g} after", parts_A.size(), parts_B.size(), 100 * before.reversed_mass(), 100 * after, now.step.energy,
+        trial.solution().step.energy);
+    if (after < before.reversed_mass()) minimization.adopt(trial.take_solution());
+}
+
+void Ironing::iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
+    const int samples = int(std::min(pair_.A.level.samples.size(), pair_.B.level.samples.size()));
+    if (!options_.enabled || samples < options_.minimum_samples) return;
+    if (samples <= options_.reflected_samples) reflect(minimization, observe);
+    damp(minimization, observe);
+    if (samples <= options_.reanchored_samples) reanchor(minimization, observe);
 }
 
 }  // namespace varimap

@@ -12,7 +12,8 @@ namespace varimap {
 /// Keeping the map orientation-preserving (Sec. 4.4). At the end of a level the orientation of the map and of its
 /// inverse is measured at every sample. A map that is reversed on most of the surface is reflected: composed with
 /// the step to the opposite side of the target. Reversed patches are then ironed out: their samples count less
-/// (omega) in the centres and in the cost, so that the well-oriented surroundings pull them over.
+/// (omega) in the centres and in the cost, so that the well-oriented surroundings pull them over. Patches that
+/// remain, typically whole mirrored feet or hands, are placed anew from their surroundings (reanchoring.h).
 struct IroningOptions {
     bool enabled = true;
     int minimum_samples = 100;     ///< below that many samples orientation means nothing
@@ -21,6 +22,8 @@ struct IroningOptions {
     int patience = 5;              ///< rounds without progress after which a level is left as it is
     double tolerated_mass = 0.002; ///< stop when less than this share of the mass is reversed
     double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
+    double reanchored_mass = 0.005;///< reversed patches of at least that mass are placed anew from their surroundings
+    int reanchored_samples = 3000; ///< only on levels with at most that many samples
     int reflected_samples = 1000;  ///< only on levels with at most that many samples: the reflected map starts from the full plan
 };
 
@@ -43,6 +46,8 @@ class Ironing {
   private:
     void reflect(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
     Centres reflected_centres(const PairOrientation& orientation, const Centres& centres) const;
+    void damp(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
+    void reanchor(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
     void set_weights(const PairOrientation& orientation);
     void restore_weights();
 
