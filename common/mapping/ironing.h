@@ -19,7 +19,7 @@ struct IroningOptions {
     int minimum_samples = 100;     ///< below that many samples orientation means nothing
     double omega = 0.01;           ///< weight of a reversed sample (the paper has 0.5, which measured worse)
     int maximum_rounds = 15;       ///< alternations with reduced weights, per level
-    int patience = 5;              ///< rounds without progress after which a level is left as it is
+    int patience = 3;              ///< rounds without progress after which a level is left as it is
     double tolerated_mass = 0.002; ///< stop when less than this share of the mass is reversed
     double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
     double reanchored_mass = 0.005;///< reversed patches of at least that mass are placed anew from their surroundings

@@ -55,20 +55,21 @@ RowMatrix distances_to_samples(const std::vector<int>& sources, const Level& lev
     return distances;
 }
 
-/// Largest distance from any of the vertices to the part's samples.
-double reach_of(const std::vector<int>& sources, const ReversedPart& part, const Level& level, const GeodesicGraph& graph) {
-    double reach = 0;
-    std::vector<char> wanted(graph.vertex_count(), 0);
+/// Distances from each of the vertices `sources` (rows) to the part's samples (columns).
+RowMatrix distances_to_part(const std::vector<int>& sources, const ReversedPart& part, const Level& level,
+                            const GeodesicGraph& graph) {
+    std::vector<int> column_at(graph.vertex_count(), -1);
+    for (size_t n = 0; n < part.samples.size(); ++n) column_at[level.samples[part.samples[n]]] = int(n);
+    RowMatrix distances(sources.size(), part.samples.size());
     GeodesicBall ball(graph);
-    for (int source : sources) {
-        int missing = int(part.samples.size());
-        for (int k : part.samples) wanted[level.samples[k]] = 1;
-        ball.grow(source, [&](int v, double d) {
-            if (wanted[v]) wanted[v] = 0, --missing, reach = std::max(reach, d);
+    for (size_t r = 0; r < sources.size(); ++r) {
+        size_t missing = part.samples.size();
+        ball.grow(sources[r], [&](int v, double d) {
+            if (column_at[v] >= 0) distances(r, column_at[v]) = d, --missing;
             return missing > 0;
         });
     }
-    return reach;
+    return distances;
 }
 
 }  // namespace
@@ -104,14 +105,13 @@ std::vector<int> reanchored_images(const ReversedPart& part, const LevelSide& fr
         here.push_back(from.level.samples[a]);
         there.push_back(orientation.image_vertex[a]);
     }
+    const RowMatrix from_anchors = distances_to_part(here, part, from.level, graph_from);
     // Images may be somewhat further from the anchors' images than the samples are from the anchors.
-    const double radius = 1.5 * reach_of(here, part, from.level, graph_from);
-    const RowMatrix from_anchors = distances_to_samples(here, from.level, graph_from, radius);
-    const RowMatrix from_images = distances_to_samples(there, to.level, graph_to, radius);
+    const RowMatrix from_images = distances_to_samples(there, to.level, graph_to, 1.3 * from_anchors.maxCoeff());
     std::vector<int> images;
-    for (int k : part.samples) {
+    for (Eigen::Index n = 0; n < from_anchors.cols(); ++n) {
         Eigen::Index best;
-        (from_images.colwise() - from_anchors.col(k)).colwise().squaredNorm().minCoeff(&best);
+        (from_images.colwise() - from_anchors.col(n)).colwise().squaredNorm().minCoeff(&best);
         images.push_back(int(best));
     }
     return images;
