@@ -24,10 +24,13 @@ inline void describe(ParameterList& list, AlternationOptions& o) {
 inline void describe(ParameterList& list, IroningOptions& o) {
     list.add("ironing", o.enabled, "removes reversed patches of the map at the end of each level (Sec. 4.4)");
     list.add("ironing_samples", o.minimum_samples, "levels with fewer samples are not ironed", 1, 1000000);
+    list.add("ironing_samples_maximum", o.maximum_samples, "nor are levels with more samples", 1, 100000000);
     list.add("ironing_omega", o.omega, "weight of a reversed sample while it is ironed", 0.0, 1.0);
     list.add("ironing_rounds", o.maximum_rounds, "ironing alternations per level at most", 0, 10000);
     list.add("ironing_patience", o.patience, "rounds without progress after which a level is left", 1, 10000);
     list.add("ironing_tolerance", o.tolerated_mass, "share of the mass that may stay reversed", 0.0, 1.0);
+    list.add("reanchoring_mass", o.reanchored_mass,
+             "reversed patches of at least this share of the mass are placed anew from their surroundings", 0.0, 1.0);
     list.add("reflection_mass", o.reflected_mass, "a map that reverses more than this share of the mass is reflected", 0.0, 1.0);
 }
 

@@ -171,10 +171,10 @@ void Ironing::reanchor(AlternatingMinimization& minimization, const std::functio
 
 void Ironing::iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe) {
     const int samples = int(std::min(pair_.A.level.samples.size(), pair_.B.level.samples.size()));
-    if (!options_.enabled || samples < options_.minimum_samples) return;
+    if (!options_.enabled || samples < options_.minimum_samples || samples > options_.maximum_samples) return;
     if (samples <= options_.reflected_samples) reflect(minimization, observe);
     damp(minimization, observe);
-    if (samples <= options_.reanchored_samples) reanchor(minimization, observe);
+    reanchor(minimization, observe);
 }
 
 }  // namespace varimap

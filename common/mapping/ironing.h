@@ -20,10 +20,10 @@ struct IroningOptions {
     double omega = 0.01;           ///< weight of a reversed sample (the paper has 0.5, which measured worse)
     int maximum_rounds = 15;       ///< alternations with reduced weights, per level
     int patience = 3;              ///< rounds without progress after which a level is left as it is
-    double tolerated_mass = 0.002; ///< stop when less than this share of the mass is reversed
+    double tolerated_mass = 0.01;  ///< stop when less than this share of the mass is reversed
     double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
-    double reanchored_mass = 0.005;///< reversed patches of at least that mass are placed anew from their surroundings
-    int reanchored_samples = 3000; ///< only on levels with at most that many samples
+    double reanchored_mass = 0.008;///< reversed patches of at least that mass are placed anew from their surroundings
+    int maximum_samples = 3000;    ///< finer levels are left to the untangling of the final map
     int reflected_samples = 1000;  ///< only on levels with at most that many samples: the reflected map starts from the full plan
 };
 

@@ -10,11 +10,11 @@ namespace varimap {
 struct UntanglingOptions {
     bool enabled = true;
     int global_steps =
-        8;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
+        4;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
     double area_weight = 1;  ///< w of the fold energy: areas against angles
     double robustness =
         0.3;                ///< excess energy at which a face counts half in global steps; 0: all count fully
-    int fold_sweeps = 300;  ///< sweeps per patch size that remove folds
+    int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
     MirrorGate gate;
 };
 

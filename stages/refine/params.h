@@ -11,6 +11,12 @@ struct RefineParams {
     double last_metric_weight = 0;  ///< mu on the last level
     int levels = 0;                 ///< stop after this many Euclidean levels; 0: all
 
+    RefineParams() {
+        // Sliding along the surface in small steps is left to the untangling, which does it faster.
+        alternation.tolerance = 3e-3;
+        ironing.tolerated_mass = 0.02;
+    }
+
     void describe(ParameterList& list) {
         varimap::describe(list, alternation);
         varimap::describe(list, ironing);

@@ -5,8 +5,8 @@
 namespace varimap {
 
 struct RenderParams {
-    int width = 1600;
-    int samples = 12;
+    int width = 1400;
+    int samples = 9;
     double checker = .09;
     double azimuth = 20;
     double elevation = 8;
