@@ -5,7 +5,7 @@
 namespace varimap {
 
 struct RenderParams {
-    int width = 1400;
+    int width = 1200;
     int samples = 9;
     double checker = .09;
     double azimuth = 20;
