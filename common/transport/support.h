@@ -52,8 +52,8 @@ RowMatrix column_barycentres(const Coupling& plan, const RowMatrix& points);
 std::vector<std::vector<int>> significant_entries(const Coupling& plan, const Eigen::VectorXd& row_mass,
                                                   const Eigen::VectorXd& column_mass, double threshold);
 
-/// Enlarged support (Sec. 4.3): all (x', y') with x' in N_x, y' in N_y for some kept (x, y). Neighbourhoods are the
-/// patterns of the weight matrices, which contain the diagonal.
+/// Enlarged support (Sec. 4.3): all (x', y') with x in N_x', y' in N_y for some kept (x, y). Neighbourhoods are the
+/// patterns of the matrices' rows, which contain the diagonal; they need not be mutual.
 Support enlarged(const std::vector<std::vector<int>>& kept, const SparseMatrix& row_neighbours,
                  const SparseMatrix& column_neighbours);
 
