@@ -9,7 +9,7 @@ namespace varimap {
 namespace {
 
 constexpr double trusted_determinant = 0.3;  ///< anchors are oriented beyond doubt
-constexpr int wanted_anchors = 12;
+constexpr int wanted_anchors = 24;
 constexpr int least_anchors = 6;
 
 /// Well-oriented samples around the part, nearest first.
