@@ -3,33 +3,33 @@
 #include "common/mapping/reanchoring.h"
 #include "common/mesh/ray_mesh.h"
 #include "common/stage/log.h"
-#include "common/stage/parallel.h"
 
 namespace varimap {
 
 namespace {
 
-/// Per row: the other side's vertex of the largest entry.
-std::vector<int> best_rows(const Coupling& plan, const std::vector<int>& column_samples) {
-    const Support& s = plan.support;
-    std::vector<int> best(s.rows(), column_samples[0]);
-    for (int i = 0; i < s.rows(); ++i) {
+/// Per line (row or column) of a plan: the other side's vertex of the largest entry. `entry(e)` gives an entry's value
+/// and its sample on the other side.
+template <class Entry>
+std::vector<int> best_vertices(const std::vector<int>& begin, const std::vector<int>& other_samples, const Entry& entry) {
+    std::vector<int> best(begin.size() - 1, other_samples[0]);
+    for (size_t line = 0; line < best.size(); ++line) {
         double largest = -1;
-        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
-            if (plan.value[e] > largest) largest = plan.value[e], best[i] = column_samples[s.column[e]];
+        for (int e = begin[line]; e < begin[line + 1]; ++e)
+            if (const auto [value, sample] = entry(e); value > largest) largest = value, best[line] = other_samples[sample];
     }
     return best;
 }
 
-std::vector<int> best_columns(const Coupling& plan, const std::vector<int>& row_samples) {
-    const Support& s = plan.support;
-    std::vector<int> best(s.columns(), row_samples[0]);
-    for (int j = 0; j < s.columns(); ++j) {
-        double largest = -1;
-        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e)
-            if (plan.value[s.by_row[e]] > largest) largest = plan.value[s.by_row[e]], best[j] = row_samples[s.row[e]];
-    }
-    return best;
+std::vector<int> best_of_rows(const Coupling& plan, const std::vector<int>& column_samples) {
+    return best_vertices(plan.support.row_begin, column_samples,
+                         [&](int e) { return std::pair(plan.value[e], plan.support.column[e]); });
+}
+
+std::vector<int> best_of_columns(const Coupling& plan, const std::vector<int>& row_samples) {
+    return best_vertices(plan.support.column_begin, row_samples, [&](int e) {
+        return std::pair(plan.value[plan.support.by_row[e]], plan.support.row[e]);
+    });
 }
 
 /// Where the inward normal of a vertex leaves the surface on the other side: the nearest vertex there.
@@ -70,9 +70,9 @@ Ironing::Ironing(const PairContext& context, LevelPair& pair, const IroningOptio
 
 PairOrientation Ironing::measure(const Solution& solution) const {
     return {measure_orientation(pair_.A, oriented_A_, pair_.B, oriented_B_, context_.graph_B(), solution.step.centres.row,
-                                best_rows(solution.plan, pair_.B.level.samples)),
+                                best_of_rows(solution.plan, pair_.B.level.samples)),
             measure_orientation(pair_.B, oriented_B_, pair_.A, oriented_A_, context_.graph_A(), solution.step.centres.column,
-                                best_columns(solution.plan, pair_.A.level.samples))};
+                                best_of_columns(solution.plan, pair_.A.level.samples))};
 }
 
 Centres Ironing::reflected_centres(const PairOrientation& orientation, const Centres& centres) const {
