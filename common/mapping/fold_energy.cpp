@@ -36,6 +36,10 @@ FoldEnergy::Value FoldEnergy::derivatives(double q, double D) const {
     return v;
 }
 
+double RobustExcess::value(double v) const {
+    return robustness > 0 ? robustness * std::log1p(excess(v) / robustness) : excess(v);
+}
+
 std::vector<RestTriangle> rest_triangles(const TriangleMesh& source) {
     std::vector<RestTriangle> rest(std::size_t(source.face_count()));
     for (int f = 0; f < source.face_count(); ++f) {

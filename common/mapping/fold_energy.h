@@ -27,6 +27,18 @@ struct FoldEnergy {
     Value derivatives(double q, double D) const;
 };
 
+/// The excess x of a face's energy (per area) over an isometry's, and its robust function r log(1 + x / r), by
+/// which faces that cannot be isometric count less; r = 0: x itself.
+struct RobustExcess {
+    double least;       ///< the energy of an isometry
+    double robustness;  ///< r
+
+    RobustExcess(const FoldEnergy& energy, double r) : least(energy.value(2, 1)), robustness(r) {}
+    double excess(double value) const { return value > least ? value - least : 0; }
+    double value(double v) const;
+    double slope(double v) const { return robustness > 0 ? 1 / (1 + excess(v) / robustness) : 1; }
+};
+
 /// What the energy needs of a source triangle; area 0: left out.
 struct RestTriangle {
     double area = 0;

@@ -23,19 +23,6 @@ struct FaceSystem {
     Matrix6 hessian;
 };
 
-/// The robust function of the excess energy, and its derivative.
-struct RobustExcess {
-    double least;       ///< the energy of an isometry
-    double robustness;  ///< 0: linear
-
-    RobustExcess(const FoldEnergy& energy, double r) : least(energy.value(2, 1)), robustness(r) {}
-    double excess(double value) const { return std::max(0.0, value - least); }
-    double value(double v) const {
-        return robustness > 0 ? robustness * std::log1p(excess(v) / robustness) : excess(v);
-    }
-    double slope(double v) const { return robustness > 0 ? 1 / (1 + excess(v) / robustness) : 1; }
-};
-
 /// A tangent frame turned into the plane with unit normal `up` the shortest way.
 Frame turned(const Frame& frame, const Vec3& up) {
     const Vec3 normal = frame.col(0).cross(frame.col(1));

@@ -16,9 +16,6 @@ MovingMap::MovingMap(const PointMap& map, const TriangleMesh& source, const Tria
       normal_(map.size(), Vec3::Zero()) {
     for (int v = 0; v < int(map.size()); ++v)
         if (map[std::size_t(v)].face >= 0) place(v, map[std::size_t(v)]);
-    for (int f = 0; f < source_.face_count(); ++f)
-        for (int k = 0; k < 3; ++k)
-            if (points_[std::size_t(source_.faces(f, k))].face < 0) rest_[std::size_t(f)].area = 0;
 }
 
 void MovingMap::place(int v, const SurfacePoint& point) {

@@ -7,7 +7,9 @@
 #include "common/mapping/fold_removal.h"
 #include "common/mapping/global_relaxation.h"
 #include "common/mapping/local_relaxation.h"
+#include "common/mapping/part_replacement.h"
 #include "common/mapping/quality.h"
+#include "common/stage/log.h"
 
 namespace varimap {
 
@@ -78,6 +80,10 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
     for (const Round& round : rounds) {
         report.global_steps += relax(moving, fixed, round, options);
         report.sweeps += remove_folds(moving, fixed);
+        if (&round == &rounds[0] && !getenv("NO_PARTS")) {
+            const PartReplacementReport parts = replace_strained_parts(moving, pinned, {});
+            log("parts: {} tried, {} replaced, {:.2f}%", parts.tried, parts.replaced, parts.area_percent);
+        }
     }
     const Distortion after = measure_distortion(moving.points(), source, target);
     if (after.flipped_area_percent > before.flipped_area_percent) return report;
