@@ -21,7 +21,7 @@ constexpr int relaxation_steps = 4;
 constexpr int fold_sweeps = 60;
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
-constexpr std::array<double, 2> widenings{1.6, 4};
+constexpr std::array<double, 3> widenings{1.6, 4, 10};
 const FoldEnergy judged_energy{1, 0.1};
 
 double excess(const MovingMap& map, int f) {
@@ -144,7 +144,7 @@ class Trial {
         FoldRemoval{fold_sweeps}(map_, held_);
         relax();
         const double new_energy = energy();
-        if (getenv("DEBUG_PARTS")) fprintf(stderr, "part area %.4f: %.5g -> %.5g\n", area_, old_energy, new_energy);
+        if (getenv("DEBUG_PARTS")) { Vec3 c = Vec3::Zero(); int n = 0; for (std::size_t v = 0; v < open_.size(); ++v) if (open_[v]) c += map_.source().vertex(int(v)), ++n; c /= n; fprintf(stderr, "part area %.4f n %d at %.2f %.2f %.2f: %.5g -> %.5g\n", area_, n, c.x(), c.y(), c.z(), old_energy, new_energy); }
         if (new_energy < (1 - options_.gain) * old_energy) return true;
         for (std::size_t v = 0; v < held_.size(); ++v)
             if (open_[v] || !held_[v])

@@ -7,6 +7,7 @@
 #include "common/mapping/fold_removal.h"
 #include "common/mapping/global_relaxation.h"
 #include "common/mapping/local_relaxation.h"
+#include "common/mapping/normal_agreement.h"
 #include "common/mapping/part_replacement.h"
 #include "common/mapping/quality.h"
 #include "common/stage/log.h"
@@ -81,9 +82,18 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
         report.global_steps += relax(moving, fixed, round, options);
         report.sweeps += remove_folds(moving, fixed);
         if (&round == &rounds[0] && !getenv("NO_PARTS")) {
+            for (int k = 0; k < (getenv("ROUNDS") ? atoi(getenv("ROUNDS")) : 3); ++k) {
             const PartReplacementReport parts = replace_strained_parts(moving, pinned, {});
             log("parts: {} tried, {} replaced, {:.2f}%", parts.tried, parts.replaced, parts.area_percent);
+            if (!parts.replaced) break;
+            }
         }
+    }
+    if (!getenv("NO_AGREE")) {
+        NormalAgreement agreement(moving);
+        const auto b = agreement.disagreeing_faces().size();
+        const int moves = agreement.improve(fixed);
+        log("disagreeing {} before, {} after {} moves", b, agreement.disagreeing_faces().size(), moves);
     }
     const Distortion after = measure_distortion(moving.points(), source, target);
     if (after.flipped_area_percent > before.flipped_area_percent) return report;
