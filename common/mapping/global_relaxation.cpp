@@ -70,6 +70,7 @@ struct GlobalRelaxation::State {
     MovingMap& map;
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
+    std::vector<int> faces;  ///< mapped ones with a free corner
     Sparse matrix;  ///< lower triangle
     /// Per face and pair of corners (k, l) with unknown k >= unknown l: where the block's two columns start.
     std::vector<std::array<int, 18>> slot;
@@ -87,10 +88,15 @@ struct GlobalRelaxation::State {
 };
 
 GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed)
-    : map(m), unknown(fixed.size(), -1), frames(fixed.size()) {
+    : map(m), unknown(fixed.size(), -1), frames(fixed.size(), Frame::Zero()) {
     std::vector<char> used(fixed.size(), 0);
-    for (int f = 0; f < map.source().face_count(); ++f)
-        for (int k = 0; k < 3 && map.is_mapped(f); ++k) used[std::size_t(map.source().faces(f, k))] = 1;
+    for (int f = 0; f < map.source().face_count(); ++f) {
+        const auto c = map.source().faces.row(f);
+        const bool movable = !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
+        if (!movable || !map.is_mapped(f)) continue;
+        faces.push_back(f);
+        for (int k = 0; k < 3; ++k) used[std::size_t(c[k])] = 1;
+    }
     for (std::size_t v = 0; v < fixed.size(); ++v) {
         if (fixed[v] || !used[v]) continue;
         unknown[v] = int(free.size());
@@ -103,8 +109,8 @@ void GlobalRelaxation::State::build_pattern() {
     std::vector<Eigen::Triplet<double>> entries;
     const int n = 2 * int(free.size());
     const auto each_block = [&](const auto& body) {
-        for (int f = 0; f < map.source().face_count(); ++f)
-            for (int k = 0; k < 3 && map.is_mapped(f); ++k)
+        for (const int f : faces)
+            for (int k = 0; k < 3; ++k)
                 for (int l = 0; l < 3; ++l) {
                     const int row = unknown[std::size_t(map.source().faces(f, k))];
                     const int column = unknown[std::size_t(map.source().faces(f, l))];
@@ -135,12 +141,10 @@ int GlobalRelaxation::State::find(int row, int column) const {
 }
 
 void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExcess& robust) {
-    for (std::size_t v = 0; v < unknown.size(); ++v)
-        frames[v] = unknown[v] < 0 ? Frame(Frame::Zero()) : map.tangents(int(v));
+    for (const int v : free) frames[std::size_t(v)] = map.tangents(v);
     Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).setZero();
     gradient = Eigen::VectorXd::Zero(matrix.rows());
-    for (int f = 0; f < map.source().face_count(); ++f) {
-        if (!map.is_mapped(f)) continue;
+    for (const int f : faces) {
         const FaceSystem system = face_system(map, frames, f, energy);
         add(f, system, robust.slope(system.value));
     }
@@ -169,8 +173,7 @@ void GlobalRelaxation::State::add(int f, const FaceSystem& system, double weight
 
 double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExcess& robust) const {
     double sum = 0;
-    for (int f = 0; f < map.source().face_count(); ++f) {
-        if (!map.is_mapped(f)) continue;
+    for (const int f : faces) {
         const Chord chord = map.chord(f);
         sum += map.rest(f).area * robust.value(energy.value(chord.q, chord.D));
     }

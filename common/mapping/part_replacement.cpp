@@ -19,6 +19,7 @@ constexpr int smoothing = 3;       ///< rounds of averaging of the excess
 constexpr double saturation = 1;   ///< excess of one face that counts at most
 constexpr int relaxation_steps = 4;
 constexpr int fold_sweeps = 60;
+constexpr double hopeless = 2;  ///< times the energy to beat, before folds are removed
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
 constexpr std::array<double, 3> widenings{1.6, 4, 10};
@@ -136,19 +137,19 @@ class Trial {
     bool run() {
         const PointMap before = map_.points();
         relax();
-        const PointMap relaxed = map_.points();
-        const double old_energy = energy();
-        for (const int v : landmarks_) open_[std::size_t(v)] = 1;
+        const double least = (1 - options_.gain) * energy();
         continue_map(map_, open_);
         for (const int v : landmarks_) map_.place(v, before[std::size_t(v)]);
-        FoldRemoval{fold_sweeps}(map_, held_);
         relax();
-        const double new_energy = energy();
-        if (getenv("DEBUG_PARTS")) { Vec3 c = Vec3::Zero(); int n = 0; for (std::size_t v = 0; v < open_.size(); ++v) if (open_[v]) c += map_.source().vertex(int(v)), ++n; c /= n; fprintf(stderr, "part area %.4f n %d at %.2f %.2f %.2f: %.5g -> %.5g\n", area_, n, c.x(), c.y(), c.z(), old_energy, new_energy); }
-        if (new_energy < (1 - options_.gain) * old_energy) return true;
+        if (energy() < hopeless * least) {
+            FoldRemoval{fold_sweeps}(map_, held_);
+            relax();
+            FoldRemoval{fold_sweeps}(map_, held_);
+        }
+        if (getenv("DEBUG_PARTS")) { Vec3 c = Vec3::Zero(); int n = 0; for (std::size_t v = 0; v < open_.size(); ++v) if (open_[v]) c += map_.source().vertex(int(v)), ++n; c /= n; fprintf(stderr, "part area %.4f n %d at %.2f %.2f %.2f: %.5g -> %.5g\n", area_, n, c.x(), c.y(), c.z(), least, energy()); }
+        if (energy() < least) return true;
         for (std::size_t v = 0; v < held_.size(); ++v)
-            if (open_[v] || !held_[v])
-                if (before[v].face >= 0) map_.place(int(v), before[v]);
+            if ((open_[v] || !held_[v]) && before[v].face >= 0) map_.place(int(v), before[v]);
         return false;
     }
 
@@ -156,7 +157,6 @@ class Trial {
     void relax() {
         GlobalRelaxation global(map_, held_);
         for (int step = 0; step < relaxation_steps; ++step) global.step(judged_energy, options_.robustness);
-        FoldRemoval{fold_sweeps}(map_, held_);
     }
     double energy() const {
         const RobustExcess robust(judged_energy, options_.robustness);
