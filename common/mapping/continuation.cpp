@@ -14,7 +14,7 @@ const FoldEnergy front_energy{1, 0.3};
 
 /// Where the target's tangent plane holds the corner opposite a placed side: the face is laid down beside the
 /// side's image, with its own lengths. False where the side has no length or no side of the target.
-bool lay_down(const MovingMap& map, int f, int corner, Vec3& position) {
+bool lay_down(const MovingMap& map, int f, int corner, double scale, Vec3& position) {
     const auto corners = map.source().faces.row(f);
     const int a = corners[(corner + 1) % 3], b = corners[(corner + 2) % 3];
     const Vec3 here = map.source().vertex(a), side = map.source().vertex(b) - here;
@@ -27,7 +27,7 @@ bool lay_down(const MovingMap& map, int f, int corner, Vec3& position) {
     along.normalize();
     const double parallel = offset.dot(side) / length, height = offset.cross(side).norm() / length;
     const Vec3 middle = (map.image(a) + map.image(b)) / 2;
-    position = middle + (parallel - length / 2) * along + height * up.normalized().cross(along);
+    position = middle + scale * ((parallel - length / 2) * along + height * up.normalized().cross(along));
     return true;
 }
 
@@ -38,7 +38,7 @@ struct Placement {
 
 /// Image of a vertex with placed neighbours: the mean of where its faces put it, reached from the nearest of
 /// their images. False where no face has two placed corners.
-bool predict(const MovingMap& map, int v, Placement& placement) {
+bool predict(const MovingMap& map, int v, double scale, Placement& placement) {
     Vec3 sum = Vec3::Zero();
     int count = 0, nearest = -1;
     double least = 0;
@@ -47,7 +47,7 @@ bool predict(const MovingMap& map, int v, Placement& placement) {
         const int corner = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
         const int a = corners[(corner + 1) % 3], b = corners[(corner + 2) % 3];
         Vec3 position;
-        if (!map.has_image(a) || !map.has_image(b) || !lay_down(map, f, corner, position)) continue;
+        if (!map.has_image(a) || !map.has_image(b) || !lay_down(map, f, corner, scale, position)) continue;
         sum += position;
         ++count;
         for (const int u : {a, b}) {
@@ -75,20 +75,28 @@ std::vector<int> front_of(const MovingMap& map, const std::vector<int>& missing)
 
 }  // namespace
 
-void continue_map(MovingMap& map, const std::vector<char>& open) {
+void continue_map(MovingMap& map, const std::vector<char>& open, double scale) {
     const PointMap before = map.points();
     std::vector<int> missing;
     for (int v = 0; v < int(open.size()); ++v)
         if (open[std::size_t(v)] && map.has_image(v)) missing.push_back(v);
     for (const int v : missing) map.clear(v);
 
+    std::vector<int> scaled;
+    for (int f = 0; f < map.source().face_count(); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (open[std::size_t(map.source().faces(f, k))]) {
+                scaled.push_back(f);
+                break;
+            }
+    map.scale_rest(scaled, scale * scale);
     LocalRelaxation relaxation(map, 7);
     std::vector<std::vector<int>> rings;
     while (!missing.empty()) {
         std::vector<Placement> placements;
         Placement placement;
         for (const int v : front_of(map, missing))
-            if (predict(map, v, placement)) placements.push_back(placement);
+            if (predict(map, v, scale, placement)) placements.push_back(placement);
         if (placements.empty()) break;
         rings.emplace_back();
         for (const Placement& p : placements) {
@@ -101,6 +109,7 @@ void continue_map(MovingMap& map, const std::vector<char>& open) {
             band.insert(band.end(), rings[r].begin(), rings[r].end());
         for (int s = 0; s < sweeps_per_ring; ++s) relaxation.sweep(band, front_energy, false);
     }
+    map.scale_rest(scaled, 1 / (scale * scale));
     for (const int v : missing) map.place(v, before[std::size_t(v)]);
 }
 

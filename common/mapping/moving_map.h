@@ -37,6 +37,10 @@ class MovingMap {
     /// Walks a vertex's image along a tangent vector, from where it is.
     void move(int v, const Vec3& step) { place(v, walk_(points_[std::size_t(v)], step)); }
     void place(int v, const SurfacePoint& point);
+    /// Rest areas of faces times `factor`: the relaxations then aim at lengths times its root.
+    void scale_rest(const std::vector<int>& faces, double factor) {
+        for (const int f : faces) rest_[std::size_t(f)].area *= factor;
+    }
     /// Takes a vertex's image away.
     void clear(int v) { points_[std::size_t(v)].face = -1; }
     /// Where a walk from a point of the target ends.

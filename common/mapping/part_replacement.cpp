@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "common/mapping/chord_mesh.h"
 #include "common/mapping/continuation.h"
 #include "common/mapping/fold_removal.h"
 #include "common/mapping/global_relaxation.h"
-#include "common/mapping/local_relaxation.h"
+#include "common/mesh/closest_point.h"
 
 namespace varimap {
 
@@ -19,7 +22,7 @@ constexpr int smoothing = 3;       ///< rounds of averaging of the excess
 constexpr double saturation = 1;   ///< excess of one face that counts at most
 constexpr int relaxation_steps = 4;
 constexpr int fold_sweeps = 60;
-constexpr double hopeless = 2;  ///< times the energy to beat, before folds are removed
+constexpr double hopeless = 4;         ///< times the energy to beat, before folds are removed
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
 constexpr std::array<double, 3> widenings{1.6, 4, 10};
@@ -107,49 +110,68 @@ Marks widened(const MovingMap& map, const Edges& edges, const std::vector<int>& 
     return inside;
 }
 
+std::vector<double> distances(const GeodesicGraph& graph, const std::vector<int>& sources) {
+    std::vector<double> distance(std::size_t(graph.vertex_count()), std::numeric_limits<double>::infinity());
+    GeodesicBall(graph).grow(sources, [&](int v, double d) {
+        distance[std::size_t(v)] = d;
+        return true;
+    });
+    return distance;
+}
+
+int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
+    int corner;
+    point.barycentric.maxCoeff(&corner);
+    return mesh.faces(point.face, corner);
+}
+
 /// One part under trial.
 class Trial {
   public:
+    /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the surroundings.
     Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options)
-        : map_(map), options_(options), open_(fixed.size(), 1), held_(fixed.size(), 1) {
-        for (int f = 0; f < map.source().face_count(); ++f)
+        : map_(map), options_(options), open_(fixed.size(), 1), held_(fixed.size(), 1), before_(map.points()) {
+        const int face_count = map.source().face_count();
+        const auto corners = [&](int f) { return map.source().faces.row(f); };
+        for (int f = 0; f < face_count; ++f)
             for (int k = 0; k < 3; ++k)
-                if (!inside[std::size_t(f)]) open_[std::size_t(map.source().faces(f, k))] = 0;
-        // What is relaxed reaches one ring into the surroundings.
-        for (int f = 0; f < map.source().face_count(); ++f) {
-            const auto c = map.source().faces.row(f);
-            if (!open_[std::size_t(c[0])] && !open_[std::size_t(c[1])] && !open_[std::size_t(c[2])]) continue;
-            area_ += inside[std::size_t(f)] ? map.rest(f).area : 0;
-            for (int k = 0; k < 3; ++k) held_[std::size_t(c[k])] = fixed[std::size_t(c[k])];
+                if (!inside[std::size_t(f)]) open_[std::size_t(corners(f)[k])] = 0;
+        const auto any = [&](const Marks& marks, int f) {
+            const auto c = corners(f);
+            return marks[std::size_t(c[0])] || marks[std::size_t(c[1])] || marks[std::size_t(c[2])];
+        };
+        for (int f = 0; f < face_count; ++f) {
+            if (!any(open_, f)) continue;
+            area_ += map.rest(f).area;
+            for (int k = 0; k < 3; ++k) held_[std::size_t(corners(f)[k])] = fixed[std::size_t(corners(f)[k])];
         }
-        for (int f = 0; f < map.source().face_count(); ++f) {
-            const auto c = map.source().faces.row(f);
-            if (!held_[std::size_t(c[0])] || !held_[std::size_t(c[1])] || !held_[std::size_t(c[2])])
-                faces_.push_back(f);
-        }
+        Marks free(held_.size());
+        for (std::size_t v = 0; v < free.size(); ++v) free[v] = !held_[v];
+        for (int f = 0; f < face_count; ++f)
+            if (any(free, f)) faces_.push_back(f);
         for (std::size_t v = 0; v < fixed.size(); ++v)
             if (open_[v] && fixed[v]) landmarks_.push_back(int(v));
+        relax();
+        energy_to_beat_ = (1 - options.gain) * energy();
     }
 
     double area() const { return area_; }
+    const Marks& open() const { return open_; }
 
-    /// Maps the part anew; true if that was kept.
-    bool run() {
-        const PointMap before = map_.points();
+    /// Maps the part as proposed; true if that was kept.
+    template <class Proposal>
+    bool run(const Proposal& propose) {
+        propose(open_);
+        for (const int v : landmarks_) map_.place(v, before_[std::size_t(v)]);
         relax();
-        const double least = (1 - options_.gain) * energy();
-        continue_map(map_, open_);
-        for (const int v : landmarks_) map_.place(v, before[std::size_t(v)]);
-        relax();
-        if (energy() < hopeless * least) {
+        if (energy() < hopeless * energy_to_beat_) {
             FoldRemoval{fold_sweeps}(map_, held_);
             relax();
             FoldRemoval{fold_sweeps}(map_, held_);
         }
-        if (getenv("DEBUG_PARTS")) { Vec3 c = Vec3::Zero(); int n = 0; for (std::size_t v = 0; v < open_.size(); ++v) if (open_[v]) c += map_.source().vertex(int(v)), ++n; c /= n; fprintf(stderr, "part area %.4f n %d at %.2f %.2f %.2f: %.5g -> %.5g\n", area_, n, c.x(), c.y(), c.z(), least, energy()); }
-        if (energy() < least) return true;
+        if (energy() < energy_to_beat_) return true;
         for (std::size_t v = 0; v < held_.size(); ++v)
-            if ((open_[v] || !held_[v]) && before[v].face >= 0) map_.place(int(v), before[v]);
+            if ((open_[v] || !held_[v]) && before_[v].face >= 0) map_.place(int(v), before_[v]);
         return false;
     }
 
@@ -161,46 +183,129 @@ class Trial {
     double energy() const {
         const RobustExcess robust(judged_energy, options_.robustness);
         double sum = 0;
-        for (const int f : faces_)
-            if (map_.is_mapped(f)) {
-                const Chord chord = map_.chord(f);
-                sum += map_.rest(f).area * robust.value(judged_energy.value(chord.q, chord.D));
-            }
+        for (const int f : faces_) {
+            if (!map_.is_mapped(f)) continue;
+            const Chord chord = map_.chord(f);
+            sum += map_.rest(f).area * robust.value(judged_energy.value(chord.q, chord.D));
+        }
         return sum;
     }
 
     MovingMap& map_;
     const PartReplacementOptions& options_;
     Marks open_, held_;  ///< vertices that are placed anew; that stay while the part is relaxed
+    PointMap before_;
     std::vector<int> faces_, landmarks_;
-    double area_ = 0;
+    double area_ = 0, energy_to_beat_ = 0;
 };
 
 }  // namespace
 
-PartReplacementReport replace_strained_parts(MovingMap& map, const Marks& fixed,
-                                             const PartReplacementOptions& options) {
-    PartReplacementReport report;
-    const Edges edges = find_edges(map.source());
-    const std::vector<double> strain = smoothed_excess(map);
+PartReplacement::PartReplacement(MovingMap& map, const Marks& fixed, const PartReplacementOptions& options)
+    : map_(map),
+      fixed_(fixed),
+      options_(options),
+      edges_(find_edges(map.source())),
+      source_graph_(map.source()),
+      target_graph_(map.target()),
+      rejected_(std::size_t(map.source().face_count()), 0) {}
+
+/// Largest first; without those that were rejected before.
+std::vector<std::vector<int>> PartReplacement::strained_parts() const {
+    const std::vector<double> strain = smoothed_excess(map_);
     Marks strained(strain.size());
-    for (std::size_t f = 0; f < strain.size(); ++f) strained[f] = strain[f] > options.excess;
-    auto parts = components(edges, strained);
-    std::erase_if(parts, [&](const auto& part) { return area_of(map, part) < options.area; });
+    for (std::size_t f = 0; f < strain.size(); ++f) strained[f] = strain[f] > options_.excess;
+    auto parts = components(edges_, strained);
+    std::erase_if(parts, [&](const auto& part) {
+        const auto known = std::count_if(part.begin(), part.end(), [&](int f) { return rejected_[std::size_t(f)]; });
+        return area_of(map_, part) < options_.area || double(known) > 0.8 * double(part.size());
+    });
     std::stable_sort(parts.begin(), parts.end(),
-                     [&](const auto& a, const auto& b) { return area_of(map, a) > area_of(map, b); });
-    if (int(parts.size()) > options.most_parts) parts.resize(std::size_t(options.most_parts));
-    for (const auto& part : parts) {
-        ++report.tried;
-        for (const double widening : widenings) {
-            Trial trial(map, widened(map, edges, part, widening * area_of(map, part)), fixed, options);
-            if (trial.area() > largest_part || !trial.run()) continue;
-            ++report.replaced;
-            report.area_percent += 100 * trial.area();
-            break;
+                     [&](const auto& a, const auto& b) { return area_of(map_, a) > area_of(map_, b); });
+    if (int(parts.size()) > options_.most_parts) parts.resize(std::size_t(options_.most_parts));
+    return parts;
+}
+
+bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals& proposals) {
+    for (const double widening : widenings) {
+        Trial trial(map_, widened(map_, edges_, part, widening * area_of(map_, part)), fixed_, options_);
+        if (trial.area() > largest_part) return false;
+        for (const Proposal& propose : proposals(trial.open())) {
+            if (!trial.run(propose)) continue;
+            ++report_.replaced;
+            report_.area_percent += 100 * trial.area();
+            return true;
         }
     }
-    return report;
+    return false;
+}
+
+void PartReplacement::replace_parts(const Proposals& proposals) {
+    for (int round = 0; round < options_.rounds; ++round) {
+        bool changed = false;
+        for (const auto& part : strained_parts()) {
+            ++report_.tried;
+            const bool replaced = replace_part(part, proposals);
+            for (const int f : part) rejected_[std::size_t(f)] = !replaced;
+            changed = changed || replaced;
+        }
+        if (!changed) return;
+    }
+}
+
+/// How much further the target reaches beyond the image of the cut than the source beyond the cut.
+double PartReplacement::reach_ratio(const Marks& open) const {
+    std::vector<int> cut, cut_images, other_images;
+    for (int v = 0; v < int(open.size()); ++v) {
+        if (open[std::size_t(v)] || !map_.has_image(v)) continue;
+        bool at_cut = false;
+        for (const int f : map_.faces_of_vertex()[v])
+            for (int k = 0; k < 3; ++k) at_cut = at_cut || open[std::size_t(map_.source().faces(f, k))];
+        if (at_cut) cut.push_back(v);
+        (at_cut ? cut_images : other_images)
+            .push_back(nearest_vertex(map_.target(), map_.points()[std::size_t(v)]));
+    }
+    if (cut.empty() || other_images.empty()) return 1;
+    const auto from_cut = distances(source_graph_, cut);
+    const auto from_image = distances(target_graph_, cut_images), from_others = distances(target_graph_, other_images);
+    double here = 0, there = 0;
+    for (std::size_t v = 0; v < open.size(); ++v)
+        if (open[v] && std::isfinite(from_cut[v])) here = std::max(here, from_cut[v]);
+    for (std::size_t w = 0; w < from_image.size(); ++w)
+        if (from_image[w] < from_others[w] && std::isfinite(from_image[w])) there = std::max(there, from_image[w]);
+    return here > 0 && there > 0 ? std::clamp(there / here, 0.6, 1.6) : 1;
+}
+
+void PartReplacement::continue_surroundings() {
+    constexpr double noticeable = 0.03;  ///< difference of scales
+    replace_parts([&](const Marks& part) {
+        const double ratio = reach_ratio(part);
+        std::vector<Proposal> proposals;
+        if (std::abs(ratio - 1) > noticeable)
+            proposals.push_back([&, ratio](const Marks& open) { continue_map(map_, open, ratio); });
+        proposals.push_back([&](const Marks& open) { continue_map(map_, open, 1); });
+        return proposals;
+    });
+}
+
+void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
+    // The target's faces as they lie on the source.
+    const ChordMesh chords(back, map_.target(), map_.source());
+    const ClosestPoint closest(chords.image);
+    const Points normals = vertex_normals(map_.source());
+    const Proposal invert = [&](const Marks& open) {
+        for (int v = 0; v < int(open.size()); ++v) {
+            if (!open[std::size_t(v)] || !map_.has_image(v)) continue;
+            const SurfacePoint point = closest(map_.source().vertex(v), normals.row(v).transpose()).point;
+            if (chords.is_mapped(point.face)) map_.place(v, point);
+        }
+    };
+    std::fill(rejected_.begin(), rejected_.end(), 0);
+    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_).run(invert)) {
+        ++report_.replaced;
+        report_.area_percent += 100;
+    }
+    replace_parts([&](const Marks&) { return std::vector<Proposal>{invert}; });
 }
 
 }  // namespace varimap

@@ -1,18 +1,21 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/mapping/moving_map.h"
+#include "common/mesh/geodesic_graph.h"
 
 namespace varimap {
 
 /// Which parts of a map are suspected, and how the alternatives are judged.
 struct PartReplacementOptions {
-    double excess = 0.12;      ///< mean excess energy (fold_energy.h) around a face that belongs to a strained part
-    double area = 2e-4;        ///< share of the source's area of the smallest part that is tried
-    double robustness = 0.3;   ///< of the energy by which maps are compared
-    double gain = 0.02;        ///< share of the part's energy an alternative must save
-    int most_parts = 16;
+    double excess = 0.25;    ///< mean excess energy (fold_energy.h) around a face of a strained part, at least
+    double area = 2e-4;      ///< share of the source's area of the smallest part that is tried
+    double robustness = 0.3; ///< of the energy by which maps are compared
+    double gain = 0.02;      ///< share of the energy that an alternative must save
+    int most_parts = 16;     ///< per round
+    int rounds = 3;          ///< a new map of a limb may leave a finger to be done
 };
 
 struct PartReplacementReport {
@@ -20,11 +23,39 @@ struct PartReplacementReport {
     double area_percent = 0;  ///< share of the source's area in replaced parts
 };
 
-/// Mirrored and twisted limbs: a relaxed map is strained where it cannot pass over into its surroundings. Each
-/// strained part, widened by some of its surroundings and by what it cuts off, is mapped anew as the
-/// continuation of the rest of the map (continuation.h) and relaxed; the new map is kept where its energy is
-/// lower. fixed[v]: landmarks, which keep their images.
-PartReplacementReport replace_strained_parts(MovingMap& map, const std::vector<char>& fixed,
-                                             const PartReplacementOptions& options);
+/// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained where
+/// such a part meets its surroundings. Each strained part, widened by some of its surroundings and by what it
+/// cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept.
+class PartReplacement {
+  public:
+    /// fixed[v]: landmarks, which keep their images. Keeps references.
+    PartReplacement(MovingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options);
+
+    /// Maps parts as an isometry would continue the map of their surroundings (continuation.h), at the scale at
+    /// which a limb's end meets the limb's end, and at the source's own.
+    void continue_surroundings();
+    /// Maps parts by the inverse of a map from the target to the source; `whole`: tries all of it first.
+    void adopt_inverse(const PointMap& back, bool whole);
+
+    const PartReplacementReport& report() const { return report_; }
+
+  private:
+    /// Proposes new images for the open vertices in the map, to be relaxed and judged.
+    using Proposal = std::function<void(const std::vector<char>& open)>;
+    /// The proposals for a part, best bets first.
+    using Proposals = std::function<std::vector<Proposal>(const std::vector<char>& open)>;
+    void replace_parts(const Proposals& proposals);
+    bool replace_part(const std::vector<int>& part, const Proposals& proposals);
+    std::vector<std::vector<int>> strained_parts() const;
+    double reach_ratio(const std::vector<char>& open) const;
+
+    MovingMap& map_;
+    const std::vector<char>& fixed_;
+    PartReplacementOptions options_;
+    Edges edges_;
+    GeodesicGraph source_graph_, target_graph_;
+    std::vector<char> rejected_;  ///< faces of parts for which nothing better was found
+    PartReplacementReport report_;
+};
 
 }  // namespace varimap

@@ -1,16 +1,16 @@
 #include "common/mapping/untangling.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <memory>
 
 #include "common/mapping/fold_removal.h"
 #include "common/mapping/global_relaxation.h"
 #include "common/mapping/local_relaxation.h"
 #include "common/mapping/normal_agreement.h"
-#include "common/mapping/part_replacement.h"
 #include "common/mapping/quality.h"
-#include "common/stage/log.h"
 
 namespace varimap {
 
@@ -53,8 +53,12 @@ int relax(MovingMap& map, const std::vector<char>& fixed, const Round& round,
     return steps;
 }
 
-void fix_mirrored_parts(const MovingMap& map, const MirrorGate& gate, std::vector<char>& fixed,
-                        UntanglingReport& report) {
+/// Vertices that stay: the pinned ones and those of mirrored parts.
+std::vector<char> stay(const MovingMap& map, const std::vector<char>& pinned, const MirrorGate& gate,
+                       UntanglingReport& report) {
+    std::vector<char> fixed = pinned;
+    report.mirrored_parts = 0;
+    report.gated_area_percent = 0;
     for (const ReversedPatch& patch : reversed_patches(map)) {
         if (!is_mirrored_part(patch, gate)) continue;
         ++report.mirrored_parts;
@@ -62,45 +66,99 @@ void fix_mirrored_parts(const MovingMap& map, const MirrorGate& gate, std::vecto
         for (const int f : patch.faces)
             for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(f, k))] = 1;
     }
+    return fixed;
 }
+
+/// One direction of a map while it is untangled.
+class Untangling {
+  public:
+    Untangling(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
+               const std::vector<char>& pinned, const UntanglingOptions& options)
+        : map_(map),
+          source_(source),
+          target_(target),
+          pinned_(pinned),
+          options_(options),
+          before_(measure_distortion(map, source, target)),
+          moving_(map, source, target) {
+        report_.flipped_before = report_.flipped_after = before_.flipped_count;
+        report_.flipped_area_percent_before = report_.flipped_area_percent_after = before_.flipped_area_percent;
+    }
+
+    void unfold() {
+        fixed_ = stay(moving_, pinned_, options_.gate, report_);
+        run(rounds[0]);
+        if (!options_.replace_parts) return;
+        replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts);
+        replacement_->continue_surroundings();
+    }
+
+    const PointMap& points() const { return moving_.points(); }
+    void reconcile(const PointMap& back) {
+        if (replacement_) replacement_->adopt_inverse(back, double(pinned_.size()) <= large);
+    }
+
+    const UntanglingReport& report() const { return report_; }
+    UntanglingReport finish() {
+        fixed_ = stay(moving_, pinned_, options_.gate, report_);
+        run(rounds[1]);
+        if (options_.align_normals) align_normals();
+        if (replacement_) {
+            report_.parts_tried = replacement_->report().tried;
+            report_.parts_replaced = replacement_->report().replaced;
+            report_.replaced_area_percent = replacement_->report().area_percent;
+        }
+        const Distortion after = measure_distortion(moving_.points(), source_, target_);
+        if (after.flipped_area_percent > before_.flipped_area_percent) return report_;
+        map_ = moving_.points();
+        report_.flipped_after = after.flipped_count;
+        report_.flipped_area_percent_after = after.flipped_area_percent;
+        return report_;
+    }
+
+  private:
+    void run(const Round& round) {
+        report_.global_steps += relax(moving_, fixed_, round, options_);
+        report_.sweeps += FoldRemoval{options_.fold_sweeps}(moving_, fixed_);
+    }
+    void align_normals() {
+        NormalAgreement agreement(moving_);
+        report_.disagreeing_before = int(agreement.disagreeing_faces().size());
+        agreement.improve(fixed_);
+        report_.disagreeing_after = int(agreement.disagreeing_faces().size());
+    }
+
+    PointMap& map_;
+    const TriangleMesh &source_, &target_;
+    const std::vector<char>& pinned_;
+    const UntanglingOptions& options_;
+    Distortion before_;
+    MovingMap moving_;
+    std::vector<char> fixed_;
+    std::unique_ptr<PartReplacement> replacement_;
+    UntanglingReport report_;
+};
 
 }  // namespace
 
 UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                           const std::vector<char>& pinned, const UntanglingOptions& options) {
-    UntanglingReport report;
-    const Distortion before = measure_distortion(map, source, target);
-    report.flipped_before = report.flipped_after = before.flipped_count;
-    report.flipped_area_percent_before = report.flipped_area_percent_after = before.flipped_area_percent;
-    if (!options.enabled) return report;
+    Untangling untangling(map, source, target, pinned, options);
+    if (!options.enabled) return untangling.report();
+    untangling.unfold();
+    return untangling.finish();
+}
 
-    MovingMap moving(map, source, target);
-    std::vector<char> fixed = pinned;
-    fix_mirrored_parts(moving, options.gate, fixed, report);
-    const FoldRemoval remove_folds{options.fold_sweeps};
-    for (const Round& round : rounds) {
-        report.global_steps += relax(moving, fixed, round, options);
-        report.sweeps += remove_folds(moving, fixed);
-        if (&round == &rounds[0] && !getenv("NO_PARTS")) {
-            for (int k = 0; k < (getenv("ROUNDS") ? atoi(getenv("ROUNDS")) : 3); ++k) {
-            const PartReplacementReport parts = replace_strained_parts(moving, pinned, {});
-            log("parts: {} tried, {} replaced, {:.2f}%", parts.tried, parts.replaced, parts.area_percent);
-            if (!parts.replaced) break;
-            }
-        }
-    }
-    if (!getenv("NO_AGREE")) {
-        NormalAgreement agreement(moving);
-        const auto b = agreement.disagreeing_faces().size();
-        const int moves = agreement.improve(fixed);
-        log("disagreeing {} before, {} after {} moves", b, agreement.disagreeing_faces().size(), moves);
-    }
-    const Distortion after = measure_distortion(moving.points(), source, target);
-    if (after.flipped_area_percent > before.flipped_area_percent) return report;
-    map = moving.points();
-    report.flipped_after = after.flipped_count;
-    report.flipped_area_percent_after = after.flipped_area_percent;
-    return report;
+UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B, const PinnedPair& pinned,
+                           const UntanglingOptions& options) {
+    Untangling there(maps.A_to_B, A, B, pinned.A, options), back(maps.B_to_A, B, A, pinned.B, options);
+    if (!options.enabled) return {there.report(), back.report()};
+    tbb::parallel_invoke([&] { there.unfold(); }, [&] { back.unfold(); });
+    const PointMap A_to_B = there.points(), B_to_A = back.points();
+    tbb::parallel_invoke([&] { there.reconcile(B_to_A); }, [&] { back.reconcile(A_to_B); });
+    UntanglingReports reports;
+    tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
+    return reports;
 }
 
 }  // namespace varimap

@@ -30,8 +30,13 @@ class GeodesicBall {
     /// true.
     template <class Visit>
     void grow(int source, const Visit& visit) {
+        grow(std::vector<int>{source}, visit);
+    }
+    /// The same from the nearest of several sources.
+    template <class Visit>
+    void grow(const std::vector<int>& sources, const Visit& visit) {
         reset();
-        relax(source, 0);
+        for (const int source : sources) relax(source, 0);
         while (!heap_.empty()) {
             const auto [distance, vertex] = pop();
             if (distance > distance_[vertex]) continue;

@@ -33,8 +33,13 @@ Json to_json(const UntanglingReport& report) {
             {"flipped_area_percent_after", report.flipped_area_percent_after},
             {"global_steps", report.global_steps},
             {"sweeps", report.sweeps},
+            {"parts_tried", report.parts_tried},
+            {"parts_replaced", report.parts_replaced},
+            {"replaced_area_percent", report.replaced_area_percent},
             {"mirrored_parts", report.mirrored_parts},
-            {"gated_area_percent", report.gated_area_percent}};
+            {"gated_area_percent", report.gated_area_percent},
+            {"disagreeing_before", report.disagreeing_before},
+            {"disagreeing_after", report.disagreeing_after}};
 }
 
 Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {

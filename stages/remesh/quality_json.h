@@ -11,10 +11,6 @@
 
 namespace varimap {
 
-struct UntanglingReports {
-    UntanglingReport A_to_B, B_to_A;
-};
-
 /// The part of quality.json that depends on the inputs and parameters alone; finite numbers only. A is the
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
 ///   energy            Eq. (3) at the end; absent if the plan has no trace
@@ -25,8 +21,9 @@ struct UntanglingReports {
 ///       verification      reversed_count, reversed_area_percent, branch_points, signed_area_ratio; degree
 ///                         between closed surfaces (definitions: verification.h)
 ///       untangling        flipped_before, flipped_area_percent_before, flipped_after,
-///                         flipped_area_percent_after, global_steps, sweeps, mirrored_parts,
-///                         gated_area_percent (definitions: untangling.h)
+///                         flipped_area_percent_after, global_steps, sweeps, parts_tried,
+///                         parts_replaced, replaced_area_percent, mirrored_parts, gated_area_percent,
+///                         disagreeing_before, disagreeing_after (definitions: untangling.h)
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy

@@ -1,7 +1,5 @@
 #include "stages/remesh/remesh.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include "common/stage/log.h"
 #include "stages/remesh/quality_json.h"
 
@@ -21,37 +19,31 @@ PointMap on_input(const PointMap& images, const Surface& source, const Surface& 
     return map;
 }
 
-/// One direction of a map on its way to the input meshes.
-struct Direction {
-    const Surface& source;
-    const Surface& target;
-    PointMap on_mesh;               ///< of the preprocessed surfaces' vertices
-    std::vector<char> is_landmark;  ///< per vertex of the preprocessed source
-    PointMap on_input = {};
-    UntanglingReport report = {};
-};
+/// Per input vertex, what `marks` says of the mesh vertex it became.
+std::vector<char> on_input(const std::vector<char>& marks, const Surface& surface) {
+    std::vector<char> input(surface.vertex_of_input.size(), 0);
+    for (std::size_t i = 0; i < input.size(); ++i)
+        if (surface.vertex_of_input[i] >= 0) input[i] = marks[std::size_t(surface.vertex_of_input[i])];
+    return input;
+}
 
-void untangle_direction(Direction& direction, UntanglingOptions options) {
-    const Surface &source = direction.source, &target = direction.target;
-    const auto inputs = double(source.input.vertex_count());
-    const bool is_coarse = inputs < coarse_input * double(source.mesh.vertex_count());
-    if (is_coarse && options.enabled)
-        untangle(direction.on_mesh, source.mesh, target.mesh, direction.is_landmark, options);
-    if (is_coarse) options.global_steps = 0;
-    direction.on_input = on_input(direction.on_mesh, source, target);
-    std::vector<char> is_landmark(direction.on_input.size(), 0);
-    for (std::size_t i = 0; i < is_landmark.size(); ++i)
-        if (source.vertex_of_input[i] >= 0)
-            is_landmark[i] = direction.is_landmark[std::size_t(source.vertex_of_input[i])];
-    direction.report = untangle(direction.on_input, source.input, target.input, is_landmark, options);
+bool is_coarse(const Surface& surface) {
+    return double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
+}
+
+PinnedPair pinned_vertices(const Plan& plan, const Surface& A, const Surface& B) {
+    PinnedPair pinned{std::vector<char>(std::size_t(A.mesh.vertex_count()), 0),
+                      std::vector<char>(std::size_t(B.mesh.vertex_count()), 0)};
+    for (const auto& [a, b] : plan.landmarks) pinned.A[std::size_t(a)] = pinned.B[std::size_t(b)] = 1;
+    return pinned;
 }
 
 void log_untangling(const char* name, const UntanglingReport& report) {
     log("{}: {} triangles reversed ({:.3f}% of the area) before untangling, {} ({:.3f}%) after {} global "
-        "steps "
-        "and {} sweeps",
+        "steps and {} sweeps; {} of {} strained parts mapped anew; {} triangles cut through features, {} before",
         name, report.flipped_before, report.flipped_area_percent_before, report.flipped_after,
-        report.flipped_area_percent_after, report.global_steps, report.sweeps);
+        report.flipped_area_percent_after, report.global_steps, report.sweeps, report.parts_replaced,
+        report.parts_tried, report.disagreeing_after, report.disagreeing_before);
     if (report.mirrored_parts > 0)
         warn(
             "{}: {} parts with {:.1f}% of the area are mirrored and were left as they are; rerun "
@@ -63,18 +55,23 @@ void log_untangling(const char* name, const UntanglingReport& report) {
 
 SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const RemeshParams& params) {
     VertexMaps images = read_out(plan, A, B);
-    Direction there{A, B, std::move(images.A_to_B), std::vector<char>(std::size_t(A.mesh.vertex_count()), 0)};
-    Direction back{B, A, std::move(images.B_to_A), std::vector<char>(std::size_t(B.mesh.vertex_count()), 0)};
-    for (const auto& [a, b] : plan.landmarks)
-        there.is_landmark[std::size_t(a)] = back.is_landmark[std::size_t(b)] = 1;
-    tbb::parallel_invoke([&] { untangle_direction(there, params.untangling); },
-                         [&] { untangle_direction(back, params.untangling); });
-    if (params.untangling.enabled) {
-        log_untangling("source to target", there.report);
-        log_untangling("target to source", back.report);
+    MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
+    const PinnedPair pinned = pinned_vertices(plan, A, B);
+    UntanglingOptions options = params.untangling;
+    if (is_coarse(A) || is_coarse(B)) {
+        untangle(maps, A.mesh, B.mesh, pinned, options);
+        options.global_steps = 0;
+        options.replace_parts = false;
     }
-    SurfaceMap map{std::move(there.on_input), std::move(back.on_input), {}};
-    map.quality = quality_json(map, A, B, plan, {there.report, back.report});
+    MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
+    const UntanglingReports reports =
+        untangle(inputs, A.input, B.input, {on_input(pinned.A, A), on_input(pinned.B, B)}, options);
+    if (options.enabled) {
+        log_untangling("source to target", reports.A_to_B);
+        log_untangling("target to source", reports.B_to_A);
+    }
+    SurfaceMap map{std::move(inputs.A_to_B), std::move(inputs.B_to_A), {}};
+    map.quality = quality_json(map, A, B, plan, reports);
     return map;
 }
 
