@@ -16,8 +16,8 @@ namespace {
 constexpr int passes = 8;
 constexpr int directions = 12;
 constexpr std::array<double, 4> radii{0.1, 0.3, 0.8, 1.6};  ///< in mean edges of the vertex's image
-constexpr double disagreement = 10;                         ///< cost per area
-constexpr double reversal = 30;
+constexpr double disagreement = 10;  ///< cost per area
+constexpr double reversal = 100;     ///< cost per face: above all else
 const FoldEnergy energy{1, 0.03};
 const RobustExcess robust{energy, 0.3};
 
@@ -57,8 +57,8 @@ double NormalAgreement::cost(int v, double limit) const {
     for (const int f : faces) {
         if (!map_.is_mapped(f)) continue;
         const Chord chord = map_.chord(f);
-        const double strain = robust.value(energy.value(chord.q, chord.D));
-        sum += map_.rest(f).area * (strain + (chord.D <= FoldRemoval::flat_limit ? reversal : 0));
+        sum += map_.rest(f).area * robust.value(energy.value(chord.q, chord.D));
+        if (chord.D <= FoldRemoval::flat_limit) sum += reversal;
     }
     for (const int f : faces) {
         if (sum >= limit) break;  // what follows asks for many closest points

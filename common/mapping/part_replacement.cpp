@@ -21,7 +21,9 @@ using Marks = std::vector<char>;
 constexpr int smoothing = 3;       ///< rounds of averaging of the excess
 constexpr double saturation = 1;   ///< excess of one face that counts at most
 constexpr int relaxation_steps = 4;
-constexpr int fold_sweeps = 60;
+constexpr int fold_sweeps = 40;
+constexpr double fold_visits = 60;    ///< of a part's vertices, in the mean
+constexpr double promising = 1.5;     ///< times the energy to beat, after folds were removed once
 constexpr double hopeless = 4;         ///< times the energy to beat, before folds are removed
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
@@ -165,10 +167,10 @@ class Trial {
         for (const int v : landmarks_) map_.place(v, before_[std::size_t(v)]);
         relax();
         if (energy() < hopeless * energy_to_beat_) {
-            FoldRemoval{fold_sweeps}(map_, held_);
+            remove_folds();
             relax();
-            FoldRemoval{fold_sweeps}(map_, held_);
         }
+        if (energy() < promising * energy_to_beat_) remove_folds();
         if (energy() < energy_to_beat_) return true;
         for (std::size_t v = 0; v < held_.size(); ++v)
             if ((open_[v] || !held_[v]) && before_[v].face >= 0) map_.place(int(v), before_[v]);
@@ -179,6 +181,10 @@ class Trial {
     void relax() {
         GlobalRelaxation global(map_, held_);
         for (int step = 0; step < relaxation_steps; ++step) global.step(judged_energy, options_.robustness);
+    }
+    void remove_folds() {
+        const double share = double(std::count(held_.begin(), held_.end(), 0)) / double(held_.size());
+        FoldRemoval{fold_sweeps, fold_visits * share}(map_, held_);
     }
     double energy() const {
         const RobustExcess robust(judged_energy, options_.robustness);

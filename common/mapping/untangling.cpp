@@ -20,8 +20,10 @@ namespace {
 struct Round {
     double regularisation;     ///< e; where it is large, folds pass through each other
     double robustness_factor;  ///< on the option
+    double fold_visits;        ///< bounds the removal of folds (fold_removal.h)
 };
-constexpr std::array<Round, 2> rounds{{{0.3, 3}, {0.1, 1}}};
+/// The first leaves crumpled parts to their replacement.
+constexpr std::array<Round, 2> rounds{{{0.3, 3, 30}, {0.1, 1, 150}}};
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
 constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
@@ -119,7 +121,7 @@ class Untangling {
   private:
     void run(const Round& round) {
         report_.global_steps += relax(moving_, fixed_, round, options_);
-        report_.sweeps += FoldRemoval{options_.fold_sweeps}(moving_, fixed_);
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, fixed_);
     }
     void align_normals() {
         NormalAgreement agreement(moving_);
