@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/mapping/global_relaxation.h"
 #include "common/mapping/local_relaxation.h"
 
 namespace varimap {
@@ -10,6 +11,8 @@ namespace {
 
 constexpr int relaxed_rings = 4;  ///< behind the front
 constexpr int sweeps_per_ring = 2;
+constexpr std::size_t rings_per_step = 3;  ///< between relaxations of all that has been placed
+constexpr double robustness = 1;
 const FoldEnergy front_energy{1, 0.3};
 
 /// Where the target's tangent plane holds the corner opposite a placed side: the face is laid down beside the
@@ -92,6 +95,7 @@ void continue_map(MovingMap& map, const std::vector<char>& open, double scale) {
     map.scale_rest(scaled, scale * scale);
     LocalRelaxation relaxation(map, 7);
     std::vector<std::vector<int>> rings;
+    std::vector<char> held(open.size(), 1);  ///< all but what has been placed
     while (!missing.empty()) {
         std::vector<Placement> placements;
         Placement placement;
@@ -108,6 +112,11 @@ void continue_map(MovingMap& map, const std::vector<char>& open, double scale) {
         for (std::size_t r = rings.size() > relaxed_rings ? rings.size() - relaxed_rings : 0; r < rings.size(); ++r)
             band.insert(band.end(), rings[r].begin(), rings[r].end());
         for (int s = 0; s < sweeps_per_ring; ++s) relaxation.sweep(band, front_energy, false);
+        for (const int v : rings.back()) held[std::size_t(v)] = 0;
+        if (rings.size() % rings_per_step == 0 || missing.empty()) {
+            GlobalRelaxation global(map, held);
+            global.step(front_energy, robustness);
+        }
     }
     map.scale_rest(scaled, 1 / (scale * scale));
     for (const int v : missing) map.place(v, before[std::size_t(v)]);

@@ -13,9 +13,9 @@ namespace varimap {
 
 namespace {
 
-constexpr int passes = 8;
+constexpr int passes = 12;
 constexpr int directions = 12;
-constexpr std::array<double, 4> radii{0.1, 0.3, 0.8, 1.6};  ///< in mean edges of the vertex's image
+constexpr std::array<double, 5> radii{0.1, 0.3, 0.7, 1.3, 2.2};  ///< in mean edges of the vertex's image
 constexpr double disagreement = 10;  ///< cost per area
 constexpr double reversal = 100;     ///< cost per face: above all else
 const FoldEnergy energy{1, 0.03};
@@ -43,7 +43,7 @@ bool NormalAgreement::disagrees(int f) const {
 std::vector<int> NormalAgreement::disagreeing_faces() const {
     std::vector<char> marks(std::size_t(map_.source().face_count()), 0);
     parallel_for_each_index<int>(map_.source().face_count(), 64, [&](int f) {
-        marks[std::size_t(f)] = map_.is_mapped(f) && disagrees(f);
+        marks[std::size_t(f)] = map_.is_mapped(f) && (map_.chord(f).D <= 0 || disagrees(f));
     });
     std::vector<int> faces;
     for (int f = 0; f < int(marks.size()); ++f)

@@ -24,6 +24,7 @@ struct Round {
 };
 /// The first leaves crumpled parts to their replacement.
 constexpr std::array<Round, 2> rounds{{{0.3, 3, 30}, {0.1, 1, 150}}};
+constexpr int reconciliations = 2;
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
 constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
@@ -96,8 +97,8 @@ class Untangling {
     }
 
     const PointMap& points() const { return moving_.points(); }
-    void reconcile(const PointMap& back) {
-        if (replacement_) replacement_->adopt_inverse(back, double(pinned_.size()) <= large);
+    void reconcile(const PointMap& back, bool whole) {
+        if (replacement_) replacement_->adopt_inverse(back, whole && double(pinned_.size()) <= large);
     }
 
     const UntanglingReport& report() const { return report_; }
@@ -156,8 +157,11 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     Untangling there(maps.A_to_B, A, B, pinned.A, options), back(maps.B_to_A, B, A, pinned.B, options);
     if (!options.enabled) return {there.report(), back.report()};
     tbb::parallel_invoke([&] { there.unfold(); }, [&] { back.unfold(); });
-    const PointMap A_to_B = there.points(), B_to_A = back.points();
-    tbb::parallel_invoke([&] { there.reconcile(B_to_A); }, [&] { back.reconcile(A_to_B); });
+    for (int round = 0; round < reconciliations; ++round) {
+        const PointMap A_to_B = there.points(), B_to_A = back.points();
+        tbb::parallel_invoke([&] { there.reconcile(B_to_A, round == 0); },
+                             [&] { back.reconcile(A_to_B, round == 0); });
+    }
     UntanglingReports reports;
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;
