@@ -23,7 +23,7 @@ struct IroningOptions {
     double tolerated_mass = 0.01;  ///< stop when less than this share of the mass is reversed
     double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
     double reanchored_mass = 0.008;///< reversed patches of at least that mass are placed anew from their surroundings
-    int maximum_samples = 3000;    ///< finer levels are left to the untangling of the final map
+    int maximum_samples = 20000;   ///< finer levels are left to the untangling of the final map
     int reflected_samples = 1000;  ///< only on levels with at most that many samples: the reflected map starts from the full plan
 };
 

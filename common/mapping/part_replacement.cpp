@@ -21,6 +21,7 @@ using Marks = std::vector<char>;
 constexpr int smoothing = 3;       ///< rounds of averaging of the excess
 constexpr double saturation = 1;   ///< excess of one face that counts at most
 constexpr int relaxation_steps = 4;
+constexpr double relaxed_robustness = 0.3;
 constexpr int fold_sweeps = 40;
 constexpr double fold_visits = 60;    ///< of a part's vertices, in the mean
 constexpr double promising = 1.5;     ///< times the energy to beat, after folds were removed once
@@ -180,7 +181,7 @@ class Trial {
   private:
     void relax() {
         GlobalRelaxation global(map_, held_);
-        for (int step = 0; step < relaxation_steps; ++step) global.step(judged_energy, options_.robustness);
+        for (int step = 0; step < relaxation_steps; ++step) global.step(judged_energy, relaxed_robustness);
     }
     void remove_folds() {
         const double share = double(std::count(held_.begin(), held_.end(), 0)) / double(held_.size());
@@ -220,7 +221,10 @@ PartReplacement::PartReplacement(MovingMap& map, const Marks& fixed, const PartR
 std::vector<std::vector<int>> PartReplacement::strained_parts() const {
     const std::vector<double> strain = smoothed_excess(map_);
     Marks strained(strain.size());
-    for (std::size_t f = 0; f < strain.size(); ++f) strained[f] = strain[f] > options_.excess;
+    std::vector<double> sorted = strain;
+    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
+    const double limit = std::max(options_.excess, options_.contrast * sorted[sorted.size() / 2]);
+    for (std::size_t f = 0; f < strain.size(); ++f) strained[f] = strain[f] > limit;
     auto parts = components(edges_, strained);
     std::erase_if(parts, [&](const auto& part) {
         const auto known = std::count_if(part.begin(), part.end(), [&](int f) { return rejected_[std::size_t(f)]; });
@@ -237,6 +241,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
         Trial trial(map_, widened(map_, edges_, part, widening * area_of(map_, part)), fixed_, options_);
         if (trial.area() > largest_part) return false;
         for (const Proposal& propose : proposals(trial.open())) {
+            visits_ += double(std::count(trial.open().begin(), trial.open().end(), 1));
             if (!trial.run(propose)) continue;
             ++report_.replaced;
             report_.area_percent += 100 * trial.area();
@@ -247,9 +252,12 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
 }
 
 void PartReplacement::replace_parts(const Proposals& proposals) {
+    const double most_visits = options_.most_visits * double(map_.points().size());
+    visits_ = 0;
     for (int round = 0; round < options_.rounds; ++round) {
         bool changed = false;
         for (const auto& part : strained_parts()) {
+            if (visits_ > most_visits) return;
             ++report_.tried;
             const bool replaced = replace_part(part, proposals);
             for (const int f : part) rejected_[std::size_t(f)] = !replaced;

@@ -11,11 +11,13 @@ namespace varimap {
 /// Which parts of a map are suspected, and how the alternatives are judged.
 struct PartReplacementOptions {
     double excess = 0.25;    ///< mean excess energy (fold_energy.h) around a face of a strained part, at least
+    double contrast = 3;     ///< times the median over all faces that it is at least
     double area = 2e-4;      ///< share of the source's area of the smallest part that is tried
-    double robustness = 0.3; ///< of the energy by which maps are compared
+    double robustness = 3;   ///< of the energy by which maps are compared; lower ones think little of spikes
     double gain = 0.02;      ///< share of the energy that an alternative must save
     int most_parts = 16;     ///< per round
     int rounds = 3;          ///< a new map of a limb may leave a finger to be done
+    double most_visits = 8;  ///< of all vertices in the mean, by trials: bounds the time
 };
 
 struct PartReplacementReport {
@@ -55,6 +57,7 @@ class PartReplacement {
     Edges edges_;
     GeodesicGraph source_graph_, target_graph_;
     std::vector<char> rejected_;  ///< faces of parts for which nothing better was found
+    double visits_ = 0;           ///< vertices in trials so far
     PartReplacementReport report_;
 };
 

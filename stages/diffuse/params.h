@@ -13,11 +13,6 @@ struct DiffuseParams {
     double wasserstein_weight = 0; ///< share of the Wasserstein-2 cost added to Eq. (3), for aligned surfaces
     int levels = 0;                ///< stop after this many diffusion levels; 0: all
 
-    DiffuseParams() {
-        // Reflection and reanchoring do most here; reduced weights cost as much again and are kept for varimap-refine.
-        ironing.maximum_rounds = 0;
-    }
-
     void describe(ParameterList& list) {
         varimap::describe(list, alternation);
         varimap::describe(list, ironing);
