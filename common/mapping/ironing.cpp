@@ -143,15 +143,18 @@ void Ironing::reanchor(AlternatingMinimization& minimization, const std::functio
     Centres centres = now.step.centres;
     KeptEntries kept = significant_entries(now.plan, pair_.A.side.mass, pair_.B.side.mass,
                                            minimization.options().support_threshold);
+    const bool coarse = pair_.A.level.kind == LevelKind::diffusion;
+    const GeodesicGraph& graph_A = coarse ? context_.sample_graph_A() : context_.graph_A();
+    const GeodesicGraph& graph_B = coarse ? context_.sample_graph_B() : context_.graph_B();
     for (const ReversedPart& part : parts_A) {
-        const auto images = reanchored_images(part, pair_.A, before.A_to_B, context_.graph_A(), pair_.B, context_.graph_B());
+        const auto images = reanchored_images(part, pair_.A, before.A_to_B, graph_A, pair_.B, graph_B);
         for (size_t n = 0; n < images.size(); ++n) {
             centres.row.row(part.samples[n]) = pair_.B.side.points.row(images[n]);
             kept[part.samples[n]].push_back(images[n]);
         }
     }
     for (const ReversedPart& part : parts_B) {
-        const auto images = reanchored_images(part, pair_.B, before.B_to_A, context_.graph_B(), pair_.A, context_.graph_A());
+        const auto images = reanchored_images(part, pair_.B, before.B_to_A, graph_B, pair_.A, graph_A);
         for (size_t n = 0; n < images.size(); ++n) {
             centres.column.row(part.samples[n]) = pair_.A.side.points.row(images[n]);
             kept[images[n]].push_back(part.samples[n]);

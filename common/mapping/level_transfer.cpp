@@ -46,18 +46,28 @@ void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& land
     }
 }
 
+LevelSwitch::LevelSwitch(const Level& coarse_A, const Level& coarse_B, const LevelPair& fine)
+    : fine_(fine),
+      coarse_mass_A_(coarse_A.mass),
+      coarse_mass_B_(coarse_B.mass),
+      parent_A_(parents(fine.A.level, coarse_A)),
+      parent_B_(parents(fine.B.level, coarse_B)),
+      means_A_(cell_means(coarse_A, fine.A)),
+      means_B_(cell_means(coarse_B, fine.B)) {}
+
+Start LevelSwitch::hand_down(const Coupling& coarse_plan, double support_threshold) const {
+    Start start;
+    start.centres.row = fine_.A.side.averaging * rows_of(row_barycentres(coarse_plan, means_B_), parent_A_);
+    start.centres.column = fine_.B.side.averaging * rows_of(column_barycentres(coarse_plan, means_A_), parent_B_);
+    pin_landmarks(fine_.A.side, fine_.B.side, start.centres);
+    start.kept = inherited(significant_entries(coarse_plan, coarse_mass_A_, coarse_mass_B_, support_threshold),
+                           parent_A_, parent_B_);
+    return start;
+}
+
 Start hand_down(const Coupling& coarse_plan, const Level& coarse_A, const Level& coarse_B, const LevelPair& fine,
                 double support_threshold) {
-    const auto parent_A = parents(fine.A.level, coarse_A), parent_B = parents(fine.B.level, coarse_B);
-    const RowMatrix means_A = cell_means(coarse_A, fine.A);
-    const RowMatrix means_B = cell_means(coarse_B, fine.B);
-    Start start;
-    start.centres.row = fine.A.side.averaging * rows_of(row_barycentres(coarse_plan, means_B), parent_A);
-    start.centres.column = fine.B.side.averaging * rows_of(column_barycentres(coarse_plan, means_A), parent_B);
-    pin_landmarks(fine.A.side, fine.B.side, start.centres);
-    start.kept = inherited(significant_entries(coarse_plan, coarse_A.mass, coarse_B.mass, support_threshold), parent_A,
-                           parent_B);
-    return start;
+    return LevelSwitch(coarse_A, coarse_B, fine).hand_down(coarse_plan, support_threshold);
 }
 
 }  // namespace varimap

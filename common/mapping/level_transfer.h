@@ -34,7 +34,22 @@ struct Start {
 };
 
 /// Level switch: a new sample takes its parent's mean image, recomputed with the new embedding's mean over the cells of the
-/// parent's partners, then smoothed by W; children inherit the parent's kept entries.
+/// parent's partners, then smoothed by W; children inherit the parent's kept entries. What does not depend on the
+/// plan is computed once, so that many plans can be handed down.
+class LevelSwitch {
+  public:
+    /// Refers to `fine`, which must outlive it.
+    LevelSwitch(const Level& coarse_A, const Level& coarse_B, const LevelPair& fine);
+    Start hand_down(const Coupling& coarse_plan, double support_threshold) const;
+
+  private:
+    const LevelPair& fine_;
+    Eigen::VectorXd coarse_mass_A_, coarse_mass_B_;
+    std::vector<int> parent_A_, parent_B_;
+    RowMatrix means_A_, means_B_;  ///< per coarse sample: mean over its cell in the fine level's embedding
+};
+
+/// The switch of a single plan.
 Start hand_down(const Coupling& coarse_plan, const Level& coarse_A, const Level& coarse_B, const LevelPair& fine,
                 double support_threshold);
 

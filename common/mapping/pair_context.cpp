@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/mapping/sample_graph.h"
+
 namespace varimap {
 
 namespace {
@@ -13,6 +15,8 @@ constexpr int full_levels = 2;  ///< Euclidean levels that have every vertex (se
 int sampled_euclidean_levels(const Hierarchy& h) {
     return int(h.levels.size()) - h.diffusion_levels() - full_levels;
 }
+
+const Level& last_diffusion_level(const Hierarchy& h) { return h.levels[h.diffusion_levels() - 1]; }
 
 /// psi = Phi_t / sqrt(1 + K_t), rows in the unit ball.
 RowMatrix normalised_embedding(const Basis& basis, double time) {
@@ -44,7 +48,7 @@ RowMatrix principal_coordinates(const RowMatrix& points, const Eigen::VectorXd& 
 RowMatrix mixed_points(const SurfaceData& data, double mu) {
     const RowMatrix x = data.surface.mesh.vertices;
     if (mu == 0) return x;
-    const Level& last = data.hierarchy.levels[data.hierarchy.diffusion_levels() - 1];
+    const Level& last = last_diffusion_level(data.hierarchy);
     // Most of psi's extent lies in few directions; 32 of 100 measured as accurate as all, in two thirds of the time.
     constexpr Eigen::Index principal_directions = 32;
     const RowMatrix psi = principal_coordinates(normalised_embedding(data.basis, last.scale), data.surface.mass,
@@ -68,6 +72,8 @@ PairContext::PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int
       B_(std::move(B)),
       graph_A_(A_.surface.mesh),
       graph_B_(B_.surface.mesh),
+      sample_graph_A_(sample_graph(last_diffusion_level(A_.hierarchy), graph_A_)),
+      sample_graph_B_(sample_graph(last_diffusion_level(B_.hierarchy), graph_B_)),
       landmarks_(std::move(landmarks)) {
     for (const auto& [a, b] : landmarks_) {
         landmarks_A_.push_back(a);

@@ -24,6 +24,9 @@ class PairContext {
     const SurfaceData& B() const { return B_; }
     const GeodesicGraph& graph_A() const { return graph_A_; }
     const GeodesicGraph& graph_B() const { return graph_B_; }
+    /// The same for long distances between samples of diffusion levels (sample_graph.h).
+    const GeodesicGraph& sample_graph_A() const { return sample_graph_A_; }
+    const GeodesicGraph& sample_graph_B() const { return sample_graph_B_; }
     const std::vector<std::pair<int, int>>& landmarks() const { return landmarks_; }
 
     /// Number of diffusion levels of the pair; the surface with fewer stays at its last one meanwhile.
@@ -44,7 +47,7 @@ class PairContext {
     const Level& euclidean_source(const SurfaceData& data, int index) const;
 
     SurfaceData A_, B_;
-    GeodesicGraph graph_A_, graph_B_;
+    GeodesicGraph graph_A_, graph_B_, sample_graph_A_, sample_graph_B_;
     std::vector<std::pair<int, int>> landmarks_;
     std::vector<int> landmarks_A_, landmarks_B_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/artifact/artifact.h"
+#include "common/mapping/candidates.h"
 #include "common/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -36,13 +37,15 @@ struct Plan {
     Points position_B;                            ///< per VERTEX of B's mesh: the same near A's mesh
     std::vector<std::pair<int, int>> landmarks;   ///< pairs of mesh vertices (A, B)
     std::vector<TraceRow> trace;                  ///< of all levels so far
+    std::vector<Candidate> candidates;            ///< of varimap-explore, the best first; none with landmarks
+    int candidate = 0;                            ///< which of them this plan continues, from 1; 0 without any
 };
 
 template <>
 struct ArtifactType<Plan> {
     static constexpr const char* kind = "plan";
     static constexpr const char* stage = "varimap-diffuse or varimap-refine";
-    static constexpr int schema = 1;
+    static constexpr int schema = 2;
 };
 std::string encode(const Plan& plan);
 void decode(const std::string& payload, Plan& plan);

@@ -10,17 +10,28 @@ void serialize(Archive& archive, TraceRow& row) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Candidate& c) {
+    archive(c.diffusion_energy, c.euclidean_energy, c.score, c.reversed_mass, c.moved_mass, c.turn);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Candidates& c) {
+    archive(c.samples_A, c.samples_B, c.mass_A, c.mass_B, c.list, c.plans);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Plan& plan) {
     archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.plan, plan.position_A,
-            plan.position_B, plan.landmarks, plan.trace);
+            plan.position_B, plan.landmarks, plan.trace, plan.candidates, plan.candidate);
 }
 
 namespace {
 
+template <class T>
 void require(bool consistent, const char* what) {
     if (!consistent)
-        throw ArtifactError(std::string("a plan artifact has inconsistent ") + what + "; rerun " +
-                            ArtifactType<Plan>::stage);
+        throw ArtifactError(std::string("a ") + ArtifactType<T>::kind + " artifact has inconsistent " + what +
+                            "; rerun " + ArtifactType<T>::stage);
 }
 
 bool all_in_range(const std::vector<int>& indices, Eigen::Index count) {
@@ -31,14 +42,23 @@ bool all_in_range(const std::vector<int>& indices, Eigen::Index count) {
 
 void require_consistent(const Plan& plan) {
     const auto a = Eigen::Index(plan.samples_A.size()), b = Eigen::Index(plan.samples_B.size());
-    require(plan.plan.rows() == a && plan.plan.cols() == b, "numbers of samples");
-    require(plan.mass_A.size() == a && plan.mass_B.size() == b, "masses");
-    require(all_in_range(plan.samples_A, plan.position_A.rows()), "samples");
-    require(all_in_range(plan.samples_B, plan.position_B.rows()), "samples");
+    require<Plan>(plan.plan.rows() == a && plan.plan.cols() == b, "numbers of samples");
+    require<Plan>(plan.mass_A.size() == a && plan.mass_B.size() == b, "masses");
+    require<Plan>(all_in_range(plan.samples_A, plan.position_A.rows()), "samples");
+    require<Plan>(all_in_range(plan.samples_B, plan.position_B.rows()), "samples");
     for (const auto& [first, second] : plan.landmarks)
-        require(
+        require<Plan>(
             all_in_range({first}, plan.position_A.rows()) && all_in_range({second}, plan.position_B.rows()),
             "landmarks");
+    require<Plan>(plan.candidate >= 0 && plan.candidate <= int(plan.candidates.size()), "candidates");
+}
+
+void require_consistent(const Candidates& c) {
+    const auto a = Eigen::Index(c.samples_A.size()), b = Eigen::Index(c.samples_B.size());
+    require<Candidates>(!c.list.empty() && c.list.size() == c.plans.size(), "numbers of plans");
+    require<Candidates>(c.mass_A.size() == a && c.mass_B.size() == b, "masses");
+    for (const SparseMatrix& plan : c.plans)
+        require<Candidates>(plan.rows() == a && plan.cols() == b, "numbers of samples");
 }
 
 }  // namespace
@@ -50,6 +70,15 @@ std::string encode(const Plan& plan) {
 void decode(const std::string& payload, Plan& plan) {
     cereal_decode(payload, plan);
     require_consistent(plan);
+}
+
+std::string encode(const Candidates& candidates) {
+    return cereal_encode(candidates);
+}
+
+void decode(const std::string& payload, Candidates& candidates) {
+    cereal_decode(payload, candidates);
+    require_consistent(candidates);
 }
 
 }  // namespace varimap

@@ -16,6 +16,7 @@ struct GeodesicGraph {
     std::vector<int> target;
     std::vector<double> length;
 
+    GeodesicGraph() = default;
     explicit GeodesicGraph(const TriangleMesh& mesh);
     int vertex_count() const { return int(offset.size()) - 1; }
 };

@@ -1,11 +1,13 @@
 #include "stages/diffuse/diffuse.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/mapping/orientation.h"
 #include "common/mapping/solve_level.h"
-#include "common/stage/log.h"
+#include "common/stage/error.h"
 #include "common/stage/parallel.h"
 
 namespace varimap {
@@ -113,24 +115,48 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     return plan;
 }
 
+/// Where the levels go on: a solved level and the index of the next.
+struct Solved {
+    LevelPair pair;
+    Coupling plan;
+    int next = 0;
+};
+
+Solved chosen_candidate(const PairContext& context, const Candidates& candidates, int number) {
+    if (number > int(candidates.plans.size()))
+        throw UsageError(fmt::format("candidate {}: varimap-explore found {}", number, candidates.plans.size()));
+    for (int l = 0; l < context.diffusion_levels(); ++l) {
+        LevelPair pair = context.diffusion_level(l);
+        if (pair.A.level.samples == candidates.samples_A && pair.B.level.samples == candidates.samples_B)
+            return {std::move(pair), to_coupling(candidates.plans[number - 1]), l + 1};
+    }
+    throw ArtifactError("the candidates' samples are not those of a level of these hierarchies; rerun varimap-explore");
+}
+
 }  // namespace
 
-Plan diffuse(const PairContext& context, const DiffuseParams& params) {
+Plan diffuse(const PairContext& context, const DiffuseParams& params, const std::optional<Candidates>& candidates) {
     const int levels = params.levels > 0 ? std::min(params.levels, context.diffusion_levels()) : context.diffusion_levels();
     std::vector<TraceRow> trace;
-    LevelPair coarse;
+    Solved coarse;
+    if (candidates) coarse = chosen_candidate(context, *candidates, params.candidate);
     Solution solution;
-    for (int l = 0; l < levels; ++l) {
+    // At least one level: a candidate on the last one is solved there once more.
+    for (int l = std::min(coarse.next, levels - 1); l < levels; ++l) {
         LevelPair pair = context.diffusion_level(l);
         if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
-        const Start start = l == 0 ? coarsest_start(pair, context, params)
-                                   : hand_down(solution.plan, coarse.A.level, coarse.B.level, pair,
-                                               params.alternation.support_threshold);
+        const Start start = l == 0 && !candidates ? coarsest_start(pair, context, params)
+                                                  : hand_down(coarse.plan, coarse.pair.A.level, coarse.pair.B.level, pair,
+                                                              params.alternation.support_threshold);
         solution = solve_level(context, pair, start, l, params.alternation, params.ironing, trace);
-        coarse = std::move(pair);
+        coarse = {std::move(pair), solution.plan, l + 1};
     }
-    Plan plan = to_plan(coarse, solution, context);
+    Plan plan = to_plan(coarse.pair, solution, context);
     plan.trace = std::move(trace);
+    if (candidates) {
+        plan.candidates = candidates->list;
+        plan.candidate = params.candidate;
+    }
     return plan;
 }
 

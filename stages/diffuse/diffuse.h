@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "common/mapping/candidates.h"
 #include "common/mapping/pair_context.h"
 #include "common/mapping/plan.h"
 #include "stages/diffuse/params.h"
@@ -9,6 +12,9 @@ namespace varimap {
 /// Diffusion levels of Alg. 5: the coarsest level in full, then level by level down to the last one at which
 /// diffusion distances discern. `position_A/B` of the result are the vertices whose diffusion coordinates are
 /// nearest to the centres.
-Plan diffuse(const PairContext& context, const DiffuseParams& params);
+/// With candidates of varimap-explore, the one chosen by the parameters is continued from its coarse level.
+/// Throws UsageError if there is no such candidate, ArtifactError if their level is none of the pair's.
+Plan diffuse(const PairContext& context, const DiffuseParams& params,
+             const std::optional<Candidates>& candidates = {});
 
 }  // namespace varimap

@@ -77,11 +77,43 @@ std::string trace_csv(const std::vector<TraceRow>& trace) {
     return text;
 }
 
+std::string candidates_csv(const std::vector<Candidate>& candidates) {
+    std::string text = "candidate,diffusion_energy,euclidean_energy,score,reversed_mass,moved_mass,turn\n";
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Candidate& c = candidates[k];
+        text += fmt::format("{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy, c.score,
+                            c.reversed_mass, c.moved_mass, c.turn);
+    }
+    return text;
+}
+
+void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor& visitor) {
+    if (candidates.empty()) return;
+    const Confidence confidence = confidence_of(candidates);
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        visitor.fact(fmt::format("candidate {}", k + 1), relation(candidates[k]));
+    visitor.fact("confidence", fmt::format("{}: margin {:.2f}%, levels {}", confidence.confident ? "sure" : "not sure",
+                                           100 * confidence.margin, confidence.levels_agree ? "agree" : "disagree"));
+    visitor.text("candidates.csv", candidates_csv(candidates));
+}
+
+void visit(const Candidates& candidates, ContentsVisitor& visitor) {
+    visit_candidates(candidates.list, visitor);
+    visitor.array("samples_A", view(candidates.samples_A));
+    visitor.array("samples_B", view(candidates.samples_B));
+    visitor.array("mass_A", view(candidates.mass_A));
+    visitor.array("mass_B", view(candidates.mass_B));
+    for (std::size_t k = 0; k < candidates.plans.size(); ++k)
+        visitor.sparse(fmt::format("plan_{:02}", k + 1), candidates.plans[k]);
+}
+
 void visit(const Plan& plan, ContentsVisitor& visitor) {
     std::vector<int> landmarks_A, landmarks_B;
     for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
     visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
     visitor.fact("total of the entries", fmt::format("{}", plan.plan.sum()));
+    if (plan.candidate > 0) visitor.fact("continues candidate", fmt::format("{}", plan.candidate));
+    visit_candidates(plan.candidates, visitor);
     visitor.sparse("plan", plan.plan);
     visitor.array("samples_A", view(plan.samples_A));
     visitor.array("samples_B", view(plan.samples_B));
@@ -129,7 +161,7 @@ std::pair<const std::string, Kind> kind_of() {
 
 const std::map<std::string, Kind>& kinds() {
     static const std::map<std::string, Kind> table{kind_of<Surface>(), kind_of<Basis>(), kind_of<Hierarchy>(),
-                                                   kind_of<Plan>(), kind_of<SurfaceMap>()};
+                                                   kind_of<Candidates>(), kind_of<Plan>(), kind_of<SurfaceMap>()};
     return table;
 }
 

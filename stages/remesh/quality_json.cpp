@@ -77,6 +77,24 @@ Json levels(const std::vector<TraceRow>& trace) {
     return list;
 }
 
+Json to_json(const std::vector<Candidate>& candidates, int continued) {
+    const Confidence confidence = confidence_of(candidates);
+    Json list = Json::array();
+    for (const Candidate& c : candidates)
+        list.push_back({{"diffusion_energy", c.diffusion_energy},
+                        {"euclidean_energy", c.euclidean_energy},
+                        {"score", c.score},
+                        {"reversed_percent", 100 * c.reversed_mass},
+                        {"moved_percent", 100 * c.moved_mass},
+                        {"turn_degrees", c.turn},
+                        {"mirrored", is_mirrored(c)}});
+    return {{"continued", continued},
+            {"confident", confidence.confident},
+            {"margin", confidence.margin},
+            {"levels_agree", confidence.levels_agree},
+            {"candidates", list}};
+}
+
 /// Landmarks as pairs of input vertices.
 std::vector<std::pair<int, int>> input_landmarks(const Plan& plan, const Surface& A, const Surface& B) {
     const auto input_of_vertex = [](const Surface& surface) {
@@ -128,6 +146,7 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     Json quality;
     if (!plan.trace.empty()) quality["energy"] = plan.trace.back().energy;
     quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
+    if (!plan.candidates.empty()) quality["exploration"] = to_json(plan.candidates, plan.candidate);
     quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
     quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);
     quality["source_to_target"]["untangling"] = to_json(untangling.A_to_B);

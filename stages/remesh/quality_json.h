@@ -15,6 +15,9 @@ namespace varimap {
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
 ///   energy            Eq. (3) at the end; absent if the plan has no trace
 ///   landmarks         distance of each landmark's image from its partner
+///   exploration       without landmarks: which candidate was continued, confident, margin, levels_agree, and the
+///                     candidates: energies, score, reversed_percent, moved_percent, turn_degrees, mirrored
+///                     (definitions: candidates.h)
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
 ///       conformal_distortion {the same}, dirichlet_energy, coverage          (definitions: quality.h)

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <string>
+#include <vector>
+
+#include "common/artifact/artifact.h"
+
+namespace varimap {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// What exploration says of one map.
+struct Candidate {
+    double diffusion_energy = 0;  ///< Eq. (3) on the last diffusion level, marginals exact
+    double euclidean_energy = 0;  ///< Eq. (3) on the first Euclidean level, marginals exact
+    double score = 0;             ///< log of both, weighted; a hundredth more is about a hundredth more energy
+    double reversed_mass = 0;     ///< share of the surfaces on which orientation is reversed, on the last diffusion level
+    double moved_mass = 0;        ///< share of A with another image than the best candidate gives it
+    double turn = 0;              ///< degrees by which the best rotation of A takes those parts to what has their images
+};
+
+/// A mirrored map is no answer, however small its energy.
+bool is_mirrored(const Candidate& candidate);
+
+/// How sure the choice of the first candidate is.
+struct Confidence {
+    double margin = 0;          ///< score of the second that is not mirrored, less the first's; 1 without a second
+    bool levels_agree = true;   ///< the first has the smallest energy on both levels
+    bool confident = true;      ///< levels agree, and the margin is at least 0.01
+};
+Confidence confidence_of(const std::vector<Candidate>& candidates);
+
+/// "turned by 170 degrees, 80% elsewhere": what a candidate is to the best one.
+std::string relation(const Candidate& candidate);
+
+/// Maps found without landmarks, the best first: the artifact of varimap-explore.
+struct Candidates {
+    std::vector<int> samples_A, samples_B;  ///< vertices of the two surfaces' meshes: a coarse diffusion level
+    Eigen::VectorXd mass_A, mass_B;         ///< masses of the samples, each sums to 1
+    std::vector<Candidate> list;
+    std::vector<SparseMatrix> plans;        ///< per candidate: its plan, summed over the cells of that level
+};
+
+template <>
+struct ArtifactType<Candidates> {
+    static constexpr const char* kind = "candidates";
+    static constexpr const char* stage = "varimap-explore";
+    static constexpr int schema = 1;
+};
+std::string encode(const Candidates& candidates);
+void decode(const std::string& payload, Candidates& candidates);
+
+}  // namespace varimap

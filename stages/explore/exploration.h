@@ -1,0 +1,77 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "common/mapping/candidates.h"
+#include "common/mapping/ironing.h"
+#include "common/mapping/level_transfer.h"
+#include "common/mapping/pair_context.h"
+
+namespace varimap {
+
+/// Finding a map without landmarks. The coarsest levels have so few samples that solving them costs
+/// milliseconds: many starts are solved there, and the better ones are promoted from level to level
+/// (successive halving), with duplicates removed and the images of extremities exchanged on the way. The last
+/// few are ranked by their energies on the last diffusion level and on the first Euclidean level together.
+struct ExplorationOptions {
+    int random_starts = 16;           ///< at each of the three coarsest levels worth it
+    int seed = 1;
+    int candidates = 4;               ///< maps that reach the last level
+    double distinct = 0.05;           ///< maps closer than this are duplicates: squared distance of centres / variance
+    double euclidean_exponent = 0.3;  ///< of the Euclidean energy in the ranking, beside 1 of the diffusion energy
+};
+
+/// A map under trial: its solution at a level, and what is known of it there.
+struct Trial {
+    Solution solution;
+    double euclidean_energy = 0;
+    PairOrientation orientation;  ///< from ironing's first level on
+    double energy() const { return solution.step.energy; }
+};
+
+/// One exploration of a pair. Deterministic for a seed, for any number of threads.
+class Exploration {
+  public:
+    /// Marginals are exact whatever `alternation` says: relaxed energies of different maps do not compare.
+    Exploration(const PairContext& context, const ExplorationOptions& options, AlternationOptions alternation,
+                IroningOptions ironing);
+
+    /// Distinct maps at the last diffusion level, the best first, mirrored ones last.
+    std::vector<Trial> run();
+    /// The level pair they live on.
+    const LevelPair& last_level() const { return level_; }
+    /// log E_diffusion + exponent log E_euclidean.
+    double score(const Trial& trial) const;
+
+  private:
+    void enter(int level);
+    void add_starts();
+    void add_swaps(int best);
+    void prune(int keep);
+    void measure_euclidean_energies();
+    Solution solve(const Start& start) const;
+    Trial tried(const Start& start) const;
+    void try_all(const std::vector<Start>& starts);
+    int samples() const;
+
+    const PairContext& context_;
+    ExplorationOptions options_;
+    AlternationOptions alternation_;
+    IroningOptions ironing_;
+    std::mt19937 random_;
+    LevelPair level_;        ///< where the pool is
+    LevelPair extremities_;  ///< the coarse level whose samples are exchanged
+    std::vector<Trial> pool_;
+};
+
+/// What there is to say about the maps an exploration found, for each.
+std::vector<Candidate> describe(const Exploration& exploration, const std::vector<Trial>& trials,
+                                const PairContext& context);
+
+/// Explores, and sums the plans over the cells of a coarse level: coarse enough that varimap-diffuse can relax
+/// marginals from there on.
+Candidates explore(const PairContext& context, const ExplorationOptions& options,
+                   const AlternationOptions& alternation, const IroningOptions& ironing);
+
+}  // namespace varimap

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "common/mapping/alternation_params.h"
+#include "stages/explore/exploration.h"
+
+namespace varimap {
+
+struct ExploreParams {
+    AlternationOptions alternation;
+    IroningOptions ironing;
+    ExplorationOptions exploration;
+
+    ExploreParams() { ironing.maximum_rounds = 0; }
+
+    void describe(ParameterList& list) {
+        varimap::describe(list, alternation);
+        varimap::describe(list, ironing);
+        list.add("random_starts", exploration.random_starts, "random starts at each of three coarse levels", 0, 10000);
+        list.add("seed", exploration.seed, "of the random starts", 0, 1000000000);
+        list.add("candidates", exploration.candidates, "maps that are kept to the last level", 1, 100);
+        list.add("distinct", exploration.distinct,
+                 "maps closer than this are duplicates: mean squared distance / variance", 0.0, 2.0);
+        list.add("euclidean_exponent", exploration.euclidean_exponent,
+                 "of the energy on the first Euclidean level, in the ranking", 0.0, 10.0);
+    }
+};
+
+}  // namespace varimap

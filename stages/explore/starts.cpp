@@ -1,0 +1,106 @@
+#include "stages/explore/starts.h"
+
+#include <algorithm>
+
+namespace varimap {
+
+namespace {
+
+/// The first eigenfunctions that are not constant, at the samples.
+RowMatrix low_functions(const SurfaceData& data, const Level& level, Eigen::Index count) {
+    return data.basis.functions(level.samples, Eigen::seqN(1, count));
+}
+
+int nearest_row(const RowMatrix& points, const Eigen::RowVectorXd& point) {
+    int nearest;
+    (points.rowwise() - point).rowwise().squaredNorm().minCoeff(&nearest);
+    return nearest;
+}
+
+Matching nearest_to_each_other(const RowMatrix& a, const RowMatrix& b) {
+    Matching matching;
+    for (int i = 0; i < a.rows(); ++i) matching.emplace_back(i, nearest_row(b, a.row(i)));
+    for (int j = 0; j < b.rows(); ++j) matching.emplace_back(nearest_row(a, b.row(j)), j);
+    return matching;
+}
+
+/// The same permutation for the same state on every platform, which std::shuffle does not promise.
+std::vector<int> random_permutation(int count, std::mt19937& random) {
+    std::vector<int> order(count);
+    for (int i = 0; i < count; ++i) {
+        const int j = int(random() % unsigned(i + 1));
+        order[i] = order[j];
+        order[j] = i;
+    }
+    return order;
+}
+
+Coupling swap_rows(const Coupling& plan, int first, int second) {
+    Coupling swapped = plan;
+    const int columns = plan.support.columns();
+    for (int j = 0; j < columns; ++j)
+        std::swap(swapped.value[first * columns + j], swapped.value[second * columns + j]);
+    return swapped;
+}
+
+}  // namespace
+
+std::vector<Matching> spectral_matchings(const PairContext& context, const LevelPair& pair) {
+    const Eigen::Index functions =
+        std::min<Eigen::Index>({4, context.A().basis.functions.cols() - 1, context.B().basis.functions.cols() - 1});
+    const RowMatrix a = low_functions(context.A(), pair.A.level, functions);
+    const RowMatrix b = low_functions(context.B(), pair.B.level, functions);
+    std::vector<Matching> matchings;
+    for (int signs = 0; signs < 1 << functions; ++signs) {
+        Eigen::VectorXd factor(functions);
+        for (Eigen::Index k = 0; k < functions; ++k) factor[k] = signs >> k & 1 ? -1 : 1;
+        matchings.push_back(nearest_to_each_other(a * factor.asDiagonal(), b));
+    }
+    return matchings;
+}
+
+std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random) {
+    std::vector<Matching> matchings(count);
+    for (Matching& matching : matchings) {
+        const std::vector<int> row = random_permutation(rows, random), column = random_permutation(columns, random);
+        for (int n = 0; n < std::max(rows, columns); ++n) matching.emplace_back(row[n % rows], column[n % columns]);
+    }
+    return matchings;
+}
+
+Centres centres_of(const LevelPair& pair, const Matching& matching) {
+    const RowMatrix &a = pair.A.side.points, &b = pair.B.side.points;
+    Centres centres{RowMatrix::Zero(a.rows(), b.cols()), RowMatrix::Zero(b.rows(), a.cols())};
+    Eigen::VectorXd row_count = Eigen::VectorXd::Zero(a.rows()), column_count = Eigen::VectorXd::Zero(b.rows());
+    for (const auto& [i, j] : matching) {
+        centres.row.row(i) += b.row(j);
+        centres.column.row(j) += a.row(i);
+        ++row_count[i];
+        ++column_count[j];
+    }
+    centres.row = pair.A.side.averaging * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
+    centres.column = pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
+    pin_landmarks(pair.A.side, pair.B.side, centres);
+    return centres;
+}
+
+Coupling coarsened(const Coupling& plan, const LevelPair& fine, const LevelPair& coarse) {
+    const auto row = parents(fine.A.level, coarse.A.level), column = parents(fine.B.level, coarse.B.level);
+    const int rows = int(coarse.A.level.samples.size()), columns = int(coarse.B.level.samples.size());
+    Coupling sum{Support::dense(rows, columns), Eigen::VectorXd::Zero(Eigen::Index(rows) * columns),
+                 Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(columns)};
+    for (int i = 0; i < plan.support.rows(); ++i)
+        for (int e = plan.support.row_begin[i]; e < plan.support.row_begin[i + 1]; ++e)
+            sum.value[row[i] * columns + column[plan.support.column[e]]] += plan.value[e];
+    return sum;
+}
+
+std::vector<Coupling> with_swapped_rows(const Coupling& plan, int count) {
+    count = std::min(count, plan.support.rows());
+    std::vector<Coupling> swapped;
+    for (int first = 0; first < count; ++first)
+        for (int second = first + 1; second < count; ++second) swapped.push_back(swap_rows(plan, first, second));
+    return swapped;
+}
+
+}  // namespace varimap

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "common/mapping/level_transfer.h"
+#include "common/mapping/pair_context.h"
+
+namespace varimap {
+
+/// Samples of one level matched with each other (index on A, index on B); every sample occurs.
+using Matching = std::vector<std::pair<int, int>>;
+
+/// Samples with the most alike low eigenfunctions, once for each choice of their signs: nearly all
+/// near-isometries of generic surfaces are among these.
+std::vector<Matching> spectral_matchings(const PairContext& context, const LevelPair& pair);
+
+/// Each sample with a random one.
+std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random);
+
+/// Centres at the mean of the matched samples, smoothed by W, landmarks pinned.
+Centres centres_of(const LevelPair& pair, const Matching& matching);
+
+/// The plan between coarser samples: sums over their cells.
+Coupling coarsened(const Coupling& plan, const LevelPair& fine, const LevelPair& coarse);
+
+/// The plan with what it says of two rows exchanged, for every pair of its first `count` rows. Samples come
+/// farthest first, so the first ones of a coarse level lie at extremities, which a wrong map exchanges.
+std::vector<Coupling> with_swapped_rows(const Coupling& plan, int count);
+
+}  // namespace varimap
