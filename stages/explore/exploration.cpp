@@ -20,15 +20,24 @@ constexpr int extremities = 8;
 struct SwapRule {
     int samples, best;
 };
-constexpr SwapRule swap_rules[] = {{18, 4}, {45, 3}};
+constexpr SwapRule swap_rules[] = {{18, 4}, {45, 3}, {100, 2}};
 
 /// Distinct maps that go on from a level with that many samples. Wrong ones stand out from about 250 samples on.
 int promoted(int samples, int last) {
     if (samples < 18) return 1000;
-    if (samples < 100) return std::max(last, 16);
-    if (samples < 250) return std::max(last, 8);
-    if (samples < 500) return std::max(last, 6);
+    if (samples < 100) return std::max(last, 10);
+    if (samples < 250) return std::max(last, 5);
+    if (samples < 500) return std::max(last, 4);
     return last;
+}
+
+/// Exact marginals, because relaxed energies of different maps do not compare; but solved no more precisely than
+/// telling maps apart takes.
+AlternationOptions for_comparison(AlternationOptions options) {
+    options.mass_penalty = 0;
+    options.tolerance = std::max(options.tolerance, 3e-3);
+    options.sinkhorn_iterations = std::min(options.sinkhorn_iterations, 50);
+    return options;
 }
 
 double variance(const Side& side) {
@@ -53,11 +62,13 @@ void ignore(const Alternation&) {}
 
 }  // namespace
 
-Exploration::Exploration(const PairContext& context, const ExplorationOptions& options, AlternationOptions alternation,
-                         IroningOptions ironing)
-    : context_(context), options_(options), alternation_(alternation), ironing_(ironing), random_(unsigned(options.seed)) {
-    alternation_.mass_penalty = 0;
-}
+Exploration::Exploration(const PairContext& context, const ExplorationOptions& options,
+                         const AlternationOptions& alternation, const IroningOptions& ironing)
+    : context_(context),
+      options_(options),
+      alternation_(for_comparison(alternation)),
+      ironing_(ironing),
+      random_(unsigned(options.seed)) {}
 
 int Exploration::samples() const { return int(std::min(level_.A.level.samples.size(), level_.B.level.samples.size())); }
 
@@ -68,21 +79,21 @@ Solution Exploration::solve(const Start& start) const {
     return minimization.take_solution();
 }
 
-Trial Exploration::tried(const Start& start) const {
+Trial Exploration::tried(const Start& start, bool ironed) const {
     if (samples() < ironing_.minimum_samples) return {solve(start), 0, {}};
     LevelPair own = level_;  // ironing may change its weights
     Ironing ironing(context_, own, ironing_);
     AlternatingMinimization minimization(own.A.side, own.B.side, alternation_);
     minimization.adopt(solve(start));
-    ironing.iron(minimization, ignore);
+    if (ironed) ironing.iron(minimization, ignore);
     const PairOrientation orientation = ironing.measure(minimization.solution());
     return {minimization.take_solution(), 0, orientation};
 }
 
-void Exploration::try_all(const std::vector<Start>& starts) {
+void Exploration::try_all(const std::vector<Start>& starts, bool ironed) {
     const size_t before = pool_.size();
     pool_.resize(before + starts.size());
-    parallel_for_each_index(starts.size(), size_t(1), [&](size_t n) { pool_[before + n] = tried(starts[n]); });
+    parallel_for_each_index(starts.size(), size_t(1), [&](size_t n) { pool_[before + n] = tried(starts[n], ironed); });
 }
 
 void Exploration::enter(int level) {
@@ -115,7 +126,7 @@ void Exploration::add_swaps(int best) {
         for (const Coupling& swapped : with_swapped_rows(coarse, extremities))
             starts.push_back({back.hand_down(swapped, alternation_.support_threshold).centres, {}});
     }
-    try_all(starts);
+    try_all(starts, false);  // most are no good: those that are get ironed on the next level
 }
 
 void Exploration::prune(int keep) {

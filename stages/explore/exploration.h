@@ -17,7 +17,7 @@ namespace varimap {
 struct ExplorationOptions {
     int random_starts = 16;           ///< at each of the three coarsest levels worth it
     int seed = 1;
-    int candidates = 4;               ///< maps that reach the last level
+    int candidates = 3;               ///< maps that reach the last level
     double distinct = 0.05;           ///< maps closer than this are duplicates: squared distance of centres / variance
     double euclidean_exponent = 0.3;  ///< of the Euclidean energy in the ranking, beside 1 of the diffusion energy
 };
@@ -33,9 +33,8 @@ struct Trial {
 /// One exploration of a pair. Deterministic for a seed, for any number of threads.
 class Exploration {
   public:
-    /// Marginals are exact whatever `alternation` says: relaxed energies of different maps do not compare.
-    Exploration(const PairContext& context, const ExplorationOptions& options, AlternationOptions alternation,
-                IroningOptions ironing);
+    Exploration(const PairContext& context, const ExplorationOptions& options, const AlternationOptions& alternation,
+                const IroningOptions& ironing);
 
     /// Distinct maps at the last diffusion level, the best first, mirrored ones last.
     std::vector<Trial> run();
@@ -51,8 +50,8 @@ class Exploration {
     void prune(int keep);
     void measure_euclidean_energies();
     Solution solve(const Start& start) const;
-    Trial tried(const Start& start) const;
-    void try_all(const std::vector<Start>& starts);
+    Trial tried(const Start& start, bool ironed) const;
+    void try_all(const std::vector<Start>& starts, bool ironed = true);
     int samples() const;
 
     const PairContext& context_;
