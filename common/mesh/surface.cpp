@@ -19,7 +19,7 @@ void serialize(Archive& archive, SurfacePoint& point) {
 template <class Archive>
 void serialize(Archive& archive, Surface& surface) {
     archive(surface.mesh, surface.mass, surface.input, surface.vertex_of_input, surface.input_face,
-            surface.on_input, surface.centre, surface.scale);
+            surface.on_input, surface.centre, surface.scale, surface.mirrored);
 }
 
 namespace {
@@ -50,6 +50,19 @@ void decode(const std::string& payload, Surface& surface) {
     require_below(surface.vertex_of_input.data(), surface.vertex_of_input.size(), -1, mesh.vertex_count());
     require_below(surface.input_face.data(), surface.input_face.size(), 0, input.face_count());
     for (const SurfacePoint& point : surface.on_input) require_below(&point.face, 1, 0, input.face_count());
+}
+
+PointMap on_reversed_faces(PointMap points) {
+    for (SurfacePoint& point : points) std::swap(point.barycentric[1], point.barycentric[2]);
+    return points;
+}
+
+Surface with_reversed_orientation(Surface surface) {
+    surface.mesh.faces.col(1).swap(surface.mesh.faces.col(2));
+    surface.input.faces.col(1).swap(surface.input.faces.col(2));
+    surface.on_input = on_reversed_faces(std::move(surface.on_input));
+    surface.mirrored = !surface.mirrored;
+    return surface;
 }
 
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {

@@ -22,16 +22,23 @@ struct Surface {
     std::vector<SurfacePoint> on_input;  ///< per vertex of mesh: where it lies on the input
     Vec3 centre = Vec3::Zero();          ///< x_mesh = (x_input - centre) * scale
     double scale = 1;
+    bool mirrored = false;  ///< all faces have their last two corners exchanged
 };
 
 template <>
 struct ArtifactType<Surface> {
     static constexpr const char* kind = "surface";
     static constexpr const char* stage = "varimap-preprocess";
-    static constexpr int schema = 1;
+    static constexpr int schema = 2;
 };
 std::string encode(const Surface& surface);
 void decode(const std::string& payload, Surface& surface);
+
+/// The surface with the opposite orientation: faces with their last two corners exchanged, `mirrored` toggled. A map
+/// from it that preserves orientation reverses that of the original.
+Surface with_reversed_orientation(Surface surface);
+/// The same points on faces whose last two corners are exchanged.
+PointMap on_reversed_faces(PointMap points);
 
 /// The same point, from a face of `surface.mesh` to the input face that holds it. Coordinates clamped to [0,
 /// 1].

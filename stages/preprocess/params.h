@@ -7,6 +7,7 @@ namespace varimap {
 struct PreprocessParams {
     double target_edge_length = 0;
     int max_vertices = 2'000'000;
+    bool mirror = false;
 
     void describe(ParameterList& list) {
         list.add("target_edge_length", target_edge_length,
@@ -14,6 +15,7 @@ struct PreprocessParams {
                  "triangulation with the mesh's vertices, or with 2500 where it has fewer",
                  0, 10);
         list.add("max_vertices", max_vertices, "refuse to bisect beyond this many vertices", 3, 100'000'000);
+        list.add("mirror", mirror, "reverse the surface's orientation, to map it onto one of opposite handedness");
     }
 };
 

@@ -64,6 +64,7 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
     surface.input_face = std::move(bisection.origin);
     surface.on_input = std::move(bisection.on_origin);
     surface.mass = voronoi_masses(surface.mesh);
+    if (params.mirror) surface = with_reversed_orientation(std::move(surface));
     log("target edge length {:.4f}", target);
     log_edge_lengths("output", surface.mesh);
     return surface;

@@ -72,6 +72,8 @@ SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const Re
     }
     SurfaceMap map{std::move(inputs.A_to_B), std::move(inputs.B_to_A), {}};
     map.quality = quality_json(map, A, B, plan, reports);
+    if (B.mirrored) map.A_to_B = on_reversed_faces(std::move(map.A_to_B));
+    if (A.mirrored) map.B_to_A = on_reversed_faces(std::move(map.B_to_A));
     return map;
 }
 
@@ -80,7 +82,10 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
     fallback.rowwise() -= source.centre.transpose();
     fallback *= source.scale / target.scale;
     fallback.rowwise() += target.centre.transpose();
-    return {image_positions(map, target.input, fallback), source.input.faces};
+    const TriangleMesh in_file = target.mirrored ? with_reversed_orientation(target).input : target.input;
+    Faces faces = source.input.faces;
+    if (target.mirrored) faces.col(1).swap(faces.col(2));
+    return {image_positions(map, in_file, fallback), faces};
 }
 
 }  // namespace varimap
