@@ -7,9 +7,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "common/artifact/artifact.h"
+#include "common/mapping/landmark_points.h"
 #include "common/stage/error.h"
 #include "common/stage/log.h"
 
@@ -28,6 +30,7 @@ struct Row {
 /// A vertex that a line of a file names.
 struct Named {
     int line, vertex;
+    std::string name = {};  ///< by which it is matched; empty: by its row
 };
 
 [[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
@@ -51,8 +54,8 @@ std::vector<double> parse_numbers(std::string_view text, const std::string& path
     }
 }
 
-/// The lines that hold something. Each must have one of the two counts of numbers.
-std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_count, const char* expected) {
+/// The lines that hold something.
+std::vector<Row> read_rows(const std::string& path) {
     const std::string bytes = read_file(path);
     std::string_view text = bytes;
     std::vector<Row> rows;
@@ -60,12 +63,23 @@ std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_c
         const size_t end = std::min(text.find('\n'), text.size());
         auto numbers = parse_numbers(text.substr(0, end), path, line);
         text.remove_prefix(std::min(end + 1, text.size()));
-        if (numbers.empty()) continue;
-        if (numbers.size() != count && numbers.size() != other_count)
-            fail(path, line, fmt::format("expected {}, found {} number(s)", expected, numbers.size()));
-        rows.push_back({line, std::move(numbers)});
+        if (!numbers.empty()) rows.push_back({line, std::move(numbers)});
     }
     if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
+    return rows;
+}
+
+void require_count(const std::vector<Row>& rows, const std::string& path, size_t count, size_t other_count,
+                   const char* expected) {
+    for (const Row& row : rows)
+        if (row.numbers.size() != count && row.numbers.size() != other_count)
+            fail(path, row.line, fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
+}
+
+/// Lines that each have one of the two counts of numbers.
+std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_count, const char* expected) {
+    auto rows = read_rows(path);
+    require_count(rows, path, count, other_count, expected);
     return rows;
 }
 
@@ -132,7 +146,7 @@ std::vector<Named> read_list(const std::string& path, IndexBase base, const Tria
     return list;
 }
 
-/// One column (0 source, 1 target) of a file of pairs.
+/// One column (0 source, 1 target) of a file of pairs of vertices.
 std::vector<Named> read_column(const std::string& path, size_t column, const TriangleMesh* mesh) {
     std::vector<Named> list;
     for (const Row& row : read_rows(path, 2, 2, "two vertex numbers, of the source and of the target"))
@@ -140,12 +154,88 @@ std::vector<Named> read_column(const std::string& path, size_t column, const Tri
     return list;
 }
 
+bool is_vts(const std::string& path) {
+    return path.size() >= 4 && path.substr(path.size() - 4) == ".vts";
+}
+
+/// Picked points as the vertices nearest to where they lie on the surface.
+std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path, const TriangleMesh& mesh) {
+    constexpr double far = .02;  // units of sqrt(area); an edge of a mesh with 2500 vertices
+    const Snapped snapped = snap(picked, mesh);
+    std::vector<Named> list;
+    for (size_t i = 0; i < picked.size(); ++i) {
+        const double distance = snapped.distances[i];
+        const std::string what = fmt::format("{}:{}: landmark {}", path, picked[i].line, picked[i].name);
+        log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, distance, snapped.vertices[i]);
+        if (distance > far) warn("{} lies far from the surface: is the list that of this mesh?", what);
+        list.push_back({picked[i].line, snapped.vertices[i], picked[i].name});
+    }
+    return list;
+}
+
+std::vector<PickedPoint> points_of_rows(const std::vector<Row>& rows, size_t first_number) {
+    std::vector<PickedPoint> points;
+    for (const Row& row : rows) {
+        const double* x = row.numbers.data() + first_number;
+        points.push_back({row.line, "", {x[0], x[1], x[2]}});
+    }
+    return points;
+}
+
+/// The list of one side: picked points, rows of coordinates, or vertex numbers.
+std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh) {
+    if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh);
+    const auto rows = read_rows(path);
+    if (rows[0].numbers.size() == 3) {
+        require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
+        return snapped_list(points_of_rows(rows, 0), path, mesh);
+    }
+    return read_list(path, is_vts(path) ? IndexBase::automatic : IndexBase::zero, &mesh);
+}
+
+/// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
+std::vector<Named> read_pair_side(const std::string& path, size_t column, const TriangleMesh& mesh) {
+    const auto rows = is_picked_points(path) ? std::vector<Row>{} : read_rows(path);
+    if (rows.empty()) throw UsageError(path + ": holds the points of one surface; give one such file for each");
+    if (rows[0].numbers.size() != 6) return read_column(path, column, &mesh);
+    require_count(rows, path, 6, 6, "two points, x y z x y z, as in the first row");
+    return snapped_list(points_of_rows(rows, 3 * column), path, mesh);
+}
+
+bool have_distinct_names(const std::vector<Named>& list) {
+    std::set<std::string> names;
+    for (const Named& named : list)
+        if (named.name.empty() || !names.insert(named.name).second) return false;
+    return true;
+}
+
+/// Row by row, or by name where all have one; names that only one list has are left out.
+std::vector<std::pair<int, int>> matched(const std::vector<Named> (&lists)[2], const std::vector<std::string>& files) {
+    std::vector<std::pair<int, int>> pairs;
+    if (have_distinct_names(lists[0]) && have_distinct_names(lists[1])) {
+        std::map<std::string, int> target;
+        for (const Named& named : lists[1]) target[named.name] = named.vertex;
+        for (const Named& named : lists[0])
+            if (const auto found = target.find(named.name); found != target.end())
+                pairs.emplace_back(named.vertex, found->second);
+        if (pairs.empty()) throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
+        if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
+            warn("{} landmarks are in both {} and {}; the others are left out", pairs.size(), files[0], files[1]);
+        return pairs;
+    }
+    if (lists[0].size() != lists[1].size())
+        throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
+                                     files[0], lists[0].size(), files[1], lists[1].size()));
+    for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i].vertex, lists[1][i].vertex);
+    return pairs;
+}
+
 void require_distinct_used(const std::vector<Named>& list, const std::string& path, const char* role,
                            const TriangleMesh& mesh) {
     std::vector<bool> used(size_t(mesh.vertex_count()), false);
     for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
     std::map<int, int> lines;
-    for (const auto& [line, vertex] : list) {
+    for (const auto& [line, vertex, name] : list) {
         const auto [it, added] = lines.try_emplace(vertex, line);
         if (!added)
             fail(path, line,
@@ -153,10 +243,6 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
         if (!used[size_t(vertex)])
             fail(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
     }
-}
-
-bool is_vts(const std::string& path) {
-    return path.size() >= 4 && path.substr(path.size() - 4) == ".vts";
 }
 
 }  // namespace
@@ -191,18 +277,10 @@ std::vector<std::pair<int, int>> read_landmarks(const std::vector<std::string>& 
     std::vector<Named> lists[2];
     for (size_t side : {0, 1}) {
         const std::string& path = files[files.size() == 1 ? 0 : side];
-        lists[side] =
-            files.size() == 1
-                ? read_column(path, side, meshes[side])
-                : read_list(path, is_vts(path) ? IndexBase::automatic : IndexBase::zero, meshes[side]);
+        lists[side] = files.size() == 1 ? read_pair_side(path, side, *meshes[side]) : read_side(path, *meshes[side]);
         require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
     }
-    if (lists[0].size() != lists[1].size())
-        throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
-                                     files[0], lists[0].size(), files[1], lists[1].size()));
-    std::vector<std::pair<int, int>> pairs;
-    for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i].vertex, lists[1][i].vertex);
-    return pairs;
+    return matched(lists, files);
 }
 
 }  // namespace varimap

@@ -23,8 +23,11 @@ std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const
 std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path);
 
 /// Landmarks (source vertex, target vertex) from one file of pairs, or from two lists matched row by row (in
-/// a .vts, coordinates decide whether numbers start at 0; in any other list they do). Throws InputError also
-/// for a different number of rows, a vertex that two rows name or that no face uses; UsageError for any other
+/// a .vts, coordinates decide whether numbers start at 0; in any other list they do). Instead of vertices a
+/// file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of picked points
+/// (landmark_points.h; matched by name where all have distinct ones). A point stands for the vertex nearest
+/// to where it lies on the surface; its distance is logged. Throws InputError also for a different number of
+/// rows, a vertex that two rows name or that no face uses; UsageError for any other
 /// number of files.
 std::vector<std::pair<int, int>> read_landmarks(const std::vector<std::string>& files,
                                                 const TriangleMesh& source_input,

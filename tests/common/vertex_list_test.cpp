@@ -116,5 +116,39 @@ TEST(IndexBaseText, IsReadOrRefused) {
     EXPECT_THROW(index_base_from("2"), UsageError);
 }
 
+TEST_F(VertexList, SnapsRowsOfCoordinatesToTheSurface) {
+    // Vertices 4 and 7 of the strip, lifted off it a little, and a point nearest to vertex 2.
+    const auto pairs = write("pairs.txt", "2 0 .41 3 1 .7\n1.1 0.05 .2 0 0 0\n");
+    EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_), ElementsAre(Pair(4, 7), Pair(2, 0)));
+    const auto sources = write("a.txt", "2 0 .4\n1 0 .2\n"), targets = write("b.txt", "7\n0\n");
+    EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_), ElementsAre(Pair(4, 7), Pair(2, 0)));
+    EXPECT_THAT(error_of({write("bad.txt", "2 0 .4\n1 0\n"), targets}), HasSubstr("bad.txt:2: expected the three"));
+}
+
+TEST_F(VertexList, MatchesPickedPointsByName) {
+    const auto meshlab = write("a.pp", "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData/>\n"
+                                       " <point x=\"2\" y=\"0\" z=\".4\" name=\"nose\" active=\"1\"/>\n"
+                                       " <point name=\"tail\" active=\"1\" z=\".7\" y=\"1\" x=\"3\"/>\n"
+                                       " <point x=\"0\" y=\"0\" z=\"0\" name=\"off\" active=\"0\"/>\n</PickedPoints>\n");
+    const auto slicer = write("b.mrk.json", R"({"markups": [{"type": "Fiducial", "controlPoints": [
+        {"label": "ear", "position": [0, 0, 0]}, {"label": "tail", "position": [1, 0, 0.2]},
+        {"label": "nose", "position": [4, 1, 0.9]}]}]})");
+    const auto old_slicer = write("c.fcsv", "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
+                                            "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n");
+    EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_), ElementsAre(Pair(4, 9), Pair(7, 2)));
+    EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_), ElementsAre(Pair(4, 1), Pair(7, 2)));
+    EXPECT_THAT(error_of({meshlab, write("other.fcsv", "1,0,0,0,0,0,0,1,1,1,0,paw,,\n")}), HasSubstr("no name in common"));
+    EXPECT_THROW(read_landmarks({meshlab}, mesh_, mesh_), UsageError);
+}
+
+TEST_F(VertexList, RefusesDamagedFilesOfPickedPoints) {
+    const auto good = write("good.fcsv", "1,1,0,.2\n");
+    EXPECT_THAT(error_of({write("a.pp", "<PickedPoints>\n<point x=\"1\" y=\"2\"/>\n"), good}), HasSubstr("a.pp:2: a point without"));
+    EXPECT_THAT(error_of({write("b.pp", "<point x=\"1\" y=\"2\" z=\"high\"/>"), good}), HasSubstr("'high' is not a coordinate"));
+    EXPECT_THAT(error_of({write("c.pp", ""), good}), HasSubstr("c.pp: holds no points"));
+    EXPECT_THAT(error_of({write("d.json", "{\"markups\": 3"), good}), HasSubstr("is not a 3D Slicer markups file"));
+    EXPECT_THAT(error_of({write("e.fcsv", "1,2\n"), good}), HasSubstr("e.fcsv:1: expected id,x,y,z"));
+}
+
 }  // namespace
 }  // namespace varimap

@@ -6,9 +6,9 @@ figure a.off 8
 figure b.off 8 .5
 figure c.off 8 -.5
 landmarks_of_figure a.off >tips.txt
-surface="eigen hierarchy preprocess"
 pair="diffuse refine remesh render"
-all="diffuse eigen*2 hierarchy*2 preprocess*2 refine remesh render"
+explored="diffuse explore refine remesh render"
+all="diffuse eigen*2 explore hierarchy*2 preprocess*2 refine remesh render"
 
 step() {  # STAGES ARGUMENTS: maps a onto b in out, and expects what ran
     local expected=$1
@@ -21,21 +21,21 @@ step "$all"
 step ""
 step "" -j 3
 
-step "diffuse eigen*2 hierarchy*2 refine remesh render" --set eigen.count=30
+step "diffuse eigen*2 explore hierarchy*2 refine remesh render" --set eigen.count=30
 step "refine remesh render" --set eigen.count=30 --set refine.tolerance=0.01
 step "render" --set eigen.count=30 --set refine.tolerance=0.01 --set render.width=320
 step "" --set render.width=320 --set refine.tolerance=0.01 --set eigen.count=30
-step "diffuse eigen*2 hierarchy*2 refine remesh render"
+step "diffuse eigen*2 explore hierarchy*2 refine remesh render"
 
 touch a.off
-step "diffuse eigen hierarchy preprocess refine remesh render"
+step "diffuse eigen explore hierarchy preprocess refine remesh render"
 # Another mesh of the same name, older than what was made of the first.
 touch -d 2001-01-01 c.off
 mv b.off kept.off
 cp -p c.off b.off
-step "diffuse eigen hierarchy preprocess refine remesh render"
+step "diffuse eigen explore hierarchy preprocess refine remesh render"
 mv kept.off b.off
-step "diffuse eigen hierarchy preprocess refine remesh render"
+step "diffuse eigen explore hierarchy preprocess refine remesh render"
 
 step "$pair" --landmarks tips.txt
 step "" --landmarks tips.txt
@@ -44,12 +44,14 @@ touch -d 2001-01-01 three.txt
 step "$pair" --landmarks three.txt
 awk '{ print $1 }' tips.txt >list.txt
 step "$pair" --landmarks list.txt list.txt
+step "$explored"
+step "$pair" --candidate 1 --set diffuse.tolerance=0.002
 step "$pair"
 
 # Another pair in the same folder shares a; its exports take the place of the first's.
 cp out/source_to_target.csv to_b.csv
 map a.off c.off -o out
-expect_ran "diffuse eigen hierarchy preprocess refine remesh render"
+expect_ran "diffuse eigen explore hierarchy preprocess refine remesh render"
 cmp -s out/source_to_target.csv to_b.csv && fail "the exports are still those of a and b"
 step "remesh render"
 same out/source_to_target.csv to_b.csv
@@ -58,9 +60,11 @@ same out/source_to_target.csv to_b.csv
 map a.off c.off -o other --artifacts out/artifacts
 expect_ran "remesh render"
 map c.off b.off -o other --artifacts out/artifacts
-expect_ran "$pair"
+expect_ran "$explored"
 map a.off a.off -o self
-expect_ran "diffuse $surface refine remesh render"
+expect_ran "diffuse eigen explore hierarchy preprocess refine remesh render"
+map a.off a.off -o self --mirror
+expect_ran "diffuse eigen explore hierarchy preprocess refine remesh render"
 
 rm out/quality.json
 step "remesh render"

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/known_pair.h"
+#include "common/stage/error.h"
 #include "common/surface_data.h"
 
 namespace varimap {
@@ -124,6 +125,31 @@ TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
                 .01 * plain);
     const TriangleMesh shuffled = shapes::shuffled(B, 9, &old_vertex);
     EXPECT_NEAR(energy_with(shuffled, old_vertex), plain, .03 * plain);
+}
+
+TEST(Diffuse, ContinuesTheCandidateAskedFor) {
+    const KnownPair pair = ellipsoids_with_landmarks();
+    const PairContext context = pair.context();
+    const LevelPair coarse = context.diffusion_level(3);
+    Candidates candidates{coarse.A.level.samples, coarse.B.level.samples, coarse.A.level.mass, coarse.B.level.mass,
+                          {Candidate{.score = 1}, Candidate{.score = 2}}, {}};
+    DiffuseParams params;
+    params.levels = 4;
+    const SparseMatrix right = diffuse(context, params).plan;
+    SparseMatrix wrong = right;  // spread evenly, it says nothing
+    for (double& value : wrong.coeffs()) value = 1;
+    candidates.plans = {wrong, right};
+    params.levels = 0;
+    params.candidate = 2;
+    const Plan plan = diffuse(context, params, candidates);
+    EXPECT_EQ(plan.candidate, 2);
+    EXPECT_EQ(plan.candidates.size(), 2u);
+    EXPECT_EQ(plan.trace.front().level, 4);
+    EXPECT_LT(mean_error(plan, pair), .02);
+    params.candidate = 3;
+    EXPECT_THROW(diffuse(context, params, candidates), UsageError);
+    candidates.samples_A.pop_back();
+    EXPECT_THROW(diffuse(context, {}, candidates), ArtifactError);
 }
 
 }  // namespace

@@ -75,5 +75,20 @@ TEST(Preprocess, RefusesATargetThatNeedsTooManyVertices) {
     EXPECT_THROW(preprocess(shapes::ellipsoid(2), params), InputError);
 }
 
+TEST(Preprocess, MirrorsBothMeshesAndKeepsEveryPointWhereItIs) {
+    const TriangleMesh input = shapes::tube(20, 12, true);
+    PreprocessParams params;
+    const Surface plain = preprocess(input, params);
+    params.mirror = true;
+    const Surface mirrored = preprocess(input, params);
+    EXPECT_TRUE(mirrored.mirrored);
+    EXPECT_EQ(mirrored.mesh.vertices, plain.mesh.vertices);
+    EXPECT_EQ(mirrored.input.vertices, input.vertices);
+    for (int f = 0; f < plain.mesh.face_count(); ++f)
+        EXPECT_LT(face_normal(mirrored.mesh, f).dot(face_normal(plain.mesh, f)), 0);
+    for (std::size_t v = 0; v < plain.on_input.size(); ++v)
+        EXPECT_LT((position(mirrored.input, mirrored.on_input[v]) - position(input, plain.on_input[v])).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace varimap

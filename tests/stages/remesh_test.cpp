@@ -179,5 +179,23 @@ TEST(QualityStages, AreNamedAfterStageAndArtifact) {
     EXPECT_EQ(quality["stages"]["remesh cat--dog"]["peak_megabytes"], 30);
 }
 
+TEST_F(Remesh, GivesPointsOnTheFacesOfTheFilesOfMirroredSurfaces) {
+    // A is the mirror image of B, with its faces as the file has them: inside out until it is mirrored.
+    A_.mesh.vertices.col(0) *= -1;
+    A_.input.vertices.col(0) *= -1;
+    plan_.position_B = A_.mesh.vertices;
+    const TriangleMesh file = with_reversed_orientation(A_).input;  // counter-clockwise from outside
+    Surface A = A_;
+    A.mirrored = true;
+    A_ = A;
+    const SurfaceMap map = read_only();
+    EXPECT_EQ(Json::parse(map.quality)["source_to_target"]["flipped_count"], 0);
+    EXPECT_EQ(Json::parse(map.quality)["target_to_source"]["flipped_count"], 0);
+    for (int v = 1; v < B_.input.vertex_count(); ++v)
+        EXPECT_LT((position(file, map.B_to_A[std::size_t(v)]) - file.vertex(v)).norm(), 1e-6);
+    const TriangleMesh back = cross_remesh(map.B_to_A, B_, A_);
+    for (int v = 1; v < B_.input.vertex_count(); ++v) EXPECT_LT((back.vertex(v) - file.vertex(v)).norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace varimap
