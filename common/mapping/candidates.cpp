@@ -10,7 +10,7 @@ bool is_mirrored(const Candidate& candidate) {
 }
 
 Confidence confidence_of(const std::vector<Candidate>& candidates) {
-    constexpr double least_margin = 0.01;
+    constexpr double least_margin = 0.015;
     Confidence result;
     if (candidates.empty()) return result;
     const Candidate& best = candidates.front();

@@ -15,7 +15,8 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 struct Candidate {
     double diffusion_energy = 0;  ///< Eq. (3) on the last diffusion level, marginals exact
     double euclidean_energy = 0;  ///< Eq. (3) on the first Euclidean level, marginals exact
-    double score = 0;             ///< log of both, weighted; a hundredth more is about a hundredth more energy
+    double bending_agreement = 0; ///< correlation of how far places and their images stand out of the surface
+    double score = 0;             ///< weighted log of both less the agreement; .01 more is about 1% more energy
     double reversed_mass = 0;     ///< share of the surfaces on which orientation is reversed, on the last diffusion level
     double moved_mass = 0;        ///< share of A with another image than the best candidate gives it
     double turn = 0;              ///< degrees by which the best rotation of A takes those parts to what has their images
@@ -28,7 +29,7 @@ bool is_mirrored(const Candidate& candidate);
 struct Confidence {
     double margin = 0;          ///< score of the second that is not mirrored, less the first's; 1 without a second
     bool levels_agree = true;   ///< the first has the smallest energy on both levels
-    bool confident = true;      ///< levels agree, and the margin is at least 0.01
+    bool confident = true;      ///< levels agree, and the margin is at least 0.015
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates);
 

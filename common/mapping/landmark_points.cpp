@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -61,7 +62,8 @@ std::vector<PickedPoint> read_pp(const std::string& path, std::string_view bytes
 std::vector<PickedPoint> read_mrk_json(const std::string& path, const std::string& bytes) {
     std::vector<PickedPoint> points;
     try {
-        for (const auto& markup : nlohmann::json::parse(bytes).at("markups"))
+        const auto file = nlohmann::json::parse(bytes);
+        for (const auto& markup : file.at("markups"))
             for (const auto& control : markup.at("controlPoints")) {
                 PickedPoint point;
                 point.line = int(points.size()) + 1;

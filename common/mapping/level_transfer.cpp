@@ -46,6 +46,13 @@ void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& land
     }
 }
 
+Start zero_start(const LevelPair& pair) {
+    const RowMatrix &a = pair.A.side.points, &b = pair.B.side.points;
+    Start start{{RowMatrix::Zero(a.rows(), b.cols()), RowMatrix::Zero(b.rows(), a.cols())}, {}};
+    pin_landmarks(pair.A.side, pair.B.side, start.centres);
+    return start;
+}
+
 LevelSwitch::LevelSwitch(const Level& coarse_A, const Level& coarse_B, const LevelPair& fine)
     : fine_(fine),
       coarse_mass_A_(coarse_A.mass),

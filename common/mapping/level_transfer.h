@@ -33,6 +33,9 @@ struct Start {
     KeptEntries kept;
 };
 
+/// The full plan, from centres at the origin of the embeddings, landmarks pinned.
+Start zero_start(const LevelPair& pair);
+
 /// Level switch: a new sample takes its parent's mean image, recomputed with the new embedding's mean over the cells of the
 /// parent's partners, then smoothed by W; children inherit the parent's kept entries. What does not depend on the
 /// plan is computed once, so that many plans can be handed down.

@@ -27,6 +27,13 @@ struct TraceRow {
     double marginal_error = 0;    ///< L1 distance of the row sums from the masses
 };
 
+/// What the other landmarks say of a landmark.
+struct LandmarkCheck {
+    double distance = 0;     ///< along B, units of sqrt(area): from where they take it to where it was put
+    double energy_fall = 0;  ///< by which share Eq. (3) falls without it, on a coarse level
+    bool is_contradicted() const { return distance > 0.25 && energy_fall > 0.015; }
+};
+
 /// A transport plan between samples of two surfaces, with its centres: the artifact of varimap-diffuse (last
 /// diffusion level) and of varimap-refine (all vertices).
 struct Plan {
@@ -37,6 +44,7 @@ struct Plan {
     Points position_B;                            ///< per VERTEX of B's mesh: the same near A's mesh
     std::vector<std::pair<int, int>> landmarks;   ///< pairs of mesh vertices (A, B)
     std::vector<TraceRow> trace;                  ///< of all levels so far
+    std::vector<LandmarkCheck> landmark_checks;   ///< per landmark, or none
     std::vector<Candidate> candidates;            ///< of varimap-explore, the best first; none with landmarks
     int candidate = 0;                            ///< which of them this plan continues, from 1; 0 without any
 };

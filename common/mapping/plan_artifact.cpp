@@ -10,8 +10,13 @@ void serialize(Archive& archive, TraceRow& row) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, LandmarkCheck& check) {
+    archive(check.distance, check.energy_fall);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Candidate& c) {
-    archive(c.diffusion_energy, c.euclidean_energy, c.score, c.reversed_mass, c.moved_mass, c.turn);
+    archive(c.diffusion_energy, c.euclidean_energy, c.bending_agreement, c.score, c.reversed_mass, c.moved_mass, c.turn);
 }
 
 template <class Archive>
@@ -22,7 +27,7 @@ void serialize(Archive& archive, Candidates& c) {
 template <class Archive>
 void serialize(Archive& archive, Plan& plan) {
     archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.plan, plan.position_A,
-            plan.position_B, plan.landmarks, plan.trace, plan.candidates, plan.candidate);
+            plan.position_B, plan.landmarks, plan.trace, plan.landmark_checks, plan.candidates, plan.candidate);
 }
 
 namespace {
@@ -50,6 +55,8 @@ void require_consistent(const Plan& plan) {
         require<Plan>(
             all_in_range({first}, plan.position_A.rows()) && all_in_range({second}, plan.position_B.rows()),
             "landmarks");
+    require<Plan>(plan.landmark_checks.empty() || plan.landmark_checks.size() == plan.landmarks.size(),
+                  "landmark checks");
     require<Plan>(plan.candidate >= 0 && plan.candidate <= int(plan.candidates.size()), "candidates");
 }
 

@@ -9,6 +9,7 @@
 #include "common/mapping/solve_level.h"
 #include "common/stage/error.h"
 #include "common/stage/parallel.h"
+#include "stages/diffuse/landmark_check.h"
 
 namespace varimap {
 
@@ -56,11 +57,11 @@ Centres wasserstein_centres(const LevelPair& pair, const PairContext& context, c
 
 /// Coarsest level: the full plan, from centres at the origin unless the surfaces are aligned.
 Start coarsest_start(const LevelPair& pair, const PairContext& context, const DiffuseParams& params) {
-    Start start;
-    start.centres.row = RowMatrix::Zero(pair.A.side.mass.size(), pair.B.side.points.cols());
-    start.centres.column = RowMatrix::Zero(pair.B.side.mass.size(), pair.A.side.points.cols());
-    if (params.start == "wasserstein") start.centres = wasserstein_centres(pair, context, params.alternation);
-    pin_landmarks(pair.A.side, pair.B.side, start.centres);
+    Start start = zero_start(pair);
+    if (params.start == "wasserstein") {
+        start.centres = wasserstein_centres(pair, context, params.alternation);
+        pin_landmarks(pair.A.side, pair.B.side, start.centres);
+    }
     return start;
 }
 
@@ -153,6 +154,7 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params, const std:
     }
     Plan plan = to_plan(coarse.pair, solution, context);
     plan.trace = std::move(trace);
+    if (params.check_landmarks) plan.landmark_checks = check_landmarks(context, params.alternation);
     if (candidates) {
         plan.candidates = candidates->list;
         plan.candidate = params.candidate;

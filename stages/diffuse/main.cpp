@@ -13,6 +13,16 @@ std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs
     return candidates.value;
 }
 
+void report(const std::vector<LandmarkCheck>& checks) {
+    for (size_t i = 0; i < checks.size(); ++i) {
+        const LandmarkCheck& check = checks[i];
+        log("landmark {}: the others take it {:.3f} from its partner, in units of sqrt(area); without it the energy "
+            "falls by {:.1f}%", i + 1, check.distance, 100 * check.energy_fall);
+        if (check.is_contradicted())
+            warn("landmark {} is contradicted by the others: is it in the right place, on the right side?", i + 1);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -30,6 +40,7 @@ int main(int argc, char** argv) {
         const PairContext context(std::move(A), std::move(B), landmarks);
         const auto candidates = read_candidates(stage, inputs, candidates_in);
         const Plan plan = diffuse(context, params, candidates);
+        report(plan.landmark_checks);
         stage.record_number("levels", plan.trace.back().level + 1);
         stage.record_number("alternations", double(plan.trace.size()));
         stage.write(out, plan);

@@ -7,6 +7,7 @@
 #include "common/mapping/solve_level.h"
 #include "common/stage/log.h"
 #include "common/stage/parallel.h"
+#include "stages/explore/bending.h"
 #include "stages/explore/starts.h"
 
 namespace varimap {
@@ -80,14 +81,14 @@ Solution Exploration::solve(const Start& start) const {
 }
 
 Trial Exploration::tried(const Start& start, bool ironed) const {
-    if (samples() < ironing_.minimum_samples) return {solve(start), 0, {}};
+    if (samples() < ironing_.minimum_samples) return {solve(start), 0, 0, {}};
     LevelPair own = level_;  // ironing may change its weights
     Ironing ironing(context_, own, ironing_);
     AlternatingMinimization minimization(own.A.side, own.B.side, alternation_);
     minimization.adopt(solve(start));
     if (ironed) ironing.iron(minimization, ignore);
     const PairOrientation orientation = ironing.measure(minimization.solution());
-    return {minimization.take_solution(), 0, orientation};
+    return {minimization.take_solution(), 0, 0, orientation};
 }
 
 void Exploration::try_all(const std::vector<Start>& starts, bool ironed) {
@@ -108,12 +109,10 @@ void Exploration::enter(int level) {
 }
 
 void Exploration::add_starts() {
-    const auto rows = level_.A.side.points.rows(), columns = level_.B.side.points.rows();
-    Centres zero{RowMatrix::Zero(rows, level_.B.side.points.cols()), RowMatrix::Zero(columns, level_.A.side.points.cols())};
-    pin_landmarks(level_.A.side, level_.B.side, zero);
-    std::vector<Start> starts{{zero, {}}};
+    const int rows = int(level_.A.level.samples.size()), columns = int(level_.B.level.samples.size());
+    std::vector<Start> starts{zero_start(level_)};
     for (const Matching& m : spectral_matchings(context_, level_)) starts.push_back({centres_of(level_, m), {}});
-    for (const Matching& m : random_matchings(int(rows), int(columns), options_.random_starts, random_))
+    for (const Matching& m : random_matchings(rows, columns, options_.random_starts, random_))
         starts.push_back({centres_of(level_, m), {}});
     try_all(starts);
 }
@@ -145,10 +144,14 @@ void Exploration::prune(int keep) {
 }
 
 double Exploration::score(const Trial& trial) const {
-    return std::log(trial.energy()) + options_.euclidean_exponent * std::log(trial.euclidean_energy);
+    return std::log(trial.energy()) + options_.euclidean_exponent * std::log(trial.euclidean_energy) -
+           options_.bending_weight * trial.bending_agreement;
 }
 
-void Exploration::measure_euclidean_energies() {
+void Exploration::measure_finalists() {
+    const Eigen::VectorXd bending_A = bending(context_.A()), bending_B = bending(context_.B());
+    for (Trial& trial : pool_)
+        trial.bending_agreement = bending_agreement(level_, bending_A, bending_B, trial.orientation.A_to_B, trial.orientation.B_to_A);
     const LevelPair euclidean = context_.euclidean_level(0, 1);
     const LevelSwitch step(level_.A.level, level_.B.level, euclidean);
     parallel_for_each_index(pool_.size(), size_t(1), [&](size_t n) {
@@ -176,7 +179,7 @@ std::vector<Trial> Exploration::run() {
         log("level {} ({} x {}): {} maps, energies {:.6g} to {:.6g}", l, level_.A.level.samples.size(),
             level_.B.level.samples.size(), pool_.size(), pool_.front().energy(), pool_.back().energy());
     }
-    measure_euclidean_energies();
+    measure_finalists();
     std::stable_sort(pool_.begin(), pool_.end(), [&](const Trial& a, const Trial& b) {
         return std::pair(is_mirrored(a), score(a)) < std::pair(is_mirrored(b), score(b));
     });
@@ -220,6 +223,7 @@ std::vector<Candidate> describe(const Exploration& exploration, const std::vecto
     for (const Trial& trial : trials) {
         Candidate candidate{.diffusion_energy = trial.energy(),
                             .euclidean_energy = trial.euclidean_energy,
+                            .bending_agreement = trial.bending_agreement,
                             .score = exploration.score(trial),
                             .reversed_mass = trial.orientation.reversed_mass()};
         if (&trial != &trials.front()) compare(trials.front(), trial, exploration.last_level(), context, candidate);

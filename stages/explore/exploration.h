@@ -13,19 +13,22 @@ namespace varimap {
 /// Finding a map without landmarks. The coarsest levels have so few samples that solving them costs
 /// milliseconds: many starts are solved there, and the better ones are promoted from level to level
 /// (successive halving), with duplicates removed and the images of extremities exchanged on the way. The last
-/// few are ranked by their energies on the last diffusion level and on the first Euclidean level together.
+/// few are ranked by their energies on the last diffusion level and on the first Euclidean level together, and
+/// by how well bending agrees, which tells near-symmetries that energy only just does: a person turned about.
 struct ExplorationOptions {
     int random_starts = 16;           ///< at each of the three coarsest levels worth it
     int seed = 1;
     int candidates = 3;               ///< maps that reach the last level
     double distinct = 0.05;           ///< maps closer than this are duplicates: squared distance of centres / variance
     double euclidean_exponent = 0.3;  ///< of the Euclidean energy in the ranking, beside 1 of the diffusion energy
+    double bending_weight = 0.1;      ///< of the agreement of bending in the ranking
 };
 
 /// A map under trial: its solution at a level, and what is known of it there.
 struct Trial {
     Solution solution;
     double euclidean_energy = 0;
+    double bending_agreement = 0;  ///< bending.h
     PairOrientation orientation;  ///< from ironing's first level on
     double energy() const { return solution.step.energy; }
 };
@@ -40,7 +43,7 @@ class Exploration {
     std::vector<Trial> run();
     /// The level pair they live on.
     const LevelPair& last_level() const { return level_; }
-    /// log E_diffusion + exponent log E_euclidean.
+    /// log E_diffusion + exponent log E_euclidean - weight bending agreement.
     double score(const Trial& trial) const;
 
   private:
@@ -48,7 +51,7 @@ class Exploration {
     void add_starts();
     void add_swaps(int best);
     void prune(int keep);
-    void measure_euclidean_energies();
+    void measure_finalists();
     Solution solve(const Start& start) const;
     Trial tried(const Start& start, bool ironed) const;
     void try_all(const std::vector<Start>& starts, bool ironed = true);

@@ -8,8 +8,8 @@ namespace {
 
 void report(const std::vector<Candidate>& candidates) {
     for (size_t k = 0; k < candidates.size(); ++k)
-        log("candidate {}: energy {:.6g} and {:.6g}, score {:.4f}, {:.1f}% reversed; {}", k + 1,
-            candidates[k].diffusion_energy, candidates[k].euclidean_energy, candidates[k].score,
+        log("candidate {}: energy {:.6g} and {:.6g}, bending {:.3f}, score {:.4f}, {:.1f}% reversed; {}", k + 1,
+            candidates[k].diffusion_energy, candidates[k].euclidean_energy, candidates[k].bending_agreement, candidates[k].score,
             100 * candidates[k].reversed_mass, relation(candidates[k]));
     const Confidence confidence = confidence_of(candidates);
     if (is_mirrored(candidates.front()))

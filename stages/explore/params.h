@@ -22,6 +22,7 @@ struct ExploreParams {
                  "maps closer than this are duplicates: mean squared distance / variance", 0.0, 2.0);
         list.add("euclidean_exponent", exploration.euclidean_exponent,
                  "of the energy on the first Euclidean level, in the ranking", 0.0, 10.0);
+        list.add("bending_weight", exploration.bending_weight, "of the agreement of bending, in the ranking", 0.0, 10.0);
     }
 };
 

@@ -78,10 +78,10 @@ std::string trace_csv(const std::vector<TraceRow>& trace) {
 }
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
-    std::string text = "candidate,diffusion_energy,euclidean_energy,score,reversed_mass,moved_mass,turn\n";
+    std::string text = "candidate,diffusion_energy,euclidean_energy,bending_agreement,score,reversed_mass,moved_mass,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy, c.score,
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy, c.bending_agreement, c.score,
                             c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;

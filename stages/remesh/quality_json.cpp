@@ -83,6 +83,7 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
     for (const Candidate& c : candidates)
         list.push_back({{"diffusion_energy", c.diffusion_energy},
                         {"euclidean_energy", c.euclidean_energy},
+                        {"bending_agreement", c.bending_agreement},
                         {"score", c.score},
                         {"reversed_percent", 100 * c.reversed_mass},
                         {"moved_percent", 100 * c.moved_mass},
@@ -146,6 +147,10 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     Json quality;
     if (!plan.trace.empty()) quality["energy"] = plan.trace.back().energy;
     quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
+    for (const LandmarkCheck& check : plan.landmark_checks)
+        quality["landmark_checks"].push_back({{"distance", check.distance},
+                                              {"energy_fall_percent", 100 * check.energy_fall},
+                                              {"contradicted", check.is_contradicted()}});
     if (!plan.candidates.empty()) quality["exploration"] = to_json(plan.candidates, plan.candidate);
     quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
     quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);

@@ -15,6 +15,7 @@ namespace varimap {
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
 ///   energy            Eq. (3) at the end; absent if the plan has no trace
 ///   landmarks         distance of each landmark's image from its partner
+///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions: plan.h)
 ///   exploration       without landmarks: which candidate was continued, confident, margin, levels_agree, and the
 ///                     candidates: energies, score, reversed_percent, moved_percent, turn_degrees, mirrored
 ///                     (definitions: candidates.h)

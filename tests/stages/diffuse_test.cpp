@@ -8,6 +8,7 @@
 #include "common/known_pair.h"
 #include "common/stage/error.h"
 #include "common/surface_data.h"
+#include "stages/diffuse/landmark_check.h"
 
 namespace varimap {
 namespace {
@@ -125,6 +126,21 @@ TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
                 .01 * plain);
     const TriangleMesh shuffled = shapes::shuffled(B, 9, &old_vertex);
     EXPECT_NEAR(energy_with(shuffled, old_vertex), plain, .03 * plain);
+}
+
+TEST(Diffuse, NamesTheLandmarkThatTheOthersContradict) {
+    KnownPair pair = shapes::figure_pair(1, true);
+    const AlternationOptions options = DiffuseParams().alternation;
+    for (const LandmarkCheck& check : check_landmarks(pair.context(), options)) EXPECT_FALSE(check.is_contradicted());
+    // The left hind foot, put beside the left forefoot.
+    const TriangleMesh& B = pair.B.surface.mesh;
+    pair.landmarks[2].second = shapes::nearest_vertex(B, B.vertex(pair.landmarks[0].second) + Vec3(.05, 0, 0));
+    ASSERT_NE(pair.landmarks[2].second, pair.landmarks[0].second);
+    const auto checks = check_landmarks(pair.context(), options);
+    ASSERT_EQ(checks.size(), 4u);
+    EXPECT_TRUE(checks[2].is_contradicted());
+    EXPECT_GT(checks[2].distance, .5);
+    EXPECT_GT(checks[2].energy_fall, checks[1].energy_fall);
 }
 
 TEST(Diffuse, ContinuesTheCandidateAskedFor) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "common/mapping/pair_context.h"
+#include "common/mapping/plan.h"
+
+namespace varimap {
+
+/// Per landmark: the coarse levels, up to the first with 100 samples, are solved once more with all other
+/// landmarks, and what becomes of this one is compared with the map that has them all. A landmark that the
+/// others contradict is carried far away, and the energy falls.
+std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const AlternationOptions& options);
+
+}  // namespace varimap

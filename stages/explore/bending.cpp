@@ -1,0 +1,48 @@
+#include "stages/explore/bending.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace varimap {
+
+namespace {
+
+/// Values at quantiles 5% and 95% take the place of those beyond.
+Eigen::VectorXd clipped(Eigen::VectorXd values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t twentieth = sorted.size() / 20;
+    return values.cwiseMax(sorted[twentieth]).cwiseMin(sorted[sorted.size() - 1 - twentieth]);
+}
+
+double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& mass) {
+    const Eigen::ArrayXd x = a.array() - mass.dot(a), y = b.array() - mass.dot(b);
+    const double product = (mass.array() * x * y).sum();
+    const double scale = std::sqrt((mass.array() * x * x).sum() * (mass.array() * y * y).sum());
+    return scale > 0 ? product / scale : 0;
+}
+
+double agreement(const LevelSide& from, const Eigen::VectorXd& here, const Eigen::VectorXd& there,
+                 const std::vector<int>& image) {
+    return correlation(clipped(here(from.level.samples)), clipped(there(image)), from.side.mass);
+}
+
+}  // namespace
+
+Eigen::VectorXd bending(const SurfaceData& data) {
+    constexpr double time = 4e-3;  // units of area: smooths over about a tenth of sqrt(area)
+    const Surface& surface = data.surface;
+    const RowMatrix phi = diffusion_embedding(data.basis, time);  // exp(-lambda t / 2) phi
+    const RowMatrix smoothed = phi * (phi.transpose() * (surface.mass.asDiagonal() * surface.mesh.vertices));
+    const Eigen::VectorXd height = (surface.mesh.vertices - smoothed).cwiseProduct(vertex_normals(surface.mesh)).rowwise().sum();
+    return surface.mirrored ? -height : height;
+}
+
+double bending_agreement(const LevelPair& pair, const Eigen::VectorXd& bending_A, const Eigen::VectorXd& bending_B,
+                         const Orientation& A_to_B, const Orientation& B_to_A) {
+    if (A_to_B.image_vertex.empty()) return 0;  // too few samples for images
+    return (agreement(pair.A, bending_A, bending_B, A_to_B.image_vertex) +
+            agreement(pair.B, bending_B, bending_A, B_to_A.image_vertex)) / 2;
+}
+
+}  // namespace varimap
