@@ -28,7 +28,8 @@ for moment in .002 .005 .01 .02 .03 .05 .08 .12 .2; do
     cp old.basis killed/a.basis
     kill_after $moment "$VARIMAP_BIN/varimap-eigen" reference/artifacts/a.surface killed/a.basis
     cmp -s killed/a.basis old.basis || same killed/a.basis reference/artifacts/a.basis
-    kill_after $moment "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" killed/new.diffusion
+    kill_after $moment "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" killed/new.diffusion \
+        --candidates reference/artifacts/a--b.candidates
     [[ ! -e killed/new.diffusion ]] || same killed/new.diffusion reference/artifacts/a--b.diffusion
     rm -f killed/new.diffusion
 done
@@ -40,13 +41,13 @@ for moment in .1 .4 .8 1.2; do
     sleep $moment
     kill -TERM $front_end 2>/dev/null || true
     wait $front_end 2>/dev/null || true
-    find out -name '*.surface' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.diffusion' -o -name '*.plan' \
+    find out -name '*.surface' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.candidates' -o -name '*.diffusion' -o -name '*.plan' \
         -o -name '*.map' | while read -r artifact; do
         "$inspect" --check "$artifact" &>/dev/null || fail "$artifact is damaged after an interrupt"
     done
 done
 map a.off b.off -o out
-for artifact in reference/artifacts/*.{surface,basis,hierarchy,diffusion,plan,map}; do
+for artifact in reference/artifacts/*.{surface,basis,hierarchy,candidates,diffusion,plan,map}; do
     same "$artifact" "out/artifacts/${artifact##*/}"
 done
 
