@@ -91,10 +91,10 @@ PointMap with_leg(const TriangleMesh& figure, const std::function<Vec3(const Vec
     return map;
 }
 
-PointMap twisted_leg(const TriangleMesh& figure) {
-    return with_leg(figure, [](const Vec3& p) -> Vec3 {
-        const double share = std::clamp((leg_origin.z() - p.z()) / 0.3, 0.0, 1.0);
-        return leg_origin + Eigen::AngleAxisd(std::numbers::pi * share, leg_axis) * (p - leg_origin);
+PointMap twisted_leg(const TriangleMesh& figure, double turns) {
+    return with_leg(figure, [&](const Vec3& p) -> Vec3 {
+        const double share = std::clamp((leg_origin.z() - p.z()) / 0.6, 0.0, 1.0);
+        return leg_origin + Eigen::AngleAxisd(2 * std::numbers::pi * turns * share, leg_axis) * (p - leg_origin);
     });
 }
 

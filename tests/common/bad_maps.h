@@ -27,8 +27,8 @@ inline const Vec3 leg_axis = Vec3(0.05, 0.09, -1.05).normalized();
 std::vector<char> on_leg(const TriangleMesh& figure);
 /// The identity of a figure, but the vertices of its leg on the points closest to move(p). Valid for any pose.
 PointMap with_leg(const TriangleMesh& figure, const std::function<Vec3(const Vec3& p)>& move);
-/// The leg turned by half a turn about its axis, sheared over the first 0.3 of its length.
-PointMap twisted_leg(const TriangleMesh& figure);
+/// The leg turned about its axis, sheared over the first 0.6 of its length.
+PointMap twisted_leg(const TriangleMesh& figure, double turns);
 /// The leg mirrored in a plane through its axis.
 PointMap mirrored_leg(const TriangleMesh& figure);
 /// The vertices of the leg anywhere on it.

@@ -117,7 +117,7 @@ void expect_undone(PointMap map, const TriangleMesh& source, const TriangleMesh&
 TEST(Untangling, UndoesAMirroredCap) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
     PointMap map = shapes::at_vertices(sphere);
-    mirror_patch(map, sphere, 7, 0.6);
+    mirror_patch(map, sphere, 7, 0.8);
     expect_undone(map, sphere, sphere);
 }
 
