@@ -94,13 +94,15 @@ PointMap with_leg(const TriangleMesh& figure, const std::function<Vec3(const Vec
 PointMap twisted_leg(const TriangleMesh& figure, double turns) {
     return with_leg(figure, [&](const Vec3& p) -> Vec3 {
         const double share = std::clamp((leg_origin.z() - p.z()) / 0.6, 0.0, 1.0);
-        return leg_origin + Eigen::AngleAxisd(2 * std::numbers::pi * turns * share, leg_axis) * (p - leg_origin);
+        return leg_origin +
+               Eigen::AngleAxisd(2 * std::numbers::pi * turns * share, leg_axis) * (p - leg_origin);
     });
 }
 
 PointMap mirrored_leg(const TriangleMesh& figure) {
     const Vec3 across = leg_axis.cross(Vec3::UnitX()).normalized();
-    return with_leg(figure, [&](const Vec3& p) -> Vec3 { return p - 2 * across.dot(p - leg_origin) * across; });
+    return with_leg(figure,
+                    [&](const Vec3& p) -> Vec3 { return p - 2 * across.dot(p - leg_origin) * across; });
 }
 
 PointMap crumpled_leg(const TriangleMesh& figure) {

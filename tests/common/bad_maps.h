@@ -25,7 +25,8 @@ inline const Vec3 leg_origin(0.715, 0.275, -0.5);
 inline const Vec3 leg_axis = Vec3(0.05, 0.09, -1.05).normalized();
 /// Marks the vertices of the leg (z < -0.5).
 std::vector<char> on_leg(const TriangleMesh& figure);
-/// The identity of a figure, but the vertices of its leg on the points closest to move(p). Valid for any pose.
+/// The identity of a figure, but the vertices of its leg on the points closest to move(p). Valid for any
+/// pose.
 PointMap with_leg(const TriangleMesh& figure, const std::function<Vec3(const Vec3& p)>& move);
 /// The leg turned about its axis, sheared over the first 0.6 of its length.
 PointMap twisted_leg(const TriangleMesh& figure, double turns);

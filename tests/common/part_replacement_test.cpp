@@ -100,7 +100,8 @@ TEST(PartReplacement, KeepsALimbThatTheInverseHasWorse) {
 }
 
 TEST(PartReplacement, DoesNotTakeAnEqualMapFromTheInverse) {
-    const TriangleMesh egg = shapes::ellipsoid(3, {1.2, 1, 0.8}), stretched = shapes::ellipsoid(3, {2.4, 1, 0.8});
+    const TriangleMesh egg = shapes::ellipsoid(3, {1.2, 1, 0.8}),
+                       stretched = shapes::ellipsoid(3, {2.4, 1, 0.8});
     const PointMap identity = shapes::at_vertices(egg);
     const std::vector<char> fixed(identity.size(), 0);
     MovingMap map(identity, egg, stretched);
