@@ -126,7 +126,7 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params) {
         const Start start = l == 0 ? coarsest_start(pair, context, params)
                                    : hand_down(solution.plan, coarse.A.level, coarse.B.level, pair,
                                                params.alternation.support_threshold);
-        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, trace);
+        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution, context);

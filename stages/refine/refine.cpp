@@ -47,7 +47,7 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
             hand_down(solution.plan, coarse.A.level, coarse.B.level, pair, params.alternation.support_threshold);
         IroningOptions ironing = params.ironing;
         ironing.enabled &= l + 1 < all;  // neighbourhoods of the last level are too small to move a patch
-        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing, trace);
+        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing, l + 1 == levels, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution);
