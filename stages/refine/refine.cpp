@@ -26,6 +26,8 @@ Plan to_plan(const LevelPair& pair, const Solution& solution) {
     plan.samples_B = pair.B.level.samples;
     plan.mass_A = pair.A.side.mass;
     plan.mass_B = pair.B.side.mass;
+    plan.transported_A = row_sums(solution.plan);
+    plan.transported_B = column_sums(solution.plan);
     plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
     return plan;
 }
@@ -61,6 +63,7 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
     plan.position_A = space_part(centres.row);
     plan.position_B = space_part(centres.column);
     plan.landmarks = diffusion.landmarks;
+    plan.area_bound = params.alternation.area_bound;
     plan.trace = std::move(trace);
     return plan;
 }

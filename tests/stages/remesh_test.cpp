@@ -51,7 +51,7 @@ class Remesh : public ::testing::Test {
         const int n = A_.mesh.vertex_count();
         for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
         plan.samples_B = plan.samples_A;
-        plan.mass_A = plan.mass_B = A_.mass;
+        plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = A_.mass;
         plan.plan.resize(n, n);
         plan.plan.setIdentity();
         plan.position_A = plan.position_B = A_.mesh.vertices;
