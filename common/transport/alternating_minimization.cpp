@@ -28,11 +28,13 @@ Bounds area_bounds(const Side& X, const Side& Y, const AlternationOptions& optio
 
 /// The area bound, and Eq. (10) around other masses.
 Bounds bounds_around(const Eigen::VectorXd& row, const Eigen::VectorXd& column, const Bounds& area) {
-    return {area.row.within(MassBounds::around(row, slack)), area.column.within(MassBounds::around(column, slack))};
+    return {area.row.within(MassBounds::around(row, slack)),
+            area.column.within(MassBounds::around(column, slack))};
 }
 
 /// What the plan's row and column sums must keep.
-Bounds plan_bounds(const Side& X, const Side& Y, const RelaxedMasses& relaxed, const AlternationOptions& options) {
+Bounds plan_bounds(const Side& X, const Side& Y, const RelaxedMasses& relaxed,
+                   const AlternationOptions& options) {
     const Bounds area = area_bounds(X, Y, options);
     return relaxed.row.size() > 0 ? bounds_around(relaxed.row, relaxed.column, area) : area;
 }
@@ -42,8 +44,8 @@ struct PlanStep {
     SinkhornReport sinkhorn;
 };
 
-/// Entropic transport with gamma annealed from the given divisor of the largest cost, in steps of 3, down to its final
-/// value, each time to the given tolerance. The problem's gamma is set here.
+/// Entropic transport with gamma annealed from the given divisor of the largest cost, in steps of 3, down to
+/// its final value, each time to the given tolerance. The problem's gamma is set here.
 PlanStep solve_annealed(TransportProblem problem, double largest, double first_divisor, double tolerance,
                         const AlternationOptions& options, Solution& solution) {
     PlanStep step{};
@@ -64,9 +66,9 @@ struct Masses {
         : row(bounds.row.projected(row_sums(plan))), column(bounds.column.projected(column_sums(plan))) {}
 };
 
-/// Solves for exactly the masses of the solution's plan, moved into the bounds, where they are further from these than
-/// rounding should bridge. Starts from gamma = the largest cost: at small gamma potentials of exact masses spread
-/// slowly.
+/// Solves for exactly the masses of the solution's plan, moved into the bounds, where they are further from
+/// these than rounding should bridge. Starts from gamma = the largest cost: at small gamma potentials of
+/// exact masses spread slowly.
 SinkhornReport tighten(TransportProblem problem, double largest, const AlternationOptions& options,
                        Solution& solution) {
     constexpr double tolerance = 5e-3, failure = 5e-2;
@@ -78,26 +80,37 @@ SinkhornReport tighten(TransportProblem problem, double largest, const Alternati
     problem.column_bounds = {masses.column, masses.column};
     const SinkhornReport report = solve_annealed(problem, largest, 1, tolerance, options, solution).sinkhorn;
     if (report.marginal_error > failure)
-        throw ConvergenceError(fmt::format("the area bound cannot be kept: {:.2g}% of the mass is out of place after {} "
-                                           "Sinkhorn iterations; raise area_bound or sinkhorn_iterations",
-                                           100 * report.marginal_error, report.iterations));
+        throw ConvergenceError(
+            fmt::format("the area bound cannot be kept: {:.2g}% of the mass is out of place after {} "
+                        "Sinkhorn iterations; raise area_bound or sinkhorn_iterations",
+                        100 * report.marginal_error, report.iterations));
     return report;
 }
 
 /// One plan half-step with the rest fixed.
-PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, bool tight, const AlternationOptions& options,
-                    Solution& solution) {
-    Eigen::VectorXd cost = CostFactors(X, Y, solution.step.centres, solution.relaxed).on(solution.plan.support);
+PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, bool tight,
+                    const AlternationOptions& options, Solution& solution) {
+    Eigen::VectorXd cost =
+        CostFactors(X, Y, solution.step.centres, solution.relaxed).on(solution.plan.support);
     const double largest = std::max(cost.maxCoeff(), 1e-300);
     const Support& s = solution.plan.support;
     if (options.centring > 0 && solution.mean_costs.row.size() > 0)
         for (int i = 0; i < s.rows(); ++i)
             for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
-                cost[e] -= options.centring * (solution.mean_costs.row[i] + solution.mean_costs.column[s.column[e]]);
+                cost[e] -=
+                    options.centring * (solution.mean_costs.row[i] + solution.mean_costs.column[s.column[e]]);
     const Bounds bounds = plan_bounds(X, Y, solution.relaxed, options);
-    const TransportProblem problem{s,      cost,       X.mass,        Y.mass, 0, options.background_factor * largest,
-                                   bounds.row, bounds.column, options.mass_penalty * largest};
-    PlanStep step = solve_annealed(problem, largest, first_divisor, options.marginal_tolerance, options, solution);
+    const TransportProblem problem{s,
+                                   cost,
+                                   X.mass,
+                                   Y.mass,
+                                   0,
+                                   options.background_factor * largest,
+                                   bounds.row,
+                                   bounds.column,
+                                   options.mass_penalty * largest};
+    PlanStep step =
+        solve_annealed(problem, largest, first_divisor, options.marginal_tolerance, options, solution);
     if (tight) {
         const SinkhornReport last = tighten(problem, largest, options, solution);
         step.sinkhorn = {step.sinkhorn.iterations + last.iterations, last.marginal_error};
@@ -114,14 +127,16 @@ void AlternatingMinimization::start(const Centres& centres, const KeptEntries& k
     solution_.relaxed = {};
     if (options_.area_energy == "paper") solution_.relaxed = {X_.mass, Y_.mass};
     solution_.potentials = Potentials::zero(rows, columns);
-    solution_.plan.support = kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.reach, Y_.reach);
+    solution_.plan.support =
+        kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.reach, Y_.reach);
     fresh_ = true;
 }
 
 void AlternatingMinimization::renew_support() {
     const long full = long(X_.mass.size()) * long(Y_.mass.size());
     if (full <= full_plan_entries && solution_.plan.support.entries() == full) return;
-    const KeptEntries kept = significant_entries(solution_.plan, X_.mass, Y_.mass, options_.support_threshold);
+    const KeptEntries kept =
+        significant_entries(solution_.plan, X_.mass, Y_.mass, options_.support_threshold);
     solution_.plan.support = enlarged(kept, X_.reach, Y_.reach);
 }
 
@@ -130,8 +145,8 @@ Alternation AlternatingMinimization::step(bool tight) {
     const double first_divisor = fresh_ ? options_.annealing_divisor : options_.gamma_divisor;
     const PlanStep plan = solve_plan(X_, Y_, first_divisor, tight, options_, solution_);
     if (options_.area_energy == "paper") {
-        const Bounds bounds = bounds_around(row_sums(solution_.plan), column_sums(solution_.plan),
-                                            area_bounds(X_, Y_, options_));
+        const Masses masses(solution_.plan, plan_bounds(X_, Y_, solution_.relaxed, options_));
+        const Bounds bounds = bounds_around(masses.row, masses.column, area_bounds(X_, Y_, options_));
         solution_.relaxed =
             update_relaxed_masses(X_, Y_, solution_.plan, solution_.step.centres, bounds.row, bounds.column);
     }
@@ -148,10 +163,11 @@ void AlternatingMinimization::keep_bounds() {
     const Bounds bounds = area_bounds(X_, Y_, options_);
     const Masses masses(solution_.plan, bounds);
     round_to_masses(masses.row, masses.column, solution_.plan);
-    const double excess =
-        std::max(bounds.row.excess(row_sums(solution_.plan)), bounds.column.excess(column_sums(solution_.plan)));
+    const double excess = std::max(bounds.row.excess(row_sums(solution_.plan)),
+                                   bounds.column.excess(column_sums(solution_.plan)));
     if (excess > tolerated)
-        throw ConvergenceError(fmt::format("transported masses leave the area bound by {:.2g}%", 100 * excess));
+        throw ConvergenceError(
+            fmt::format("transported masses leave the area bound by {:.2g}%", 100 * excess));
 }
 
 void AlternatingMinimization::run(const std::function<void(const Alternation&)>& observe) {

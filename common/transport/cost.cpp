@@ -24,7 +24,8 @@ SparseMatrix cost_weights(const Side& side, const Eigen::VectorXd& relaxed) {
            side.mass.asDiagonal();
 }
 
-/// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i + c_i.
+/// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i +
+/// c_i.
 struct CollapsedSum {
     RowMatrix g;
     Eigen::VectorXd alpha, c;
@@ -36,11 +37,12 @@ struct CollapsedSum {
         c = A * Eigen::VectorXd(centres.rowwise().squaredNorm());
     }
 
-    /// Mean contribution per sample for its mean image, which has the mean of squared norms in its last column.
+    /// Mean contribution per sample for its mean image, which has the mean of squared norms in its last
+    /// column.
     Eigen::VectorXd mean(const RowMatrix& image) const {
         const Eigen::Index D = image.cols() - 1;
-        const Eigen::VectorXd cost = alpha.cwiseProduct(image.col(D)) -
-                                     2 * g.cwiseProduct(image.leftCols(D)).rowwise().sum() + c;
+        const Eigen::VectorXd cost =
+            alpha.cwiseProduct(image.col(D)) - 2 * g.cwiseProduct(image.leftCols(D)).rowwise().sum() + c;
         return cost.cwiseMax(0);
     }
 };
@@ -52,13 +54,14 @@ void pin(const Side& side, const Side& other, RowMatrix& centres) {
 
 /// Mean images of a side's samples and what their neighbourhoods make of them.
 struct SideImages {
-    RowMatrix mean;             ///< samples x D: mean image of each sample
-    RowMatrix sums;             ///< per neighbourhood: sum_i p_ki rho_i / m'_i (mean image)
-    Eigen::VectorXd squares;    ///< the same sum of squared norms
-    Eigen::VectorXd weights;    ///< the same sum of 1
+    RowMatrix mean;           ///< samples x D: mean image of each sample
+    RowMatrix sums;           ///< per neighbourhood: sum_i p_ki rho_i / m'_i (mean image)
+    Eigen::VectorXd squares;  ///< the same sum of squared norms
+    Eigen::VectorXd weights;  ///< the same sum of 1
 
     /// `image` has squared norms in its last column; rho are the transported masses.
-    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho, const Eigen::VectorXd& relaxed) {
+    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+               const Eigen::VectorXd& relaxed) {
         const Eigen::Index D = image.cols() - 1;
         const Eigen::VectorXd share = rho.cwiseQuotient(divisor(side, relaxed));
         const RowMatrix all = side.averaging * RowMatrix(share.asDiagonal() * image);
@@ -81,7 +84,8 @@ struct SideImages {
 SideImages images_of_rows(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
     return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan), relaxed.row};
 }
-SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
+SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan,
+                             const RelaxedMasses& relaxed) {
     return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan), relaxed.column};
 }
 
@@ -145,18 +149,21 @@ CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, co
     return step;
 }
 
-RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
-                                    const MassBounds& row_bounds, const MassBounds& column_bounds) {
-    return {least_inverses(X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan), centres.row,
-                           row_bounds),
+RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan,
+                                    const Centres& centres, const MassBounds& row_bounds,
+                                    const MassBounds& column_bounds) {
+    return {least_inverses(X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan),
+                           centres.row, row_bounds),
             least_inverses(Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan),
                            centres.column, column_bounds)};
 }
 
 MeanCosts mean_costs(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
                      const RelaxedMasses& relaxed) {
-    return {CollapsedSum(X, centres.row, relaxed.row).mean(row_barycentres(plan, with_squared_norms(Y.points))),
-            CollapsedSum(Y, centres.column, relaxed.column).mean(column_barycentres(plan, with_squared_norms(X.points)))};
+    return {
+        CollapsedSum(X, centres.row, relaxed.row).mean(row_barycentres(plan, with_squared_norms(Y.points))),
+        CollapsedSum(Y, centres.column, relaxed.column)
+            .mean(column_barycentres(plan, with_squared_norms(X.points)))};
 }
 
 double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,

@@ -219,8 +219,8 @@ Eigen::VectorXd scalings(const Projection& projection, const Eigen::VectorXd& ma
 }
 
 /// Compares the row sums with those that one more row update would give.
-bool is_done(const TransportProblem& p, const SinkhornOptions& options, const Eigen::VectorXd& row_sums,
-             const Eigen::VectorXd& next_row_sums, SinkhornReport& report) {
+bool is_done(const SinkhornOptions& options, const Eigen::VectorXd& row_sums, const Eigen::VectorXd& next_row_sums,
+             SinkhornReport& report) {
     report.marginal_error = (row_sums - next_row_sums).lpNorm<1>();
     return report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations;
 }
@@ -261,7 +261,7 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
         while (true) {
             const Eigen::VectorXd row = kernel.times(w);
             const Eigen::VectorXd next_u = scalings(projections.rows, p.row_mass, potentials.row, p.gamma, row);
-            done = is_done(p, options, row.cwiseProduct(u), row.cwiseProduct(next_u), report);
+            done = is_done(options, row.cwiseProduct(u), row.cwiseProduct(next_u), report);
             if (done) break;
             const Eigen::VectorXd next_w = scalings(projections.columns, p.column_mass, potentials.column, p.gamma,
                                                     kernel.transposed_times(next_u));
@@ -295,7 +295,7 @@ SinkhornReport sinkhorn_log_domain(const TransportProblem& p, const SinkhornOpti
         const Eigen::VectorXd now = row_sums(plan);
         const Eigen::VectorXd change = ((next.row - potentials.row).array() / p.gamma).exp();
         // The potentials left behind are those that belong to the plan.
-        if (is_done(p, options, now, now.cwiseProduct(change), report)) return report;
+        if (is_done(options, now, now.cwiseProduct(change), report)) return report;
         potentials = std::move(next);
     }
 }

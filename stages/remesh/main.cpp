@@ -17,8 +17,10 @@ void export_map(const std::string& folder, const SurfaceMap& map, const Plan& pl
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
     write_file_atomically(folder + "/source_to_target.csv", to_csv(map.A_to_B));
     write_file_atomically(folder + "/target_to_source.csv", to_csv(map.B_to_A));
-    write_file_atomically(folder + "/source_masses.csv", masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
-    write_file_atomically(folder + "/target_masses.csv", masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
+    write_file_atomically(folder + "/source_masses.csv",
+                          masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
+    write_file_atomically(folder + "/target_masses.csv",
+                          masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
     write_file_atomically(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
     write_file_atomically(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
 }

@@ -85,8 +85,8 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
     return {image_positions(map, target.input, fallback), source.input.faces};
 }
 
-std::string masses_csv(const Surface& surface, const std::vector<int>& samples, const Eigen::VectorXd& transported,
-                       const Eigen::VectorXd& mass) {
+std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
+                       const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
     std::vector<int> sample_at(std::size_t(surface.mesh.vertex_count()), -1);
     for (std::size_t k = 0; k < samples.size(); ++k) sample_at[std::size_t(samples[k])] = int(k);
     std::string text = "vertex,ratio\n";

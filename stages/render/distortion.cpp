@@ -49,16 +49,19 @@ const TriangleDistortion& triangle(const DistortedSurface& surface, const Surfac
 std::array<Quantity, 3> quantities(const RenderParams& params) {
     const auto ratio = [r = params.ratio_range](double x) { return ratio_colour(x, r); };
     const auto conformal = [r = params.conformal_range](double x) { return conformal_colour(x, r); };
-    const auto measured = [](const DistortedSurface& s, const SurfacePoint& p, double TriangleDistortion::*value) {
+    const auto measured = [](const DistortedSurface& s, const SurfacePoint& p,
+                             double TriangleDistortion::*value) {
         return triangle(s, p).area > 0 ? triangle(s, p).*value : std::nan("");
     };
-    return {Quantity{"mass ratio", mass_ratio, ratio, 1 / params.ratio_range, params.ratio_range},
-            Quantity{"area ratio",
-                     [=](const auto& s, const auto& p) { return measured(s, p, &TriangleDistortion::area_ratio); },
-                     ratio, 1 / params.ratio_range, params.ratio_range},
-            Quantity{"conformal distortion",
-                     [=](const auto& s, const auto& p) { return measured(s, p, &TriangleDistortion::conformal); },
-                     conformal, 1, params.conformal_range}};
+    return {
+        Quantity{"mass ratio", mass_ratio, ratio, 1 / params.ratio_range, params.ratio_range},
+        Quantity{
+            "area ratio",
+            [=](const auto& s, const auto& p) { return measured(s, p, &TriangleDistortion::area_ratio); },
+            ratio, 1 / params.ratio_range, params.ratio_range},
+        Quantity{"conformal distortion",
+                 [=](const auto& s, const auto& p) { return measured(s, p, &TriangleDistortion::conformal); },
+                 conformal, 1, params.conformal_range}};
 }
 
 void set_pixel(Image& image, int x, int y, const Colour& colour) {
@@ -67,7 +70,8 @@ void set_pixel(Image& image, int x, int y, const Colour& colour) {
         image.rgb[3 * (size_t(y) * size_t(image.width) + size_t(x)) + size_t(k)] = encode_channel(colour[k]);
 }
 
-/// A bar of the quantity's colours between its ends, with numbers at both ends and in the middle, and its name.
+/// A bar of the quantity's colours between its ends, with numbers at both ends and in the middle, and its
+/// name.
 void draw_scale(const Quantity& quantity, int left, int top, int width, int letter, Image& image) {
     const int bar = width * 3 / 5, start = left + (width - bar) / 2, height = 2 * letter_height * letter;
     for (int x = 0; x < bar; ++x) {
@@ -105,7 +109,8 @@ int lay_out_grid(std::vector<Panel>& panels, int columns, int picture_width) {
 
 }  // namespace
 
-Image draw_distortion(const DistortedSurface& source, const DistortedSurface& target, const RenderParams& params) {
+Image draw_distortion(const DistortedSurface& source, const DistortedSurface& target,
+                      const RenderParams& params) {
     const auto columns = quantities(params);
     std::vector<Figure> figures;
     figures.reserve(6);
@@ -113,9 +118,11 @@ Image draw_distortion(const DistortedSurface& source, const DistortedSurface& ta
     for (const DistortedSurface* surface : {&source, &target})
         for (const Quantity& q : columns) {
             std::vector<bool> flagged;
-            for (const TriangleDistortion& t : surface->triangles) flagged.push_back(params.flips && t.flipped);
+            for (const TriangleDistortion& t : surface->triangles)
+                flagged.push_back(params.flips && t.flipped);
             figures.emplace_back(
-                surface->mesh, [&q, surface](const SurfacePoint& p) { return q.colour(q.value(*surface, p)); }, flagged);
+                surface->mesh,
+                [&q, surface](const SurfacePoint& p) { return q.colour(q.value(*surface, p)); }, flagged);
             panels.emplace_back(figures.back(), surface->view);
         }
     const int letter = std::max(1, params.width / 600), scale_height = 7 * letter_height * letter;
@@ -124,8 +131,8 @@ Image draw_distortion(const DistortedSurface& source, const DistortedSurface& ta
     image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);
     trace_panels(panels, params.samples, image);
     for (int c = 0; c < int(columns.size()); ++c)
-        draw_scale(columns[size_t(c)], panels[size_t(c)].x, height + letter_height * letter, panels[size_t(c)].width,
-                   letter, image);
+        draw_scale(columns[size_t(c)], panels[size_t(c)].x, height + letter_height * letter,
+                   panels[size_t(c)].width, letter, image);
     return image;
 }
 

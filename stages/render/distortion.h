@@ -17,6 +17,7 @@ struct DistortedSurface {
 };
 
 /// The picture of render_distortion() (render.h).
-Image draw_distortion(const DistortedSurface& source, const DistortedSurface& target, const RenderParams& params);
+Image draw_distortion(const DistortedSurface& source, const DistortedSurface& target,
+                      const RenderParams& params);
 
 }  // namespace varimap

@@ -126,7 +126,7 @@ Image draw_panels(const Figure& source, const View& source_view, const Figure& t
         return Panel(figure, moved(view, params.azimuth + turn, params.elevation));
     };
     std::vector panels{panel(source, source_view, 0), panel(source, source_view, 180),
-                      panel(target, target_view, 0), panel(target, target_view, 180)};
+                       panel(target, target_view, 0), panel(target, target_view, 180)};
     Image image{params.width, lay_out(panels, params.width), {}};
     image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);
     trace_panels(panels, params.samples, image);

@@ -73,18 +73,19 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     return draw_panels(source_figure, source_view, target_figure, target_view, params);
 }
 
-Image render_distortion(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
-                        const PointMap& target_to_source, const Eigen::VectorXd& source_masses,
-                        const Eigen::VectorXd& target_masses, const RenderParams& params) {
+Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
+                        const PointMap& source_to_target, const PointMap& target_to_source,
+                        const Eigen::VectorXd& source_masses, const Eigen::VectorXd& target_masses,
+                        const RenderParams& params) {
     require_fit(source, target, source_to_target, target_to_source);
     const ChordMesh back(target_to_source, target, source);
     const View source_view = natural_view(source, params.up);
     const View target_view =
         matching_view(back.source, back.image.vertices, have_image(target_to_source), source_view);
-    return draw_distortion({unit_area(source), measure_triangles(source_to_target, source, target), source_masses,
-                            moved(source_view, params.azimuth, params.elevation)},
-                           {unit_area(target), measure_triangles(target_to_source, target, source), target_masses,
-                            moved(target_view, params.azimuth, params.elevation)},
+    return draw_distortion({unit_area(source), measure_triangles(source_to_target, source, target),
+                            source_masses, moved(source_view, params.azimuth, params.elevation)},
+                           {unit_area(target), measure_triangles(target_to_source, target, source),
+                            target_masses, moved(target_view, params.azimuth, params.elevation)},
                            params);
 }
 
@@ -100,8 +101,10 @@ Eigen::VectorXd read_csv_masses(const std::string& path, int vertices) {
         const char* end = line.data() + line.size();
         const auto first = std::from_chars(line.data(), end, vertex);
         const bool comma = first.ec == std::errc() && first.ptr < end && *first.ptr == ',';
-        if (!comma || std::from_chars(first.ptr + 1, end, ratio).ptr != end || vertex < 0 || vertex >= vertices)
-            throw InputError(fmt::format("'{}' line {}: expected a vertex below {} and its ratio", path, number, vertices));
+        if (!comma || std::from_chars(first.ptr + 1, end, ratio).ptr != end || vertex < 0 ||
+            vertex >= vertices)
+            throw InputError(fmt::format("'{}' line {}: expected a vertex below {} and its ratio", path,
+                                         number, vertices));
         masses[vertex] = ratio;
     }
     return masses;

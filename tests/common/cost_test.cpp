@@ -181,8 +181,9 @@ TEST(Energy, OfRelaxedMassesIsThePapersAndItsHalfStepsAreMinima) {
         const Centres other{step.centres.row + .01 * random.points(14, 4),
                             step.centres.column + .01 * random.points(11, 3)};
         EXPECT_GT(energy(e.X, e.Y, e.plan, other, relaxed), step.energy);
-        const RelaxedMasses others{rows.projected(best.row.array() * (1 + .1 * random.points(14, 1).array())),
-                                   columns.projected(best.column.array() * (1 + .1 * random.points(11, 1).array()))};
+        const RelaxedMasses others{
+            rows.projected(best.row.array() * (1 + .1 * random.points(14, 1).array())),
+            columns.projected(best.column.array() * (1 + .1 * random.points(11, 1).array()))};
         EXPECT_GT(energy(e.X, e.Y, e.plan, e.centres, others), energy(e.X, e.Y, e.plan, e.centres, best));
     }
 }

@@ -17,7 +17,8 @@ Eigen::VectorXd by_halving(const Eigen::ArrayXd& log_a, const MassBounds& bounds
     const auto masses = [&](double log_phi) {
         Eigen::VectorXd m(log_a.size());
         for (Eigen::Index i = 0; i < m.size(); ++i) {
-            const double log_m = std::clamp(log_a[i] + log_phi, std::log(bounds.lower[i]), std::log(bounds.upper[i]));
+            const double log_m =
+                std::clamp(log_a[i] + log_phi, std::log(bounds.lower[i]), std::log(bounds.upper[i]));
             m[i] = std::exp(log_m);
         }
         return m;

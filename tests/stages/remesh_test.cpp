@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "common/map_shapes.h"
 #include "common/shapes.h"
@@ -135,7 +134,8 @@ TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {
     int count = 0;
     while (std::getline(lines, line)) {
         const int vertex = std::stoi(line);
-        EXPECT_EQ(line, std::to_string(vertex) + (A_.vertex_of_input[std::size_t(vertex)] == 3 ? ",1.25" : ",1"));
+        EXPECT_EQ(line,
+                  std::to_string(vertex) + (A_.vertex_of_input[std::size_t(vertex)] == 3 ? ",1.25" : ",1"));
         ++count;
     }
     EXPECT_EQ(count, A_.mesh.vertex_count());  // not the spare vertex

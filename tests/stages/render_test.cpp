@@ -137,9 +137,11 @@ TEST_F(Render, MarksReversedTrianglesOnDemand) {
     EXPECT_GT(marked(back), 100);
 }
 
-/// Red minus blue of the pixel in the middle of one of three columns, on the source (row 0) or the target (row 1).
+/// Red minus blue of the pixel in the middle of one of three columns, on the source (row 0) or the target
+/// (row 1).
 int redness(const Image& image, int column, int row) {
-    const Pixel p = pixel(image, image.width / 6 * (2 * column + 1), image.height * 4 / 10 * row + image.height / 5);
+    const Pixel p =
+        pixel(image, image.width / 6 * (2 * column + 1), image.height * 4 / 10 * row + image.height / 5);
     return p[0] - p[2];
 }
 
@@ -184,8 +186,8 @@ TEST_F(Render, ReadsMassesAndRefusesOthers) {
     EXPECT_EQ(masses[0], 1.25);
     EXPECT_TRUE(std::isnan(masses[1]));
     EXPECT_EQ(masses[2], .5);
-    for (const char* bad : {"vertex,face\n", "vertex,ratio\n3,1\n", "vertex,ratio\n-1,1\n", "vertex,ratio\n1\n",
-                            "vertex,ratio\n1,x\n", "vertex,ratio\n1,2,3\n"})
+    for (const char* bad : {"vertex,face\n", "vertex,ratio\n3,1\n", "vertex,ratio\n-1,1\n",
+                            "vertex,ratio\n1\n", "vertex,ratio\n1,x\n", "vertex,ratio\n1,2,3\n"})
         EXPECT_THROW(read(bad), InputError) << bad;
 }
 
