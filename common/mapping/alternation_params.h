@@ -21,7 +21,6 @@ inline void describe(ParameterList& list, AlternationOptions& o) {
              1e6);
     list.add("area_energy", o.area_energy,
              "energy of changed areas: samples weighted by transported mass, or C' of Sec. 3.4", {"transported", "paper"});
-    list.add("centring", o.centring, "experiment", 0.0, 1.0);
     list.add("mass_penalty", o.mass_penalty,
              "how firmly row and column sums are held to the masses within the bound, relative to the largest cost",
              0.0, 1e6);

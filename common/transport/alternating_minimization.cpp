@@ -90,17 +90,11 @@ SinkhornReport tighten(TransportProblem problem, double largest, const Alternati
 /// One plan half-step with the rest fixed.
 PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, bool tight,
                     const AlternationOptions& options, Solution& solution) {
-    Eigen::VectorXd cost =
+    const Eigen::VectorXd cost =
         CostFactors(X, Y, solution.step.centres, solution.relaxed).on(solution.plan.support);
     const double largest = std::max(cost.maxCoeff(), 1e-300);
-    const Support& s = solution.plan.support;
-    if (options.centring > 0 && solution.mean_costs.row.size() > 0)
-        for (int i = 0; i < s.rows(); ++i)
-            for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
-                cost[e] -=
-                    options.centring * (solution.mean_costs.row[i] + solution.mean_costs.column[s.column[e]]);
     const Bounds bounds = plan_bounds(X, Y, solution.relaxed, options);
-    const TransportProblem problem{s,
+    const TransportProblem problem{solution.plan.support,
                                    cost,
                                    X.mass,
                                    Y.mass,
@@ -123,7 +117,6 @@ PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, bool tig
 void AlternatingMinimization::start(const Centres& centres, const KeptEntries& kept) {
     const int rows = int(X_.mass.size()), columns = int(Y_.mass.size());
     solution_.step.centres = centres;
-    solution_.mean_costs = {};
     solution_.relaxed = {};
     if (options_.area_energy == "paper") solution_.relaxed = {X_.mass, Y_.mass};
     solution_.potentials = Potentials::zero(rows, columns);
@@ -151,8 +144,6 @@ Alternation AlternatingMinimization::step(bool tight) {
             update_relaxed_masses(X_, Y_, solution_.plan, solution_.step.centres, bounds.row, bounds.column);
     }
     solution_.step = update_centres(X_, Y_, solution_.plan, solution_.relaxed);
-    if (options_.centring > 0)
-        solution_.mean_costs = mean_costs(X_, Y_, solution_.plan, solution_.step.centres, solution_.relaxed);
     fresh_ = false;
     if (tight) keep_bounds();
     return {solution_.step.energy, plan.gamma, plan.sinkhorn, solution_.plan.support.entries()};

@@ -19,7 +19,6 @@ struct AlternationOptions {
     double support_threshold = 1e-2;   ///< entries below this share of their row's and column's mass do not spread
     double area_bound = 1;             ///< B = D^2: row and column sums stay within [m / sqrt(B), m sqrt(B)]
     std::string area_energy = "transported";  ///< or "paper": C' with relaxed masses (cost.h)
-    double centring = 0;
     double mass_penalty = 0.1;         ///< rho within these bounds / largest instantiated cost
     double background_factor = 10;     ///< cost of entries that are not instantiated, times the largest cost
 };
@@ -41,7 +40,6 @@ struct Solution {
     Potentials potentials;
     RelaxedMasses relaxed;  ///< empty unless the energy is the paper's
     CentreStep step;
-    MeanCosts mean_costs;
 };
 
 /// Alg. 1 at one level: alternately solves for the plan on a support that follows it (Sec. 4.3) and relocates the

@@ -158,14 +158,6 @@ RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling
                            centres.column, column_bounds)};
 }
 
-MeanCosts mean_costs(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
-                     const RelaxedMasses& relaxed) {
-    return {
-        CollapsedSum(X, centres.row, relaxed.row).mean(row_barycentres(plan, with_squared_norms(Y.points))),
-        CollapsedSum(Y, centres.column, relaxed.column)
-            .mean(column_barycentres(plan, with_squared_norms(X.points)))};
-}
-
 double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
               const RelaxedMasses& relaxed) {
     return images_of_rows(X, Y, plan, relaxed).energy(X.mass, centres.row) +

@@ -76,13 +76,6 @@ CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, co
 RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
                                     const MassBounds& row_bounds, const MassBounds& column_bounds);
 
-/// Mean cost of what each row and each column transports: sum_j pi_ij (m_i / m'_i) cX_ij / rho_i and its twin.
-struct MeanCosts {
-    Eigen::VectorXd row, column;
-};
-MeanCosts mean_costs(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
-                     const RelaxedMasses& relaxed = {});
-
 /// C' for any centres, from the mean images of the samples and of their squared norms.
 double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
               const RelaxedMasses& relaxed = {});

@@ -18,7 +18,7 @@ namespace {
 Colour ratio_colour(double ratio, double range) {
     if (!std::isfinite(ratio)) return unmapped_colour;
     const double t = std::clamp(std::log(std::max(ratio, 1e-300)) / std::log(range), -1., 1.);
-    return from_oklch(.93 - .42 * std::abs(t), .01 + .17 * std::abs(t), t < 0 ? 4.6 : .5);
+    return from_oklch(.93 - .42 * std::abs(t), .18 * std::abs(t), t < 0 ? 4.6 : .5);
 }
 
 /// Light yellow at 1 to dark violet at range.
