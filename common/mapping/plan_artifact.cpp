@@ -11,8 +11,8 @@ void serialize(Archive& archive, TraceRow& row) {
 
 template <class Archive>
 void serialize(Archive& archive, Plan& plan) {
-    archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.plan, plan.position_A,
-            plan.position_B, plan.landmarks, plan.trace);
+    archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.transported_A, plan.transported_B,
+            plan.area_bound, plan.plan, plan.position_A, plan.position_B, plan.landmarks, plan.trace);
 }
 
 namespace {
@@ -33,6 +33,7 @@ void require_consistent(const Plan& plan) {
     const auto a = Eigen::Index(plan.samples_A.size()), b = Eigen::Index(plan.samples_B.size());
     require(plan.plan.rows() == a && plan.plan.cols() == b, "numbers of samples");
     require(plan.mass_A.size() == a && plan.mass_B.size() == b, "masses");
+    require(plan.transported_A.size() == a && plan.transported_B.size() == b, "transported masses");
     require(all_in_range(plan.samples_A, plan.position_A.rows()), "samples");
     require(all_in_range(plan.samples_B, plan.position_B.rows()), "samples");
     for (const auto& [first, second] : plan.landmarks)

@@ -104,6 +104,8 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     plan.samples_B = pair.B.level.samples;
     plan.mass_A = pair.A.side.mass;
     plan.mass_B = pair.B.side.mass;
+    plan.transported_A = row_sums(solution.plan);
+    plan.transported_B = column_sums(solution.plan);
     plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
     plan.position_A = vertex_positions(pair.A, pair.B, solution.step.row_image, plan.plan, context.B().surface,
                                        context.graph_B());
@@ -126,10 +128,11 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params) {
         const Start start = l == 0 ? coarsest_start(pair, context, params)
                                    : hand_down(solution.plan, coarse.A.level, coarse.B.level, pair,
                                                params.alternation.support_threshold);
-        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, trace);
+        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution, context);
+    plan.area_bound = params.alternation.area_bound;
     plan.trace = std::move(trace);
     return plan;
 }
