@@ -11,7 +11,7 @@ namespace varimap {
 struct UntanglingOptions {
     bool enabled = true;
     int global_steps =
-        3;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
+        10;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
     double area_weight = 1;  ///< w of the fold energy: areas against angles
     double robustness =
         0.3;                ///< excess energy at which a face counts half in global steps; 0: all count fully

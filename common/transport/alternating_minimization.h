@@ -17,7 +17,7 @@ struct AlternationOptions {
     double marginal_tolerance = 1e-2;  ///< Sinkhorn stops at this L1 error of the row sums
     int sinkhorn_iterations = 1000;
     double support_threshold = 1e-2;   ///< entries below this share of their row's and column's mass do not spread
-    double area_bound = 1;             ///< B = D^2: row and column sums stay within [m / sqrt(B), m sqrt(B)]
+    double area_bound = 2;             ///< B = D^2: row and column sums stay within [m / sqrt(B), m sqrt(B)]
     std::string area_energy = "transported";  ///< or "paper": C' with relaxed masses (cost.h)
     double mass_penalty = 0.1;         ///< rho within these bounds / largest instantiated cost
     double background_factor = 10;     ///< cost of entries that are not instantiated, times the largest cost
