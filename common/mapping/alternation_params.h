@@ -6,8 +6,8 @@
 
 namespace varimap {
 
-/// Parameters of every stage that solves for a plan.
-inline void describe(ParameterList& list, AlternationOptions& o) {
+/// Parameters of every stage that solves for a plan, with exact masses at least.
+inline void describe_exact(ParameterList& list, AlternationOptions& o) {
     list.add("tolerance", o.tolerance, "a level ends when the energy changes by less than this share (Alg. 1)", 0.0, 1.0);
     list.add("maximum_alternations", o.maximum_alternations, "alternations per level at most", 1, 10000);
     list.add("gamma_divisor", o.gamma_divisor, "gamma = largest instantiated cost / this (Sec. 3.3)", 1.0, 1e5);
@@ -16,9 +16,20 @@ inline void describe(ParameterList& list, AlternationOptions& o) {
     list.add("sinkhorn_iterations", o.sinkhorn_iterations, "Sinkhorn iterations per solve at most", 1, 1000000);
     list.add("support_threshold", o.support_threshold,
              "entries below this share of their row's and column's mass do not spread (Sec. 4.3)", 1e-9, 0.5);
-    list.add("mass_penalty", o.mass_penalty,
-             "how firmly row and column sums are held to the masses, relative to the largest cost; 0: exactly", 0.0, 1e6);
     list.add("background_factor", o.background_factor, "cost of entries off the support / largest cost (Sec. 4.3)", 1.5, 1e3);
+}
+
+/// And of those that may change masses.
+inline void describe(ParameterList& list, AlternationOptions& o) {
+    describe_exact(list, o);
+    list.add("area_bound", o.area_bound,
+             "areas change by at most this factor: row and column sums within its root of the masses (Sec. 3.4)", 1.0,
+             1e6);
+    list.add("area_energy", o.area_energy,
+             "energy of changed areas: samples weighted by transported mass, or C' of Sec. 3.4", {"transported", "paper"});
+    list.add("mass_penalty", o.mass_penalty,
+             "how firmly row and column sums are held to the masses within the bound, relative to the largest cost",
+             0.0, 1e6);
 }
 
 inline void describe(ParameterList& list, IroningOptions& o) {

@@ -68,6 +68,7 @@ FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, i
 
 struct GlobalRelaxation::State {
     MovingMap& map;
+    const FeatureAgreement* features;
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
     std::vector<int> faces;  ///< mapped ones with a free corner
@@ -78,17 +79,18 @@ struct GlobalRelaxation::State {
     std::vector<Frame> frames;
     Eigen::VectorXd gradient;
 
-    State(MovingMap& m, const std::vector<char>& fixed);
+    State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f);
     void build_pattern();
     int find(int row, int column) const;
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
     void add(int f, const FaceSystem& system, double weight);
+    void add_features();
     void walk(const PointMap& start, const Eigen::VectorXd& direction, double share);
     double total(const FoldEnergy& energy, const RobustExcess& robust) const;
 };
 
-GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed)
-    : map(m), unknown(fixed.size(), -1), frames(fixed.size(), Frame::Zero()) {
+GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f)
+    : map(m), features(f), unknown(fixed.size(), -1), frames(fixed.size(), Frame::Zero()) {
     std::vector<char> used(fixed.size(), 0);
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto c = map.source().faces.row(f);
@@ -148,6 +150,7 @@ void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExc
         const FaceSystem system = face_system(map, frames, f, energy);
         add(f, system, robust.slope(system.value));
     }
+    if (features) add_features();
     for (int i = 0; i < matrix.rows(); ++i) matrix.valuePtr()[matrix.outerIndexPtr()[i]] *= 1 + 1e-8;
 }
 
@@ -171,12 +174,26 @@ void GlobalRelaxation::State::add(int f, const FaceSystem& system, double weight
     }
 }
 
+void GlobalRelaxation::State::add_features() {
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        const auto system = features->derivatives(free[i], frames[std::size_t(free[i])]);
+        gradient.segment<2>(2 * int(i)) += system.gradient;
+        // The lower triangle's columns start with the block on the diagonal.
+        const int* start = matrix.outerIndexPtr() + 2 * i;
+        matrix.valuePtr()[start[0]] += system.hessian(0, 0);
+        matrix.valuePtr()[start[0] + 1] += system.hessian(1, 0);
+        matrix.valuePtr()[start[1]] += system.hessian(1, 1);
+    }
+}
+
 double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExcess& robust) const {
     double sum = 0;
     for (const int f : faces) {
         const Chord chord = map.chord(f);
         sum += map.rest(f).area * robust.value(energy.value(chord.q, chord.D));
     }
+    if (features)
+        for (const int v : free) sum += features->value(v);
     return sum;
 }
 
@@ -191,8 +208,9 @@ void GlobalRelaxation::State::walk(const PointMap& start, const Eigen::VectorXd&
     }
 }
 
-GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed)
-    : state_(std::make_unique<State>(map, fixed)) {}
+GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
+                                   const FeatureAgreement* features)
+    : state_(std::make_unique<State>(map, fixed, features)) {}
 GlobalRelaxation::~GlobalRelaxation() = default;
 
 double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {

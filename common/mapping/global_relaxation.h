@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/mapping/feature_agreement.h"
 #include "common/mapping/moving_map.h"
 
 namespace varimap {
@@ -12,8 +13,10 @@ namespace varimap {
 /// local relaxation would need thousands of sweeps for: whole limbs along the target.
 class GlobalRelaxation {
   public:
-    /// Vertices with fixed[v] stay. Keeps a reference to the map.
-    GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed);
+    /// Vertices with fixed[v] stay. Keeps references to the map and to `features`, whose energy is added
+    /// where given.
+    GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
+                     const FeatureAgreement* features = nullptr);
     ~GlobalRelaxation();
 
     /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map

@@ -22,6 +22,7 @@ constexpr int smoothing = 3;       ///< rounds of averaging of the excess
 constexpr double saturation = 1;   ///< excess of one face that counts at most
 constexpr int relaxation_steps = 4;
 constexpr double relaxed_robustness = 0.3;
+constexpr int relaxations = 2;  ///< of an alternative, so of what it is compared with: or it wins by being relaxed
 constexpr int fold_sweeps = 40;
 constexpr double fold_visits = 60;    ///< of a part's vertices, in the mean
 constexpr double promising = 1.5;     ///< times the energy to beat, after folds were removed once
@@ -85,6 +86,13 @@ double area_of(const MovingMap& map, const std::vector<int>& faces) {
                            [&](double sum, int f) { return sum + map.rest(f).area; });
 }
 
+double area_of(const MovingMap& map, const Marks& marked) {
+    double sum = 0;
+    for (std::size_t f = 0; f < marked.size(); ++f)
+        if (marked[f]) sum += map.rest(int(f)).area;
+    return sum;
+}
+
 /// The part grown ring by ring to `area`, then with all it cuts off from the largest rest. As marks of faces.
 Marks widened(const MovingMap& map, const Edges& edges, const std::vector<int>& part, double area) {
     constexpr std::size_t least_rings = 2;
@@ -132,6 +140,7 @@ int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
 class Trial {
   public:
     /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the surroundings.
+    /// Leaves the part relaxed: to be followed by a run.
     Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options)
         : map_(map), options_(options), open_(fixed.size(), 1), held_(fixed.size(), 1), before_(map.points()) {
         const int face_count = map.source().face_count();
@@ -145,7 +154,6 @@ class Trial {
         };
         for (int f = 0; f < face_count; ++f) {
             if (!any(open_, f)) continue;
-            area_ += map.rest(f).area;
             for (int k = 0; k < 3; ++k) held_[std::size_t(corners(f)[k])] = fixed[std::size_t(corners(f)[k])];
         }
         Marks free(held_.size());
@@ -154,11 +162,10 @@ class Trial {
             if (any(free, f)) faces_.push_back(f);
         for (std::size_t v = 0; v < fixed.size(); ++v)
             if (open_[v] && fixed[v]) landmarks_.push_back(int(v));
-        relax();
+        for (int i = 0; i < relaxations; ++i) relax();
         energy_to_beat_ = (1 - options.gain) * energy();
     }
 
-    double area() const { return area_; }
     const Marks& open() const { return open_; }
 
     /// Maps the part as proposed; true if that was kept.
@@ -203,7 +210,7 @@ class Trial {
     Marks open_, held_;  ///< vertices that are placed anew; that stay while the part is relaxed
     PointMap before_;
     std::vector<int> faces_, landmarks_;
-    double area_ = 0, energy_to_beat_ = 0;
+    double energy_to_beat_ = 0;
 };
 
 }  // namespace
@@ -238,13 +245,15 @@ std::vector<std::vector<int>> PartReplacement::strained_parts() const {
 
 bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals& proposals) {
     for (const double widening : widenings) {
-        Trial trial(map_, widened(map_, edges_, part, widening * area_of(map_, part)), fixed_, options_);
-        if (trial.area() > largest_part) return false;
+        const Marks inside = widened(map_, edges_, part, widening * area_of(map_, part));
+        const double area = area_of(map_, inside);
+        if (area > largest_part) return false;
+        Trial trial(map_, inside, fixed_, options_);
         for (const Proposal& propose : proposals(trial.open())) {
             visits_ += double(std::count(trial.open().begin(), trial.open().end(), 1));
             if (!trial.run(propose)) continue;
             ++report_.replaced;
-            report_.area_percent += 100 * trial.area();
+            report_.area_percent += 100 * area;
             return true;
         }
     }

@@ -14,10 +14,10 @@ struct PartReplacementOptions {
     double contrast = 3;     ///< times the median over all faces that it is at least
     double area = 2e-4;      ///< share of the source's area of the smallest part that is tried
     double robustness = 3;   ///< of the energy by which maps are compared; lower ones think little of spikes
-    double gain = 0.02;      ///< share of the energy that an alternative must save
+    double gain = 0.15;      ///< share of the energy that an alternative must save
     int most_parts = 16;     ///< per round
     int rounds = 3;          ///< a new map of a limb may leave a finger to be done
-    double most_visits = 8;  ///< of all vertices in the mean, by trials: bounds the time
+    double most_visits = 4;  ///< of all vertices in the mean, by trials: bounds the time
 };
 
 struct PartReplacementReport {

@@ -39,6 +39,8 @@ struct LandmarkCheck {
 struct Plan {
     std::vector<int> samples_A, samples_B;        ///< vertices of the two surfaces' meshes
     Eigen::VectorXd mass_A, mass_B;               ///< masses of the samples, each sums to 1
+    Eigen::VectorXd transported_A, transported_B; ///< row and column sums of the plan, each sums to 1
+    double area_bound = 1;                        ///< B: each of them within a factor of sqrt(B) of its mass (Sec. 3.4)
     SparseMatrix plan;                            ///< |A| x |B|; entries below a thousandth of their row and column are dropped
     Points position_A;                            ///< per VERTEX of A's mesh: centre of its image, in R^3 near B's mesh
     Points position_B;                            ///< per VERTEX of B's mesh: the same near A's mesh
@@ -53,7 +55,7 @@ template <>
 struct ArtifactType<Plan> {
     static constexpr const char* kind = "plan";
     static constexpr const char* stage = "varimap-diffuse or varimap-refine";
-    static constexpr int schema = 2;
+    static constexpr int schema = 3;
 };
 std::string encode(const Plan& plan);
 void decode(const std::string& payload, Plan& plan);

@@ -26,8 +26,9 @@ void serialize(Archive& archive, Candidates& c) {
 
 template <class Archive>
 void serialize(Archive& archive, Plan& plan) {
-    archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.plan, plan.position_A,
-            plan.position_B, plan.landmarks, plan.trace, plan.landmark_checks, plan.candidates, plan.candidate);
+    archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.transported_A, plan.transported_B,
+            plan.area_bound, plan.plan, plan.position_A, plan.position_B, plan.landmarks, plan.trace,
+            plan.landmark_checks, plan.candidates, plan.candidate);
 }
 
 namespace {
@@ -49,6 +50,7 @@ void require_consistent(const Plan& plan) {
     const auto a = Eigen::Index(plan.samples_A.size()), b = Eigen::Index(plan.samples_B.size());
     require<Plan>(plan.plan.rows() == a && plan.plan.cols() == b, "numbers of samples");
     require<Plan>(plan.mass_A.size() == a && plan.mass_B.size() == b, "masses");
+    require<Plan>(plan.transported_A.size() == a && plan.transported_B.size() == b, "transported masses");
     require<Plan>(all_in_range(plan.samples_A, plan.position_A.rows()), "samples");
     require<Plan>(all_in_range(plan.samples_B, plan.position_B.rows()), "samples");
     for (const auto& [first, second] : plan.landmarks)

@@ -11,13 +11,6 @@ namespace varimap {
 
 namespace {
 
-/// What one source triangle contributes; area 0: nothing.
-struct TriangleDistortion {
-    double area = 0;
-    double area_ratio = 0, conformal = 1, squared_norm = 0;  ///< squared_norm is |J|_F^2
-    bool flipped = false, collapsed = false;
-};
-
 /// Columns of the Jacobian J of the map from the plane of a source triangle (its first edge along the first
 /// axis) to the chord triangle in R^3.
 Eigen::Matrix<double, 3, 2> jacobian(const Vec3& e1, const Vec3& e2, const Vec3& d1, const Vec3& d2) {
@@ -110,12 +103,17 @@ Quantiles weighted_quantiles(const std::vector<double>& values, const std::vecto
             at_share(sorted, 0.99)};
 }
 
-Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
+                                                  const TriangleMesh& target) {
     const ChordMesh chords(map, source, target);
     std::vector<TriangleDistortion> triangles(std::size_t(source.face_count()));
     parallel_for_each_index<int>(source.face_count(), 1024,
                                  [&](int f) { triangles[std::size_t(f)] = measure_triangle(chords, f); });
-    return summarise(triangles);
+    return triangles;
+}
+
+Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+    return summarise(measure_triangles(map, source, target));
 }
 
 RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,

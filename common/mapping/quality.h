@@ -24,6 +24,17 @@ Quantiles weighted_quantiles(const std::vector<double>& values, const std::vecto
 /// Conformal distortion of chord triangles that are collapsed to a segment or a point.
 inline constexpr double conformal_distortion_cap = 1e6;
 
+/// What one source triangle contributes; area 0: nothing.
+struct TriangleDistortion {
+    double area = 0;        ///< of the source triangle
+    double area_ratio = 0;  ///< chord area / source area
+    double conformal = 1;   ///< sigma_1 / sigma_2
+    double squared_norm = 0;  ///< |J|_F^2
+    bool flipped = false, collapsed = false;
+};
+std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
+                                                  const TriangleMesh& target);
+
 struct Distortion {
     /// Triangles with n . m <= 0: n the normal of the chord triangle, m the sum of the target's normals
     /// (angle-weighted at vertices, interpolated) at the three images. Collapsed triangles count as flipped.

@@ -38,13 +38,15 @@ class Recorder {
 }  // namespace
 
 Solution solve_level(const PairContext& context, LevelPair& pair, const Start& start, int level_index,
-                     const AlternationOptions& options, const IroningOptions& ironing, std::vector<TraceRow>& trace) {
+                     const AlternationOptions& options, const IroningOptions& ironing, bool last,
+                     std::vector<TraceRow>& trace) {
     Recorder record(pair, level_index, trace);
     const auto observe = [&](const Alternation& step) { record(step); };
     AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
     minimization.start(start.centres, start.kept);
     minimization.run(observe);
     Ironing(context, pair, ironing).iron(minimization, observe);
+    if (last) observe(minimization.tight_step());
     return minimization.take_solution();
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "common/mapping/feature_agreement.h"
 #include "common/mapping/fold_removal.h"
 #include "common/mapping/global_relaxation.h"
 #include "common/mapping/local_relaxation.h"
@@ -37,11 +38,11 @@ std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fi
 }
 
 /// Global steps, each followed by a local sweep that lets single vertices out of corners.
-int relax(MovingMap& map, const std::vector<char>& fixed, const Round& round,
-          const UntanglingOptions& options) {
+int relax(MovingMap& map, const std::vector<char>& fixed, const FeatureAgreement* features,
+          const Round& round, const UntanglingOptions& options) {
     if (options.global_steps == 0) return 0;
     const FoldEnergy energy{options.area_weight, round.regularisation};
-    GlobalRelaxation global(map, fixed);
+    GlobalRelaxation global(map, fixed, features);
     LocalRelaxation local(map, 99);
     std::vector<int> vertices = free_vertices(map, fixed);
     // A factorisation takes more than linear time; the first steps are those that matter.
@@ -86,6 +87,8 @@ class Untangling {
           moving_(map, source, target) {
         report_.flipped_before = report_.flipped_after = before_.flipped_count;
         report_.flipped_area_percent_before = report_.flipped_area_percent_after = before_.flipped_area_percent;
+        if (options.feature_weight > 0 && options.global_steps > 0)
+            features_ = std::make_unique<FeatureAgreement>(moving_, options.feature_weight);
     }
 
     void unfold() {
@@ -121,7 +124,7 @@ class Untangling {
 
   private:
     void run(const Round& round) {
-        report_.global_steps += relax(moving_, fixed_, round, options_);
+        report_.global_steps += relax(moving_, fixed_, features_.get(), round, options_);
         report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, fixed_);
     }
     void align_normals() {
@@ -138,6 +141,7 @@ class Untangling {
     Distortion before_;
     MovingMap moving_;
     std::vector<char> fixed_;
+    std::unique_ptr<FeatureAgreement> features_;
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;
 };

@@ -11,10 +11,11 @@ namespace varimap {
 struct UntanglingOptions {
     bool enabled = true;
     int global_steps =
-        3;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
+        10;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
     double area_weight = 1;  ///< w of the fold energy: areas against angles
     double robustness =
         0.3;                ///< excess energy at which a face counts half in global steps; 0: all count fully
+    double feature_weight = 2;  ///< of features against the fold energy in global steps (feature_agreement.h)
     int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
     MirrorGate gate;
     PartReplacementOptions parts;
@@ -36,7 +37,8 @@ struct UntanglingReport {
 };
 
 /// Slides the images of the source's vertices on the target until no triangle of the cross-remeshed source is
-/// reversed or collapsed, and the map is as near to an isometry as it gets (fold_energy.h):
+/// reversed or collapsed, the map is as near to an isometry as it gets (fold_energy.h), and features meet
+/// (feature_agreement.h):
 ///  1. global relaxation, robust against parts that cannot be isometric, and removal of folds in patches;
 ///  2. strained parts, which are mirrored, twisted or crumpled, mapped anew (part_replacement.h);
 ///  3. the first step once more, with less regularisation;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "common/transport/cost.h"
@@ -16,7 +17,9 @@ struct AlternationOptions {
     double marginal_tolerance = 1e-2;  ///< Sinkhorn stops at this L1 error of the row sums
     int sinkhorn_iterations = 1000;
     double support_threshold = 1e-2;   ///< entries below this share of their row's and column's mass do not spread
-    double mass_penalty = 0.1;         ///< rho of relaxed marginals / largest instantiated cost; 0: exact marginals
+    double area_bound = 2;             ///< B = D^2: row and column sums stay within [m / sqrt(B), m sqrt(B)]
+    std::string area_energy = "transported";  ///< or "paper": C' with relaxed masses (cost.h)
+    double mass_penalty = 0.1;         ///< rho within these bounds / largest instantiated cost
     double background_factor = 10;     ///< cost of entries that are not instantiated, times the largest cost
 };
 
@@ -25,7 +28,7 @@ using KeptEntries = std::vector<std::vector<int>>;
 
 /// What one alternation did.
 struct Alternation {
-    double energy;  ///< Eq. (3) after both half-steps
+    double energy;  ///< Eq. (3), or C', after all half-steps
     double gamma;
     SinkhornReport sinkhorn;
     int entries;
@@ -35,6 +38,7 @@ struct Alternation {
 struct Solution {
     Coupling plan;
     Potentials potentials;
+    RelaxedMasses relaxed;  ///< empty unless the energy is the paper's
     CentreStep step;
 };
 
@@ -47,8 +51,11 @@ class AlternatingMinimization {
 
     /// Begins from centres, on the enlarged kept entries; none: on all entries (coarsest level).
     void start(const Centres& centres, const KeptEntries& kept);
-    /// One plan half-step, then one centre half-step.
-    Alternation step();
+    /// The half-steps over the plan, over the relaxed masses (if the energy has them), and over the centres.
+    Alternation step() { return step(false); }
+    /// A step with a plan solved for more tightly and at last rounded, so that it keeps the area bound to within 0.1%.
+    /// The centres are those of the plan before rounding. Throws ConvergenceError where the bound cannot be kept.
+    Alternation tight_step() { return step(true); }
     /// Steps until the energy of Eq. (3) settles.
     void run(const std::function<void(const Alternation&)>& observe);
 
@@ -59,6 +66,8 @@ class AlternatingMinimization {
     const AlternationOptions& options() const { return options_; }
 
   private:
+    Alternation step(bool tight);
+    void keep_bounds();
     void renew_support();
 
     const Side& X_;

@@ -13,21 +13,37 @@ RowMatrix with_squared_norms(const RowMatrix& points) {
     return extended;
 }
 
-/// A = diag(1/m) P' diag(m): a_ik = m_k W_k(x_i) / Z_k.
-SparseMatrix cost_weights(const Side& side) {
-    return side.mass.cwiseInverse().asDiagonal() * SparseMatrix(side.averaging.transpose()) * side.mass.asDiagonal();
+/// m' where it is given, else m.
+const Eigen::VectorXd& divisor(const Side& side, const Eigen::VectorXd& relaxed) {
+    return relaxed.size() > 0 ? relaxed : side.mass;
 }
 
-/// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i + c_i.
+/// A = diag(1/m') P' diag(m): m_k W_k(x_i) / Z_k times m_i / m'_i.
+SparseMatrix cost_weights(const Side& side, const Eigen::VectorXd& relaxed) {
+    return divisor(side, relaxed).cwiseInverse().asDiagonal() * SparseMatrix(side.averaging.transpose()) *
+           side.mass.asDiagonal();
+}
+
+/// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i +
+/// c_i.
 struct CollapsedSum {
     RowMatrix g;
     Eigen::VectorXd alpha, c;
 
-    CollapsedSum(const Side& side, const RowMatrix& centres) {
-        const SparseMatrix A = cost_weights(side);
+    CollapsedSum(const Side& side, const RowMatrix& centres, const Eigen::VectorXd& relaxed) {
+        const SparseMatrix A = cost_weights(side, relaxed);
         g = A * centres;
         alpha = A * Eigen::VectorXd::Ones(side.mass.size());
         c = A * Eigen::VectorXd(centres.rowwise().squaredNorm());
+    }
+
+    /// Mean contribution per sample for its mean image, which has the mean of squared norms in its last
+    /// column.
+    Eigen::VectorXd mean(const RowMatrix& image) const {
+        const Eigen::Index D = image.cols() - 1;
+        const Eigen::VectorXd cost =
+            alpha.cwiseProduct(image.col(D)) - 2 * g.cwiseProduct(image.leftCols(D)).rowwise().sum() + c;
+        return cost.cwiseMax(0);
     }
 };
 
@@ -38,15 +54,16 @@ void pin(const Side& side, const Side& other, RowMatrix& centres) {
 
 /// Mean images of a side's samples and what their neighbourhoods make of them.
 struct SideImages {
-    RowMatrix mean;             ///< samples x D: mean image of each sample
-    RowMatrix sums;             ///< per neighbourhood: sum_i p_ki rho_i / m_i (mean image)
-    Eigen::VectorXd squares;    ///< the same sum of squared norms
-    Eigen::VectorXd weights;    ///< the same sum of 1
+    RowMatrix mean;           ///< samples x D: mean image of each sample
+    RowMatrix sums;           ///< per neighbourhood: sum_i p_ki rho_i / m'_i (mean image)
+    Eigen::VectorXd squares;  ///< the same sum of squared norms
+    Eigen::VectorXd weights;  ///< the same sum of 1
 
     /// `image` has squared norms in its last column; rho are the transported masses.
-    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho) {
+    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+               const Eigen::VectorXd& relaxed) {
         const Eigen::Index D = image.cols() - 1;
-        const Eigen::VectorXd share = rho.cwiseQuotient(side.mass);
+        const Eigen::VectorXd share = rho.cwiseQuotient(divisor(side, relaxed));
         const RowMatrix all = side.averaging * RowMatrix(share.asDiagonal() * image);
         mean = image.leftCols(D);
         sums = all.leftCols(D);
@@ -64,11 +81,20 @@ struct SideImages {
     }
 };
 
-SideImages images_of_rows(const Side& X, const Side& Y, const Coupling& plan) {
-    return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan)};
+SideImages images_of_rows(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
+    return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan), relaxed.row};
 }
-SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan) {
-    return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan)};
+SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan,
+                             const RelaxedMasses& relaxed) {
+    return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan), relaxed.column};
+}
+
+/// The m' that minimise sum_i A_i / m'_i within the bounds: clamp(s sqrt(A_i)), of sum 1.
+Eigen::VectorXd least_inverses(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+                               const RowMatrix& centres, const MassBounds& bounds) {
+    const Eigen::VectorXd mean = CollapsedSum(side, centres, {}).mean(image);
+    const Eigen::ArrayXd A = side.mass.array() * rho.array() * mean.array();
+    return bounded_masses(A.max(1e-300).log() / 2, bounds);
 }
 
 }  // namespace
@@ -88,8 +114,8 @@ void pin_landmarks(const Side& X, const Side& Y, Centres& centres) {
     pin(Y, X, centres.column);
 }
 
-CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres) {
-    const CollapsedSum x(X, centres.row), y(Y, centres.column);
+CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed) {
+    const CollapsedSum x(X, centres.row, relaxed.row), y(Y, centres.column, relaxed.column);
     const Eigen::Index DX = X.points.cols(), DY = Y.points.cols();
     const bool aligned = X.aligned.size() > 0;
     const Eigen::Index columns = DX + DY + 4 + (aligned ? 5 : 0);
@@ -112,8 +138,8 @@ Eigen::VectorXd CostFactors::on(const Support& support) const {
     return cost;
 }
 
-CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan) {
-    SideImages rows = images_of_rows(X, Y, plan), columns = images_of_columns(X, Y, plan);
+CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
+    SideImages rows = images_of_rows(X, Y, plan, relaxed), columns = images_of_columns(X, Y, plan, relaxed);
     CentreStep step;
     step.centres = {rows.centres(), columns.centres()};
     pin_landmarks(X, Y, step.centres);
@@ -123,9 +149,19 @@ CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan) {
     return step;
 }
 
-double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres) {
-    return images_of_rows(X, Y, plan).energy(X.mass, centres.row) +
-           images_of_columns(X, Y, plan).energy(Y.mass, centres.column);
+RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan,
+                                    const Centres& centres, const MassBounds& row_bounds,
+                                    const MassBounds& column_bounds) {
+    return {least_inverses(X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan),
+                           centres.row, row_bounds),
+            least_inverses(Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan),
+                           centres.column, column_bounds)};
+}
+
+double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
+              const RelaxedMasses& relaxed) {
+    return images_of_rows(X, Y, plan, relaxed).energy(X.mass, centres.row) +
+           images_of_columns(X, Y, plan, relaxed).energy(Y.mass, centres.column);
 }
 
 }  // namespace varimap

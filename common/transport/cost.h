@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/transport/mass_bounds.h"
 #include "common/transport/support.h"
 
 namespace varimap {
@@ -27,12 +28,34 @@ struct Centres {
     RowMatrix column;  ///< samples of Y x D_X
 };
 
-/// Cost of every instantiated entry with the centres fixed (the coefficient of pi_ij in Eq. 3):
-///   c_ij = sum_k a_ik |y_j - eta_xk|^2 + sum_l b_jl |x_i - eta_yl|^2,  a_ik = m_k W_k(x_i) / Z_k,
+/// The variables m' and n' of Sec. 3.4, by which the images of the samples are divided; empty: the masses m and n.
+///
+/// With cX_ij = sum_k a_ik |y_j - eta_xk|^2, a_ik = m_k W_k(x_i) / Z_k, and its twin cY, Eq. (3) for the transfer
+/// operators divided by m' and n' is
+///   C'(pi, m', n', eta) = sum_i (m_i / m'_i) sum_j pi_ij cX_ij + sum_j (n_j / n'_j) sum_i pi_ij cY_ij,
+/// subject to m'_i in [m_i / D, D m_i] and rho_i = sum_j pi_ij in [m'_i / C, C m'_i], the same for n', and
+/// sum pi = sum m' = sum n' = 1. The text only implies the sum of m'; without it every m'_i would go to its upper
+/// bound. Each half-step is a convex problem:
+///   pi    transport with the costs above, row sums within [m' / C, C m'], column sums within [n' / C, C n'];
+///   m'    m'_i = clamp(s sqrt(A_i)) to [m_i / D, D m_i] and [rho_i / C, C rho_i], with the s that makes their sum 1,
+///         where A_i = m_i sum_j pi_ij cX_ij;
+///   eta   eta_xk = sum_i w_ki (mean image of x_i) / sum_i w_ki, with the weights w_ki = m_i W_k(x_i) rho_i / m'_i:
+///         the weighted average that the text speaks of.
+///
+/// Where D exceeds 1, C' lets both one-way maps shrink: a light sample counts in full in its own row, but adds only
+/// D^-2 to the variance of its heavy partner's, so light samples gather in heavy ones almost for free. The energy
+/// that varimap minimises by default keeps m' = m and n' = n: the costs are cX + cY, and the centres weigh samples by
+/// the mass that they transport, W_k rho. Then there are two half-steps, and the bounds hold for rho itself.
+struct RelaxedMasses {
+    Eigen::VectorXd row, column;
+};
+
+/// Cost of every instantiated entry with the rest fixed (the coefficient of pi_ij in C'):
+///   c_ij = m_i / m'_i cX_ij + n_j / n'_j cY_ij
 /// collapsed into one dot product of D_X + D_Y + 4 numbers per entry: c_ij = u_i . v_j.
 class CostFactors {
   public:
-    CostFactors(const Side& X, const Side& Y, const Centres& centres);
+    CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed = {});
     double entry(int i, int j) const { return u_.row(i).dot(v_.row(j)); }
     Eigen::VectorXd on(const Support& support) const;
 
@@ -40,18 +63,22 @@ class CostFactors {
     RowMatrix u_, v_;
 };
 
-/// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m_i, landmarks pinned;
-/// and the energy of Eq. (3) for the plan and these centres, without the Wasserstein-2 term. rho_i is the
-/// transported mass of row i, which is m_i unless the marginals are relaxed.
+/// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m'_i, landmarks pinned;
+/// and the energy C' for the plan and these centres, without the Wasserstein-2 term.
 struct CentreStep {
     Centres centres;
     RowMatrix row_image, column_image;  ///< mean images of the samples themselves (pi_X(delta_x), pi_Y(delta_y))
     double energy;
 };
-CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan);
+CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed = {});
 
-/// Energy of Eq. (3) for any centres, from the mean images of the samples and of their squared norms.
-double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres);
+/// Half-step over m' and n': with the rest fixed C' = sum_i A_i / m'_i + sum_j B_j / n'_j, A_i = m_i sum_j pi_ij cX_ij.
+RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
+                                    const MassBounds& row_bounds, const MassBounds& column_bounds);
+
+/// C' for any centres, from the mean images of the samples and of their squared norms.
+double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
+              const RelaxedMasses& relaxed = {});
 
 /// Replaces the centres of landmarks by their partners' points.
 void pin_landmarks(const Side& X, const Side& Y, Centres& centres);

@@ -56,25 +56,63 @@ struct LogKernel {
     }
 };
 
-void update_rows(const TransportProblem& p, const LogKernel& kernel, Potentials& q) {
-    const Eigen::ArrayXd other = q.column.array() / p.gamma + p.column_mass.array().log();
-    const double background = kernel.background + log_total(p.column_mass, q.column, p.gamma);
-    parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
-        q.row[i] = -p.relaxation() * p.gamma * log_sum_line(p.support.row_begin[i], p.support.row_begin[i + 1], background, other,
-                                           [&](int e) { return std::pair(p.support.column[e], kernel.entry[e]); });
-    });
+/// The masses that one side's lines take on in the KL projection onto their bounds. Without bounds and total, a line
+/// that carries s before the projection and should carry m would take on m^lambda s^(1 - lambda),
+/// lambda = rho / (rho + gamma); the total's multiplier scales these by a common phi, and the bounds clamp them.
+class Projection {
+  public:
+    Projection(const Eigen::VectorXd& mass, const MassBounds& bounds, const TransportProblem& p)
+        : bounds_(bounds), exact_(bounds.exact()), lambda_(p.mass_penalty / (p.mass_penalty + p.gamma)) {
+        if (!exact_) log_mass_ = mass.array().log();
+    }
+    bool exact() const { return exact_; }
+    /// Given log(s / m) for every line, with the side's own potentials taken out.
+    Eigen::VectorXd masses(const Eigen::ArrayXd& log_ratio) const {
+        return exact_ ? bounds_.lower : bounded_masses(log_mass_ + (1 - lambda_) * log_ratio, bounds_);
+    }
+
+  private:
+    const MassBounds& bounds_;
+    bool exact_;
+    double lambda_;
+    Eigen::ArrayXd log_mass_;
+};
+
+/// A problem with the projections of its two sides.
+struct Projections {
+    Projection rows, columns;
+    explicit Projections(const TransportProblem& p)
+        : rows(p.row_mass, p.row_bounds, p), columns(p.column_mass, p.column_bounds, p) {}
+};
+
+/// Potentials that make a side's lines carry their projected masses.
+Eigen::VectorXd projected_potentials(const Projection& projection, const Eigen::VectorXd& mass,
+                                     const Eigen::ArrayXd& log_ratio, double gamma) {
+    return gamma * ((projection.masses(log_ratio).array() / mass.array()).log() - log_ratio);
 }
 
-void update_columns(const TransportProblem& p, const LogKernel& kernel, Potentials& q) {
+void update_rows(const TransportProblem& p, const Projections& projections, const LogKernel& kernel, Potentials& q) {
+    const Eigen::ArrayXd other = q.column.array() / p.gamma + p.column_mass.array().log();
+    const double background = kernel.background + log_total(p.column_mass, q.column, p.gamma);
+    Eigen::ArrayXd log_ratio(p.support.rows());
+    parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
+        log_ratio[i] = log_sum_line(p.support.row_begin[i], p.support.row_begin[i + 1], background, other,
+                                    [&](int e) { return std::pair(p.support.column[e], kernel.entry[e]); });
+    });
+    q.row = projected_potentials(projections.rows, p.row_mass, log_ratio, p.gamma);
+}
+
+void update_columns(const TransportProblem& p, const Projections& projections, const LogKernel& kernel,
+                    Potentials& q) {
     const Eigen::ArrayXd other = q.row.array() / p.gamma + p.row_mass.array().log();
     const double background = kernel.background + log_total(p.row_mass, q.row, p.gamma);
+    Eigen::ArrayXd log_ratio(p.support.columns());
     parallel_for_each_index(0 + p.support.columns(), rows_per_task, [&](int j) {
-        q.column[j] =
-            -p.relaxation() * p.gamma * log_sum_line(p.support.column_begin[j], p.support.column_begin[j + 1], background, other,
-                                    [&](int e) {
-                                        return std::pair(p.support.row[e], kernel.entry[p.support.by_row[e]]);
-                                    });
+        log_ratio[j] = log_sum_line(
+            p.support.column_begin[j], p.support.column_begin[j + 1], background, other,
+            [&](int e) { return std::pair(p.support.row[e], kernel.entry[p.support.by_row[e]]); });
     });
+    q.column = projected_potentials(projections.columns, p.column_mass, log_ratio, p.gamma);
 }
 
 /// The plan that belongs to a pair of potentials.
@@ -172,25 +210,20 @@ bool in_safe_range(const Eigen::VectorXd& scaling) {
     return scaling.minCoeff() > 1 / safe_scaling && scaling.maxCoeff() < safe_scaling;
 }
 
-/// Scalings that solve one side given its products with the other's: (mass / product)^lambda, corrected for the
-/// potentials that the kernel has absorbed.
-class ScalingUpdate {
-  public:
-    ScalingUpdate(const TransportProblem& p, const Eigen::VectorXd& mass, const Eigen::VectorXd& absorbed)
-        : mass_(mass), lambda_(p.relaxation()) {
-        if (lambda_ < 1) correction_ = (-(1 - lambda_) / p.gamma * absorbed.array()).exp();
-    }
-    Eigen::VectorXd operator()(const Eigen::VectorXd& product) const {
-        const Eigen::ArrayXd ratio = mass_.array() / product.array();
-        if (lambda_ == 1) return ratio;
-        return ratio.pow(lambda_) * correction_;
-    }
+/// Scalings that solve one side given its products with the other's, for a kernel that has absorbed the potentials.
+Eigen::VectorXd scalings(const Projection& projection, const Eigen::VectorXd& mass, const Eigen::VectorXd& absorbed,
+                         double gamma, const Eigen::VectorXd& product) {
+    Eigen::ArrayXd log_ratio;
+    if (!projection.exact()) log_ratio = (product.array() / mass.array()).log() - absorbed.array() / gamma;
+    return projection.masses(log_ratio).cwiseQuotient(product);
+}
 
-  private:
-    const Eigen::VectorXd& mass_;
-    double lambda_;
-    Eigen::ArrayXd correction_;
-};
+/// Compares the row sums with those that one more row update would give.
+bool is_done(const SinkhornOptions& options, const Eigen::VectorXd& row_sums, const Eigen::VectorXd& next_row_sums,
+             SinkhornReport& report) {
+    report.marginal_error = (row_sums - next_row_sums).lpNorm<1>();
+    return report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations;
+}
 
 /// The plan from the absorbed kernel and its scalings. Entries that the products left out become zero, so that
 /// later sums can skip them.
@@ -213,25 +246,25 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
                         Coupling& plan) {
     const double negligible = 1e-8 * options.tolerance;
     const LogKernel log_kernel(p);
+    const Projections projections(p);
     SinkhornReport report;
     while (true) {
         // Absorb: after a full iteration in the log domain the kernel's entries are those of a plan.
-        update_rows(p, log_kernel, potentials);
-        update_columns(p, log_kernel, potentials);
+        update_rows(p, projections, log_kernel, potentials);
+        update_columns(p, projections, log_kernel, potentials);
         form_plan(p, log_kernel, potentials, plan);
         ++report.iterations;
 
         const ScaledKernel kernel(p, plan, negligible);
         Eigen::VectorXd u = Eigen::VectorXd::Ones(p.row_mass.size()), w = Eigen::VectorXd::Ones(p.column_mass.size());
-        const ScalingUpdate update_u(p, p.row_mass, potentials.row), update_w(p, p.column_mass, potentials.column);
         bool safe = true, done = false;
         while (true) {
             const Eigen::VectorXd row = kernel.times(w);
-            const Eigen::VectorXd next_u = update_u(row);
-            report.marginal_error = row.cwiseProduct(u - next_u).lpNorm<1>();
-            done = report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations;
+            const Eigen::VectorXd next_u = scalings(projections.rows, p.row_mass, potentials.row, p.gamma, row);
+            done = is_done(options, row.cwiseProduct(u), row.cwiseProduct(next_u), report);
             if (done) break;
-            const Eigen::VectorXd next_w = update_w(kernel.transposed_times(next_u));
+            const Eigen::VectorXd next_w = scalings(projections.columns, p.column_mass, potentials.column, p.gamma,
+                                                    kernel.transposed_times(next_u));
             safe = in_safe_range(next_u) && in_safe_range(next_w);
             if (!safe) break;
             u = next_u;
@@ -250,20 +283,36 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
 SinkhornReport sinkhorn_log_domain(const TransportProblem& p, const SinkhornOptions& options, Potentials& potentials,
                                    Coupling& plan) {
     const LogKernel kernel(p);
+    const Projections projections(p);
     SinkhornReport report;
-    update_rows(p, kernel, potentials);
+    update_rows(p, projections, kernel, potentials);
     while (true) {
-        update_columns(p, kernel, potentials);
+        update_columns(p, projections, kernel, potentials);
         form_plan(p, kernel, potentials, plan);
         ++report.iterations;
         Potentials next = potentials;
-        update_rows(p, kernel, next);
-        const Eigen::ArrayXd change = ((next.row - potentials.row).array() / p.gamma).exp() - 1;
-        report.marginal_error = (row_sums(plan).array() * change).abs().sum();
+        update_rows(p, projections, kernel, next);
+        const Eigen::VectorXd now = row_sums(plan);
+        const Eigen::VectorXd change = ((next.row - potentials.row).array() / p.gamma).exp();
         // The potentials left behind are those that belong to the plan.
-        if (report.marginal_error <= options.tolerance || report.iterations >= options.maximum_iterations) return report;
+        if (is_done(options, now, now.cwiseProduct(change), report)) return report;
         potentials = std::move(next);
     }
+}
+
+void round_to_masses(const Eigen::VectorXd& row_mass, const Eigen::VectorXd& column_mass, Coupling& plan) {
+    plan.row_background.setZero();
+    plan.column_background.setZero();
+    const Support& s = plan.support;
+    const Eigen::VectorXd row_share = row_mass.cwiseQuotient(row_sums(plan)).cwiseMin(1);
+    for (int i = 0; i < s.rows(); ++i)
+        plan.value.segment(s.row_begin[i], s.row_begin[i + 1] - s.row_begin[i]) *= row_share[i];
+    const Eigen::VectorXd column_share = column_mass.cwiseQuotient(column_sums(plan)).cwiseMin(1);
+    for (int e = 0; e < s.entries(); ++e) plan.value[e] *= column_share[s.column[e]];
+    plan.row_background = (row_mass - row_sums(plan)).cwiseMax(0);
+    plan.column_background = (column_mass - column_sums(plan)).cwiseMax(0);
+    const double missing = plan.row_background.sum();
+    if (missing > 0) plan.row_background /= missing;
 }
 
 }  // namespace varimap

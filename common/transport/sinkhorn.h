@@ -3,15 +3,18 @@
 #include <Eigen/Core>
 #include <limits>
 
+#include "common/transport/mass_bounds.h"
 #include "common/transport/support.h"
 
 namespace varimap {
 
 /// Entropic optimal transport on a sparse support with a constant background cost (Sec. 3.3, 4.3):
 ///   min sum pi_ij c_ij + gamma sum pi_ij (log(pi_ij / (m_i n_j)) - 1) + rho KL(pi 1 | m) + rho KL(pi' 1 | n)
-/// where c_ij is `cost` on the support and `background_cost` everywhere else. An infinite rho demands the marginals
-/// m and n exactly (Alg. 2); a finite one lets mass, and so area, change where that saves more cost than it
-/// costs (unbalanced transport; Chizat et al. 2016, Scaling Algorithms for Unbalanced Transport Problems).
+///   subject to sum pi_ij = 1, pi 1 within the row bounds, pi' 1 within the column bounds,
+/// where c_ij is `cost` on the support and `background_cost` everywhere else. Bounds that leave no room demand the
+/// masses exactly (Alg. 2); others let mass, and so area, change within them (Sec. 3.4). There rho makes a change of
+/// mass cost something of its own (unbalanced transport; Chizat et al. 2016, Scaling Algorithms for Unbalanced
+/// Transport Problems); the paper has rho = 0.
 struct TransportProblem {
     const Support& support;
     const Eigen::VectorXd& cost;  ///< per entry of the support, in row order
@@ -19,10 +22,8 @@ struct TransportProblem {
     const Eigen::VectorXd& column_mass;
     double gamma;
     double background_cost;  ///< larger than every cost
-    double mass_penalty = std::numeric_limits<double>::infinity();  ///< rho, units of the cost
-
-    /// Exponent of the scaling updates, rho / (rho + gamma); 1 for exact marginals.
-    double relaxation() const { return 1 / (1 + gamma / mass_penalty); }
+    MassBounds row_bounds = MassBounds::around(row_mass, 1), column_bounds = MassBounds::around(column_mass, 1);
+    double mass_penalty = 0;  ///< rho, units of the cost
 };
 
 /// Dual potentials in units of the cost: pi_ij = m_i n_j exp((f_i + g_j - c_ij) / gamma).
@@ -40,12 +41,13 @@ struct SinkhornOptions {
 
 struct SinkhornReport {
     int iterations = 0;
-    /// Mass that one more row update would move (L1); for exact marginals the distance of the row sums from
-    /// the row masses, while the column sums are exact.
+    /// Mass that one more row update would move (L1); for exact masses the distance of the row sums from the
+    /// row masses, while the column sums are exact.
     double marginal_error = 0;
 };
 
-/// Alg. 2 as stabilised scaling: matrix-vector products in the linear domain on a kernel that has absorbed the
+/// Alg. 2 and 3: alternating KL projections onto the plans whose row sums and whose column sums keep their bounds
+/// (App. A), as stabilised scaling: matrix-vector products in the linear domain on a kernel that has absorbed the
 /// potentials, which are renewed in the log domain whenever the scalings leave a safe range. Starts from
 /// `potentials` and leaves the solution there. `plan.support` must be the problem's support.
 SinkhornReport sinkhorn(const TransportProblem& problem, const SinkhornOptions& options, Potentials& potentials,
@@ -54,5 +56,10 @@ SinkhornReport sinkhorn(const TransportProblem& problem, const SinkhornOptions& 
 /// The same iteration with every product as log-sum-exp ("Working in log space"): the slower reference.
 SinkhornReport sinkhorn_log_domain(const TransportProblem& problem, const SinkhornOptions& options,
                                    Potentials& potentials, Coupling& plan);
+
+/// Moves a plan to exactly the given row and column sums, both of sum 1, by about as much mass as they were missed by
+/// (Altschuler, Weed, Rigollet 2017, Near-linear time approximation algorithms for optimal transport, Alg. 2): rows
+/// and then columns that hold too much are scaled down, and what is missing becomes the background.
+void round_to_masses(const Eigen::VectorXd& row_mass, const Eigen::VectorXd& column_mass, Coupling& plan);
 
 }  // namespace varimap

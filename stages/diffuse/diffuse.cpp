@@ -107,6 +107,8 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     plan.samples_B = pair.B.level.samples;
     plan.mass_A = pair.A.side.mass;
     plan.mass_B = pair.B.side.mass;
+    plan.transported_A = row_sums(solution.plan);
+    plan.transported_B = column_sums(solution.plan);
     plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
     plan.position_A = vertex_positions(pair.A, pair.B, solution.step.row_image, plan.plan, context.B().surface,
                                        context.graph_B());
@@ -149,10 +151,11 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params, const std:
         const Start start = l == 0 && !candidates ? coarsest_start(pair, context, params)
                                                   : hand_down(coarse.plan, coarse.pair.A.level, coarse.pair.B.level, pair,
                                                               params.alternation.support_threshold);
-        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, trace);
+        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
         coarse = {std::move(pair), solution.plan, l + 1};
     }
     Plan plan = to_plan(coarse.pair, solution, context);
+    plan.area_bound = params.alternation.area_bound;
     plan.trace = std::move(trace);
     if (params.check_landmarks) plan.landmark_checks = check_landmarks(context, params.alternation);
     if (candidates) {

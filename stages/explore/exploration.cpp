@@ -35,7 +35,8 @@ int promoted(int samples, int last) {
 /// Exact marginals, because relaxed energies of different maps do not compare; but solved no more precisely than
 /// telling maps apart takes.
 AlternationOptions for_comparison(AlternationOptions options) {
-    options.mass_penalty = 0;
+    options.area_bound = 1;
+    options.area_energy = "transported";
     options.tolerance = std::max(options.tolerance, 3e-3);
     options.sinkhorn_iterations = std::min(options.sinkhorn_iterations, 50);
     return options;

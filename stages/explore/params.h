@@ -13,7 +13,7 @@ struct ExploreParams {
     ExploreParams() { ironing.maximum_rounds = 0; }
 
     void describe(ParameterList& list) {
-        varimap::describe(list, alternation);
+        describe_exact(list, alternation);
         varimap::describe(list, ironing);
         list.add("random_starts", exploration.random_starts, "random starts at each of three coarse levels", 0, 10000);
         list.add("seed", exploration.seed, "of the random starts", 0, 1000000000);

@@ -107,10 +107,18 @@ void visit(const Candidates& candidates, ContentsVisitor& visitor) {
         visitor.sparse(fmt::format("plan_{:02}", k + 1), candidates.plans[k]);
 }
 
+std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
+    const Eigen::ArrayXd ratio = transported.array() / mass.array();
+    return ratio.size() > 0 ? fmt::format("from {:.6g} to {:.6g}", ratio.minCoeff(), ratio.maxCoeff()) : "none";
+}
+
 void visit(const Plan& plan, ContentsVisitor& visitor) {
     std::vector<int> landmarks_A, landmarks_B;
     for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
     visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
+    visitor.fact("area bound", fmt::format("{}", plan.area_bound));
+    visitor.fact("transported / mass, A", range_of_ratios(plan.transported_A, plan.mass_A));
+    visitor.fact("transported / mass, B", range_of_ratios(plan.transported_B, plan.mass_B));
     visitor.fact("total of the entries", fmt::format("{}", plan.plan.sum()));
     if (plan.candidate > 0) visitor.fact("continues candidate", fmt::format("{}", plan.candidate));
     visit_candidates(plan.candidates, visitor);
@@ -119,6 +127,8 @@ void visit(const Plan& plan, ContentsVisitor& visitor) {
     visitor.array("samples_B", view(plan.samples_B));
     visitor.array("mass_A", view(plan.mass_A));
     visitor.array("mass_B", view(plan.mass_B));
+    visitor.array("transported_A", view(plan.transported_A));
+    visitor.array("transported_B", view(plan.transported_B));
     visitor.array("position_A", view(plan.position_A));
     visitor.array("position_B", view(plan.position_B));
     visitor.array("landmarks_A", view(landmarks_A));

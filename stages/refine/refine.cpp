@@ -26,6 +26,8 @@ Plan to_plan(const LevelPair& pair, const Solution& solution) {
     plan.samples_B = pair.B.level.samples;
     plan.mass_A = pair.A.side.mass;
     plan.mass_B = pair.B.side.mass;
+    plan.transported_A = row_sums(solution.plan);
+    plan.transported_B = column_sums(solution.plan);
     plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
     return plan;
 }
@@ -47,7 +49,7 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
             hand_down(solution.plan, coarse.A.level, coarse.B.level, pair, params.alternation.support_threshold);
         IroningOptions ironing = params.ironing;
         ironing.enabled &= l + 1 < all;  // neighbourhoods of the last level are too small to move a patch
-        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing, trace);
+        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing, l + 1 == levels, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution);
@@ -64,6 +66,7 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
     plan.landmark_checks = diffusion.landmark_checks;
     plan.candidates = diffusion.candidates;
     plan.candidate = diffusion.candidate;
+    plan.area_bound = params.alternation.area_bound;
     plan.trace = std::move(trace);
     return plan;
 }

@@ -10,12 +10,17 @@ namespace {
 using namespace varimap;
 
 /// Everything but quality.json, which comes last and so tells that the rest is there.
-void export_map(const std::string& folder, const SurfaceMap& map, const Surface& A, const Surface& B) {
+void export_map(const std::string& folder, const SurfaceMap& map, const Plan& plan, const Surface& A,
+                const Surface& B) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
     write_file_atomically(folder + "/source_to_target.csv", to_csv(map.A_to_B));
     write_file_atomically(folder + "/target_to_source.csv", to_csv(map.B_to_A));
+    write_file_atomically(folder + "/source_masses.csv",
+                          masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
+    write_file_atomically(folder + "/target_masses.csv",
+                          masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
     write_file_atomically(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
     write_file_atomically(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
 }
@@ -34,7 +39,7 @@ int main(int argc, char** argv) {
     const std::string& folder =
         stage.option("export",
                      "folder for source_to_target.csv, target_to_source.csv, source_on_target.ply, "
-                     "target_on_source.ply and quality.json");
+                     "target_on_source.ply, source_masses.csv, target_masses.csv and quality.json");
     const auto& runs = stage.list_option("runs", "run files (<artifact>.run.json) for quality.json's stages");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);
@@ -46,7 +51,7 @@ int main(int argc, char** argv) {
         const SurfaceMap map = remesh(A.value, B.value, plan.value, params);
         stage.write(out, map);
         if (folder.empty()) return;
-        export_map(folder, map, A.value, B.value);
+        export_map(folder, map, plan.value, A.value, B.value);
         const std::string own_name = "remesh " + std::filesystem::path(out).stem().string();
         write_file_atomically(folder + "/quality.json",
                               with_stages(map.quality, runs, own_name, stage.usage()));

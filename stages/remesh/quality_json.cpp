@@ -54,6 +54,12 @@ Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMe
             {"verification", to_json(verify_map(map, source, target))}};
 }
 
+/// Extremes of the transported masses in units of the surface's own.
+Json mass_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
+    const Eigen::ArrayXd ratio = transported.array() / mass.array();
+    return {{"min", ratio.minCoeff()}, {"max", ratio.maxCoeff()}};
+}
+
 Json sizes(const Surface& surface) {
     return {{"input_vertices", surface.input.vertex_count()},
             {"input_faces", surface.input.face_count()},
@@ -146,6 +152,9 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
                          const UntanglingReports& untangling) {
     Json quality;
     if (!plan.trace.empty()) quality["energy"] = plan.trace.back().energy;
+    quality["area_bound"] = plan.area_bound;
+    quality["mass_ratio"] = {{"source", mass_ratios(plan.transported_A, plan.mass_A)},
+                             {"target", mass_ratios(plan.transported_B, plan.mass_B)}};
     quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
     for (const LandmarkCheck& check : plan.landmark_checks)
         quality["landmark_checks"].push_back({{"distance", check.distance},

@@ -14,6 +14,9 @@ namespace varimap {
 /// The part of quality.json that depends on the inputs and parameters alone; finite numbers only. A is the
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
 ///   energy            Eq. (3) at the end; absent if the plan has no trace
+///   area_bound        the bound B the plan was solved with
+///   mass_ratio        source, target: min and max of transported mass by mass over the plan's samples; within
+///                     [1 / sqrt(B), sqrt(B)]
 ///   landmarks         distance of each landmark's image from its partner
 ///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions: plan.h)
 ///   exploration       without landmarks: which candidate was continued, confident, margin, levels_agree, and the

@@ -19,4 +19,9 @@ SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const Re
 /// the target.
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target);
 
+/// `vertex,ratio`: transported mass by mass at the INPUT vertices that are samples of the plan; with the plan of
+/// varimap-refine these are all vertices that faces use.
+std::string masses_csv(const Surface& surface, const std::vector<int>& samples, const Eigen::VectorXd& transported,
+                       const Eigen::VectorXd& mass);
+
 }  // namespace varimap

@@ -13,10 +13,20 @@ int main(int argc, char** argv) {
     const auto& target = stage.input("target-mesh", "mesh the map leads to");
     const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
     const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    const auto& masses =
+        stage.list_option("distortion",
+                          "source_masses.csv and target_masses.csv of varimap-remesh: shows changes "
+                          "of mass, area and angle instead of colours",
+                          2, 2);
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
+        const TriangleMesh A = read_mesh(source), B = read_mesh(target);
+        const PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);
         const Image image =
-            render(read_mesh(source), read_mesh(target), read_csv_map(there), read_csv_map(back), params);
+            masses.empty()
+                ? render(A, B, A_to_B, B_to_A, params)
+                : render_distortion(A, B, A_to_B, B_to_A, read_csv_masses(masses[0], A.vertex_count()),
+                                    read_csv_masses(masses[1], B.vertex_count()), params);
         write_file_atomically(out, to_png(image));
         log("{} x {} pixels to {}", image.width, image.height, out);
     });

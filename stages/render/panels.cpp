@@ -1,7 +1,6 @@
 #include "stages/render/panels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "common/stage/parallel.h"
@@ -11,37 +10,14 @@ namespace varimap {
 
 namespace {
 
-/// One figure from one side, and the rectangle of the picture that shows it.
-struct Panel {
-    const Figure* figure;
-    View view;
-    Points seen;                              ///< the vertices: right, up, towards the viewer
-    Eigen::AlignedBox3d box;                  ///< of the faces there
-    int x = 0, y = 0, width = 0, height = 0;  ///< pixels, y downwards
-    double scale = 1;                         ///< pixels per unit
-
-    Panel(const Figure& f, const View& v)
-        : figure(&f), view(v), seen(f.mesh().vertices * v.transpose()), box(bounds(seen, f.mesh().faces)) {}
-    /// Pixel coordinates within the panel of a seen point.
-    Eigen::Vector2d to_pixel(const Vec3& p) const {
-        return {width / 2. + (p[0] - box.center()[0]) * scale,
-                height / 2. - (p[1] - box.center()[1]) * scale};
-    }
-    Vec3 ray_origin(double px, double py) const {
-        return view.transpose() * Vec3(box.center()[0] + (px - width / 2.) / scale,
-                                       box.center()[1] - (py - height / 2.) / scale, box.max()[2] + 1);
-    }
-};
-
 /// Places the panels (source, its back, target, its back); returns the height of the picture.
-int lay_out(std::array<Panel, 4>& panels, int picture_width) {
-    constexpr double margin = .12;  // in units of sqrt(area), around every panel's figure
+int lay_out(std::vector<Panel>& panels, int picture_width) {
     double widths[2], height = 0;
     for (int i : {0, 1}) {
-        const Vec3 a = panels[2 * i].box.sizes();
-        const Vec3 b = panels[2 * i + 1].box.sizes();
-        widths[i] = std::max(a[0], b[0]) + margin;
-        height = std::max({height, a[1] + margin, b[1] + margin});
+        const Vec3 a = panels[size_t(2 * i)].box.sizes();
+        const Vec3 b = panels[size_t(2 * i + 1)].box.sizes();
+        widths[i] = std::max(a[0], b[0]) + panel_margin;
+        height = std::max({height, a[1] + panel_margin, b[1] + panel_margin});
     }
     const bool in_a_row = height > .8 * (widths[0] + widths[1]);
     const double total = (in_a_row ? 2 : 1) * (widths[0] + widths[1]);
@@ -127,17 +103,33 @@ void trace(const Panel& panel, const std::vector<Eigen::Vector2d>& places, Image
 
 }  // namespace
 
+Panel::Panel(const Figure& f, const View& v)
+    : figure(&f), view(v), seen(f.mesh().vertices * v.transpose()), box(bounds(seen, f.mesh().faces)) {}
+
+Eigen::Vector2d Panel::to_pixel(const Vec3& p) const {
+    return {width / 2. + (p[0] - box.center()[0]) * scale, height / 2. - (p[1] - box.center()[1]) * scale};
+}
+
+Vec3 Panel::ray_origin(double px, double py) const {
+    return view.transpose() * Vec3(box.center()[0] + (px - width / 2.) / scale,
+                                   box.center()[1] - (py - height / 2.) / scale, box.max()[2] + 1);
+}
+
+void trace_panels(const std::vector<Panel>& panels, int samples, Image& image) {
+    const auto places = sample_places(samples);
+    for (const Panel& panel : panels) trace(panel, places, image);
+}
+
 Image draw_panels(const Figure& source, const View& source_view, const Figure& target,
                   const View& target_view, const RenderParams& params) {
     const auto panel = [&](const Figure& figure, const View& view, double turn) {
         return Panel(figure, moved(view, params.azimuth + turn, params.elevation));
     };
-    std::array panels{panel(source, source_view, 0), panel(source, source_view, 180),
-                      panel(target, target_view, 0), panel(target, target_view, 180)};
+    std::vector panels{panel(source, source_view, 0), panel(source, source_view, 180),
+                       panel(target, target_view, 0), panel(target, target_view, 180)};
     Image image{params.width, lay_out(panels, params.width), {}};
     image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);
-    const auto places = sample_places(params.samples);
-    for (const Panel& p : panels) trace(p, places, image);
+    trace_panels(panels, params.samples, image);
     return image;
 }
 

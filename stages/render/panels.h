@@ -6,6 +6,27 @@
 
 namespace varimap {
 
+/// One figure from one side, and the rectangle of the picture that shows it.
+struct Panel {
+    const Figure* figure;
+    View view;
+    Points seen;                              ///< the vertices: right, up, towards the viewer
+    Eigen::AlignedBox3d box;                  ///< of the faces there
+    int x = 0, y = 0, width = 0, height = 0;  ///< pixels, y downwards
+    double scale = 1;                         ///< pixels per unit
+
+    Panel(const Figure& figure, const View& view);
+    /// Pixel coordinates within the panel of a seen point.
+    Eigen::Vector2d to_pixel(const Vec3& p) const;
+    Vec3 ray_origin(double px, double py) const;
+};
+
+/// White space around every panel's figure, in units of sqrt(area).
+inline constexpr double panel_margin = .12;
+
+/// Draws the panels, with that many rays per pixel, into the rectangles they say.
+void trace_panels(const std::vector<Panel>& panels, int samples, Image& image);
+
 /// Lays out and traces both figures, each from its view (moved as the parameters say) and from the opposite
 /// one.
 Image draw_panels(const Figure& source, const View& source_view, const Figure& target,

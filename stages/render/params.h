@@ -12,6 +12,8 @@ struct RenderParams {
     double elevation = 8;
     std::string up = "auto";
     bool flips = false;
+    double ratio_range = 4;
+    double conformal_range = 4;
 
     void describe(ParameterList& list) {
         list.add("width", width, "width of the picture, pixels", 64, 16384);
@@ -21,6 +23,8 @@ struct RenderParams {
         list.add("azimuth", azimuth, "turns the camera to the right around the surfaces, degrees", -360, 360);
         list.add("elevation", elevation, "raises the camera, degrees", -89, 89);
         list.add("up", up, "axis of the source that points up; auto guesses", {"auto", "x", "y", "z"});
+        list.add("ratio_range", ratio_range, "distortion: end of the scale of mass and area ratios", 1.01, 1e6);
+        list.add("conformal_range", conformal_range, "distortion: end of the scale of conformal distortion", 1.01, 1e6);
         list.add("flips", flips, "shows triangles in magenta whose image is reversed");
     }
 };

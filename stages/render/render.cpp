@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "common/artifact/artifact.h"
 #include "common/mapping/chord_mesh.h"
 #include "common/mesh/closest_point.h"
 #include "common/stage/error.h"
+#include "stages/render/distortion.h"
 #include "stages/render/figure.h"
 #include "stages/render/panels.h"
 #include "stages/render/view.h"
@@ -30,6 +36,14 @@ std::vector<bool> have_image(const PointMap& map) {
     return result;
 }
 
+void require_fit(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
+                 const PointMap& target_to_source) {
+    if (!(surface_area(source) > 0) || !(surface_area(target) > 0))
+        throw InputError("a mesh without area cannot be shown");
+    require_fit(source_to_target, source, target, "source_to_target", "source", "target");
+    require_fit(target_to_source, target, source, "target_to_source", "target", "source");
+}
+
 /// Colour at the source's point closest to the image of a point of the target.
 Colour carried_colour(const ChordMesh& back, const ClosestPoint& closest, const SourceColour& colour,
                       const SurfacePoint& point) {
@@ -41,10 +55,7 @@ Colour carried_colour(const ChordMesh& back, const ClosestPoint& closest, const 
 
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params) {
-    if (!(surface_area(source) > 0) || !(surface_area(target) > 0))
-        throw InputError("a mesh without area cannot be shown");
-    require_fit(source_to_target, source, target, "source_to_target", "source", "target");
-    require_fit(target_to_source, target, source, "target_to_source", "target", "source");
+    require_fit(source, target, source_to_target, target_to_source);
     const ChordMesh there(source_to_target, source, target), back(target_to_source, target, source);
     const SourceColour colour(there.source, params.checker);
     const ClosestPoint closest(there.source);
@@ -60,6 +71,43 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     const View target_view =
         matching_view(back.source, back.image.vertices, have_image(target_to_source), source_view);
     return draw_panels(source_figure, source_view, target_figure, target_view, params);
+}
+
+Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
+                        const PointMap& source_to_target, const PointMap& target_to_source,
+                        const Eigen::VectorXd& source_masses, const Eigen::VectorXd& target_masses,
+                        const RenderParams& params) {
+    require_fit(source, target, source_to_target, target_to_source);
+    const ChordMesh back(target_to_source, target, source);
+    const View source_view = natural_view(source, params.up);
+    const View target_view =
+        matching_view(back.source, back.image.vertices, have_image(target_to_source), source_view);
+    return draw_distortion({unit_area(source), measure_triangles(source_to_target, source, target),
+                            source_masses, moved(source_view, params.azimuth, params.elevation)},
+                           {unit_area(target), measure_triangles(target_to_source, target, source),
+                            target_masses, moved(target_view, params.azimuth, params.elevation)},
+                           params);
+}
+
+Eigen::VectorXd read_csv_masses(const std::string& path, int vertices) {
+    std::istringstream lines(read_file(path));
+    std::string line;
+    std::getline(lines, line);
+    if (line != "vertex,ratio") throw InputError(fmt::format("'{}' line 1: expected vertex,ratio", path));
+    Eigen::VectorXd masses = Eigen::VectorXd::Constant(vertices, std::nan(""));
+    for (int number = 2; std::getline(lines, line); ++number) {
+        int vertex = -1;
+        double ratio = 0;
+        const char* end = line.data() + line.size();
+        const auto first = std::from_chars(line.data(), end, vertex);
+        const bool comma = first.ec == std::errc() && first.ptr < end && *first.ptr == ',';
+        if (!comma || std::from_chars(first.ptr + 1, end, ratio).ptr != end || vertex < 0 ||
+            vertex >= vertices)
+            throw InputError(fmt::format("'{}' line {}: expected a vertex below {} and its ratio", path,
+                                         number, vertices));
+        masses[vertex] = ratio;
+    }
+    return masses;
 }
 
 }  // namespace varimap

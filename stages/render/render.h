@@ -23,6 +23,19 @@ struct Image {
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params);
 
+/// How the map changes areas and angles (the rows of Fig. 15): three columns with the transported mass by the
+/// mass at each vertex, the area ratio of each triangle, and its conformal distortion (quality.h), on the
+/// source under source_to_target above and on the target under target_to_source below; at the bottom the
+/// scales. Mass ratios are given per vertex; NaN, and triangles without an image, are grey. Throws InputError
+/// where something does not fit.
+Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
+                        const PointMap& source_to_target, const PointMap& target_to_source,
+                        const Eigen::VectorXd& source_masses, const Eigen::VectorXd& target_masses,
+                        const RenderParams& params);
+
+/// Reads `vertex,ratio` of varimap-remesh; vertices that it does not name get NaN.
+Eigen::VectorXd read_csv_masses(const std::string& path, int vertices);
+
 /// The bytes of a PNG file.
 std::string to_png(const Image& image);
 

@@ -6,6 +6,7 @@
 
 #include "common/known_pair.h"
 #include "common/random_plan.h"
+#include "common/stage/error.h"
 
 namespace varimap {
 namespace {
@@ -61,11 +62,107 @@ TEST(AlternatingMinimization, EachHalfStepLowersWhatItMinimises) {
     EXPECT_LT(update_centres(X, Y, plan).energy, .9 * first);
 }
 
+/// The default energy within bounds: what the bounds allow lowers it, and each half-step what it minimises.
+TEST(AlternatingMinimization, EachHalfStepWithinBoundsLowersWhatItMinimises) {
+    const LevelPair pair = tube_level();
+    const Side &X = pair.A.side, &Y = pair.B.side;
+    const Support support = Support::dense(int(X.mass.size()), int(Y.mass.size()));
+    Centres centres = zero_centres(pair);
+    Coupling plan;
+    plan.support = support;
+    Potentials potentials = Potentials::zero(support.rows(), support.columns());
+    double previous = INFINITY, gamma = 0;
+    for (int round = 0; round < 8; ++round) {
+        const Eigen::VectorXd cost = CostFactors(X, Y, centres).on(support);
+        if (round == 0) gamma = cost.maxCoeff() / 100;
+        sinkhorn({support, cost, X.mass, Y.mass, gamma, 10 * cost.maxCoeff(), MassBounds::around(X.mass, 1.4),
+                  MassBounds::around(Y.mass, 1.4)},
+                 {1e-11, 100000}, potentials, plan);
+        const double after_plan = energy(X, Y, plan, centres) + entropy(X, Y, plan, gamma);
+        EXPECT_LT(after_plan, previous * (1 + 1e-9));
+        const CentreStep step = update_centres(X, Y, plan);
+        EXPECT_LT(step.energy, energy(X, Y, plan, centres));
+        centres = step.centres;
+        previous = step.energy + entropy(X, Y, plan, gamma);
+    }
+    EXPECT_GT((row_sums(plan) - X.mass).lpNorm<1>(), 1e-2);
+}
+
+/// C' of Sec. 3.4: three half-steps, each lowers C' (the plan's: with its entropy) and keeps Eq. (10).
+TEST(AlternatingMinimization, EachHalfStepOfThePaperLowersItsEnergy) {
+    constexpr double D = 1.5, slack = 1.1;
+    const LevelPair pair = tube_level();
+    const Side &X = pair.A.side, &Y = pair.B.side;
+    const MassBounds area_X = MassBounds::around(X.mass, D), area_Y = MassBounds::around(Y.mass, D);
+    const Support support = Support::dense(int(X.mass.size()), int(Y.mass.size()));
+    RelaxedMasses relaxed{X.mass, Y.mass};
+    Centres centres = zero_centres(pair);
+    Coupling plan;
+    plan.support = support;
+    Potentials potentials = Potentials::zero(support.rows(), support.columns());
+    double previous = INFINITY, gamma = 0;
+    for (int round = 0; round < 8; ++round) {
+        const Eigen::VectorXd cost = CostFactors(X, Y, centres, relaxed).on(support);
+        if (round == 0) gamma = cost.maxCoeff() / 100;
+        sinkhorn({support, cost, X.mass, Y.mass, gamma, 10 * cost.maxCoeff(),
+                  area_X.within(MassBounds::around(relaxed.row, slack)),
+                  area_Y.within(MassBounds::around(relaxed.column, slack))},
+                 {1e-11, 100000}, potentials, plan);
+        const double with_plan = energy(X, Y, plan, centres, relaxed);
+        EXPECT_LT(with_plan + entropy(X, Y, plan, gamma), previous * (1 + 1e-9));
+
+        const MassBounds around_X = area_X.within(MassBounds::around(row_sums(plan), slack));
+        const MassBounds around_Y = area_Y.within(MassBounds::around(column_sums(plan), slack));
+        relaxed = update_relaxed_masses(X, Y, plan, centres, around_X, around_Y);
+        EXPECT_NEAR(relaxed.row.sum(), 1, 1e-10);
+        EXPECT_NEAR(relaxed.column.sum(), 1, 1e-10);
+        EXPECT_LT(std::max(around_X.excess(relaxed.row), around_Y.excess(relaxed.column)), 1e-10);
+        const double with_masses = energy(X, Y, plan, centres, relaxed);
+        EXPECT_LT(with_masses, with_plan);
+
+        const CentreStep step = update_centres(X, Y, plan, relaxed);
+        EXPECT_LT(step.energy, with_masses);
+        centres = step.centres;
+        previous = step.energy + entropy(X, Y, plan, gamma);
+    }
+    EXPECT_GT((relaxed.row - X.mass).lpNorm<1>(), 1e-2);
+}
+
+TEST(AlternatingMinimization, TightStepKeepsTheAreaBound) {
+    const LevelPair pair = tube_level();
+    const Side &X = pair.A.side, &Y = pair.B.side;
+    for (const char* energy : {"transported", "paper"})
+        for (const double bound : {1., 1.2, 4.}) {
+            AlternationOptions options;
+            options.area_bound = bound;
+            options.area_energy = energy;
+            options.mass_penalty = 0;
+            AlternatingMinimization minimization(X, Y, options);
+            minimization.start(zero_centres(pair), {});
+            for (int i = 0; i < 3; ++i) minimization.step();
+            const double before = minimization.solution().step.energy;
+            const double after = minimization.tight_step().energy;
+            const double D = std::sqrt(bound);
+            const Coupling& plan = minimization.solution().plan;
+            EXPECT_LT(MassBounds::around(X.mass, D).excess(row_sums(plan)), 1e-3) << bound << energy;
+            EXPECT_LT(MassBounds::around(Y.mass, D).excess(column_sums(plan)), 1e-3) << bound << energy;
+            EXPECT_LT(std::abs(after - before), .1 * before);
+        }
+}
+
+TEST(AlternatingMinimization, RefusesAPlanThatDoesNotConverge) {
+    const LevelPair pair = tube_level();
+    AlternationOptions options;
+    options.sinkhorn_iterations = 1;
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
+    minimization.start(zero_centres(pair), {});
+    EXPECT_THROW(minimization.tight_step(), ConvergenceError);
+}
+
 TEST(AlternatingMinimization, RunsUntilTheEnergySettles) {
     const LevelPair pair = tube_level();
     AlternationOptions options;
     options.maximum_alternations = 100;
-    options.mass_penalty = 0;  // exact marginals
     AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
     minimization.start(zero_centres(pair), {});
     std::vector<Alternation> steps;

@@ -147,6 +147,47 @@ TEST(Energy, IsTheTotalCostOfThePlan) {
     EXPECT_NEAR(energy(e.X, e.Y, e.plan, e.centres), dense(e.plan).cwiseProduct(cost).sum(), 1e-12);
 }
 
+/// C' as the sum over all entries and centres (cost.h).
+double brute_force_relaxed_energy(const Example& e, const RelaxedMasses& relaxed) {
+    const RowMatrix pi = dense(e.plan), WX = normalised_weights(e.X), WY = normalised_weights(e.Y);
+    double sum = 0;
+    for (int i = 0; i < pi.rows(); ++i)
+        for (int j = 0; j < pi.cols(); ++j) {
+            for (int k = 0; k < pi.rows(); ++k)
+                sum += e.X.mass[k] * WX(k, i) * e.X.mass[i] / relaxed.row[i] * pi(i, j) *
+                       (e.Y.points.row(j) - e.centres.row.row(k)).squaredNorm();
+            for (int l = 0; l < pi.cols(); ++l)
+                sum += e.Y.mass[l] * WY(l, j) * e.Y.mass[j] / relaxed.column[j] * pi(i, j) *
+                       (e.X.points.row(i) - e.centres.column.row(l)).squaredNorm();
+        }
+    return sum;
+}
+
+TEST(Energy, OfRelaxedMassesIsThePapersAndItsHalfStepsAreMinima) {
+    Example e = random_example(16);
+    Generator random(17);
+    const RelaxedMasses relaxed{random.mass(14), random.mass(11)};
+    EXPECT_NEAR(energy(e.X, e.Y, e.plan, e.centres, relaxed), brute_force_relaxed_energy(e, relaxed), 1e-11);
+
+    const CostFactors factors(e.X, e.Y, e.centres, relaxed);
+    const RowMatrix cost =
+        RowMatrix::NullaryExpr(14, 11, [&](auto i, auto j) { return factors.entry(int(i), int(j)); });
+    EXPECT_NEAR(dense(e.plan).cwiseProduct(cost).sum(), brute_force_relaxed_energy(e, relaxed), 1e-11);
+
+    const CentreStep step = update_centres(e.X, e.Y, e.plan, relaxed);
+    const MassBounds rows = MassBounds::around(e.X.mass, 1.5), columns = MassBounds::around(e.Y.mass, 1.5);
+    const RelaxedMasses best = update_relaxed_masses(e.X, e.Y, e.plan, e.centres, rows, columns);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Centres other{step.centres.row + .01 * random.points(14, 4),
+                            step.centres.column + .01 * random.points(11, 3)};
+        EXPECT_GT(energy(e.X, e.Y, e.plan, other, relaxed), step.energy);
+        const RelaxedMasses others{
+            rows.projected(best.row.array() * (1 + .1 * random.points(14, 1).array())),
+            columns.projected(best.column.array() * (1 + .1 * random.points(11, 1).array()))};
+        EXPECT_GT(energy(e.X, e.Y, e.plan, e.centres, others), energy(e.X, e.Y, e.plan, e.centres, best));
+    }
+}
+
 TEST(Centres, MakeEquationThreeEquationOne) {
     const Example e = random_example(10);
     const RowMatrix pi = dense(e.plan);

@@ -44,7 +44,7 @@ double reversed_mass(const PairContext& context, const KnownPair& figures, bool 
     IroningOptions options;
     options.enabled = iron;
     std::vector<TraceRow> trace;
-    const Solution solution = solve_level(context, pair, start, index, {}, options, trace);
+    const Solution solution = solve_level(context, pair, start, index, {}, options, false, trace);
     *energy = solution.step.energy;
     // Weights are back to what they were.
     EXPECT_EQ(RowMatrix(pair.A.side.averaging),

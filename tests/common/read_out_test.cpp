@@ -25,7 +25,7 @@ Plan identity_plan(const Surface& surface) {
     const int n = surface.mesh.vertex_count();
     for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
     plan.samples_B = plan.samples_A;
-    plan.mass_A = plan.mass_B = surface.mass;
+    plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = surface.mass;
     plan.plan.resize(n, n);
     plan.plan.setIdentity();
     plan.position_A = plan.position_B = surface.mesh.vertices;

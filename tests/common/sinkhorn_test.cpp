@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <limits>
 
 #include "common/random_plan.h"
 
@@ -18,12 +17,14 @@ using random_plan::Generator;
 struct Example {
     Support support;
     Eigen::VectorXd cost, row_mass, column_mass;
-    double gamma = 1, background_cost = 10, mass_penalty = std::numeric_limits<double>::infinity();
+    double gamma = 1, background_cost = 10, mass_penalty = 0;
+    double factor = 1;  ///< of the bounds around the masses; 1: exactly the masses
     Potentials potentials;
     Coupling plan;
 
     TransportProblem problem() const {
-        return {support, cost, row_mass, column_mass, gamma, background_cost, mass_penalty};
+        return {support, cost, row_mass, column_mass, gamma, background_cost, row_bounds(), column_bounds(),
+                mass_penalty};
     }
 
     template <class Method>
@@ -38,13 +39,14 @@ struct Example {
     SinkhornReport solve_in_log_domain(double tolerance = 1e-12, int iterations = 100000) {
         return solve_with(sinkhorn_log_domain, tolerance, iterations);
     }
+    MassBounds row_bounds() const { return MassBounds::around(row_mass, factor); }
+    MassBounds column_bounds() const { return MassBounds::around(column_mass, factor); }
     RowMatrix full_cost() const { return dense(support, cost, background_cost); }
     RowMatrix product_measure() const { return row_mass * column_mass.transpose(); }
-    /// <pi, c> + gamma KL, and with relaxed marginals rho KL of each of them.
+    /// <pi, c> + gamma KL + rho KL of each marginal.
     double objective(const RowMatrix& pi) const {
         const double transport = pi.cwiseProduct(full_cost()).sum() +
                                  gamma * divergence(pi.reshaped(), product_measure().reshaped());
-        if (std::isinf(mass_penalty)) return transport;
         return transport + mass_penalty * (divergence(pi.rowwise().sum(), row_mass) +
                                            divergence(pi.colwise().sum().transpose(), column_mass));
     }
@@ -168,31 +170,99 @@ TEST(Sinkhorn, StaysFiniteForExtremeCosts) {
     EXPECT_LT(report.marginal_error, .1);
 }
 
-TEST(Sinkhorn, RelaxedMinimisesItsObjective) {
-    for (const double penalty : {.05, 1.}) {
+/// The share of a step that keeps a plan positive and its marginals within the bounds.
+double feasible_share(const Example& e, const RowMatrix& pi, const RowMatrix& step) {
+    double share = .3 * (pi.array() / step.array().abs()).minCoeff();
+    const auto keep = [&](const Eigen::VectorXd& sum, const Eigen::VectorXd& change, const MassBounds& bounds) {
+        for (Eigen::Index i = 0; i < sum.size(); ++i) {
+            const double room = std::max(0.0, change[i] > 0 ? bounds.upper[i] - sum[i] : sum[i] - bounds.lower[i]);
+            if (change[i] != 0) share = std::min(share, room / std::abs(change[i]));
+        }
+    };
+    keep(pi.rowwise().sum(), step.rowwise().sum(), e.row_bounds());
+    keep(pi.colwise().sum().transpose(), step.colwise().sum().transpose(), e.column_bounds());
+    return share;
+}
+
+TEST(Sinkhorn, BoundedMinimisesItsObjectiveWithinTheBounds) {
+    for (const double penalty : {0., .05, 1.}) {
         Example e = random_example(12, 10, .4, .2, 13);
         e.background_cost = 1.5;
+        e.factor = 1.3;
         e.mass_penalty = penalty;
         e.solve();
         const RowMatrix pi = dense(e.plan);
+        EXPECT_NEAR(pi.sum(), 1, 1e-10);
+        EXPECT_LT(e.row_bounds().excess(pi.rowwise().sum()), 1e-9);
+        EXPECT_LT(e.column_bounds().excess(pi.colwise().sum().transpose()), 1e-9);
         EXPECT_GT((pi.rowwise().sum() - e.row_mass).lpNorm<1>(), 1e-3);
         Generator random(14);
-        for (int trial = 0; trial < 20; ++trial) {
-            const RowMatrix step = .01 * random.points(12, 10).cwiseProduct(pi);
-            EXPECT_GT(e.objective(pi + step), e.objective(pi));
+        int compared = 0;
+        for (int trial = 0; trial < 3000; ++trial) {
+            // A little mass moves from one entry to another.
+            RowMatrix step = RowMatrix::Zero(12, 10);
+            step(int(12 * random.uniform()), int(10 * random.uniform())) += 1;
+            step(int(12 * random.uniform()), int(10 * random.uniform())) -= 1;
+            const double share = feasible_share(e, pi, step);
+            if (step.isZero() || share < 1e-5) continue;
+            ++compared;
+            EXPECT_GT(e.objective(pi + share * step), e.objective(pi));
         }
-        Example reference = e;
-        reference.solve_in_log_domain();
-        EXPECT_LT((dense(reference.plan) - pi).lpNorm<1>(), 1e-9);
+        EXPECT_GT(compared, 100);
     }
 }
 
-TEST(Sinkhorn, RelaxedTendsToExactMarginals) {
-    Example exact = random_example(20, 20, .3, .1, 15), relaxed = exact;
-    relaxed.mass_penalty = 1e6;
+TEST(Sinkhorn, BoundedAgreesWithTheLogDomain) {
+    for (const double gamma : {1., .05, 2e-3})
+        for (const double penalty : {0., .1}) {
+            Example a = random_example(30, 36, .3, gamma, 16);
+            a.factor = 1.2;
+            a.mass_penalty = penalty;
+            Example b = a;
+            const SinkhornReport fast = a.solve(1e-9), reference = b.solve_in_log_domain(1e-9);
+            EXPECT_NEAR(fast.iterations, reference.iterations, 1 + reference.iterations / 20) << gamma;
+            EXPECT_LT((dense(a.plan) - dense(b.plan)).lpNorm<1>(), 1e-7) << gamma;
+            EXPECT_LT(a.column_bounds().excess(column_sums(a.plan)), 1e-9);
+        }
+}
+
+TEST(Sinkhorn, BoundsTendToExactMasses) {
+    Example exact = random_example(20, 20, .3, .1, 15), bounded = exact, penalised = exact;
+    bounded.factor = 1 + 1e-6;
+    penalised.factor = 1.5;
+    penalised.mass_penalty = 1e6;
     exact.solve(1e-10);
-    relaxed.solve(1e-10);
-    EXPECT_LT((dense(exact.plan) - dense(relaxed.plan)).lpNorm<1>(), 1e-4);
+    bounded.solve(1e-10);
+    penalised.solve(1e-10);
+    EXPECT_LT((dense(exact.plan) - dense(bounded.plan)).lpNorm<1>(), 1e-4);
+    EXPECT_LT((dense(exact.plan) - dense(penalised.plan)).lpNorm<1>(), 1e-4);
+}
+
+/// Row sums carry what the bounds allow where only mass matters: half of the rows are free, half cost 1.
+TEST(Sinkhorn, BoundsAreReachedWhereTheyPay) {
+    Example e;
+    e.support = Support::dense(4, 4);
+    e.row_mass = e.column_mass = Eigen::VectorXd::Constant(4, .25);
+    e.cost = Eigen::VectorXd::Zero(16);
+    e.cost.tail(8).setOnes();
+    e.gamma = 1e-2;
+    e.factor = 1.25;
+    e.solve();
+    const Eigen::VectorXd expected = Eigen::Vector4d(.3, .3, .2, .2);
+    EXPECT_LT((row_sums(e.plan) - expected).lpNorm<1>(), 1e-9);
+    EXPECT_LT((column_sums(e.plan) - e.column_mass).lpNorm<1>(), 1e-9);
+}
+
+TEST(Sinkhorn, RoundingMeetsMassesByMovingWhatTheyWereMissedBy) {
+    Example e = random_example(30, 25, .3, .05, 17);
+    e.solve(5e-2);
+    const RowMatrix before = dense(e.plan);
+    const double missed = (row_sums(e.plan) - e.row_mass).lpNorm<1>();
+    EXPECT_GT(missed, 1e-3);
+    round_to_masses(e.row_mass, e.column_mass, e.plan);
+    expect_marginals(e, 1e-14);
+    EXPECT_GE(dense(e.plan).minCoeff(), 0);
+    EXPECT_LT((dense(e.plan) - before).lpNorm<1>(), 2 * missed);
 }
 
 TEST(Sinkhorn, TendsToTheSortedMatchingOnALine) {

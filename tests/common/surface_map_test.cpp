@@ -118,6 +118,9 @@ Plan small_plan() {
     plan.samples_B = {1};
     plan.mass_A = Eigen::Vector2d(0.25, 0.75);
     plan.mass_B = Eigen::VectorXd::Ones(1);
+    plan.transported_A = Eigen::Vector2d(0.3, 0.7);
+    plan.transported_B = plan.mass_B;
+    plan.area_bound = 1.5;
     plan.plan.resize(2, 1);
     plan.plan.insert(0, 0) = 0.25;
     plan.plan.insert(1, 0) = 0.75;
@@ -136,6 +139,8 @@ TEST(PlanArtifact, DecodesWhatItEncodes) {
     EXPECT_EQ(encode(again), encode(plan));
     EXPECT_EQ(again.samples_A, plan.samples_A);
     EXPECT_EQ(again.mass_A, plan.mass_A);
+    EXPECT_EQ(again.transported_A, plan.transported_A);
+    EXPECT_EQ(again.area_bound, 1.5);
     EXPECT_EQ(Eigen::MatrixXd(again.plan), Eigen::MatrixXd(plan.plan));
     EXPECT_EQ(again.position_A, plan.position_A);
     EXPECT_EQ(again.landmarks, plan.landmarks);

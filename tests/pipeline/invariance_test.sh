@@ -66,7 +66,8 @@ map a.off b_moved.off -o target_moved --landmarks a.txt b.txt
 for other in source_moved target_moved; do
     read -r mean largest < <(difference b.off plain/source_to_target.csv $other/source_to_target.csv 0)
     echo "$other: mean $mean, largest $largest"
-    below "$mean" 1e-6 "$other, mean change"
+    # Exact masses take many iterations, which amplify rounding: several hundred times as much as a bound of 4 does.
+    below "$mean" 5e-4 "$other, mean change"
     below "$largest" 1e-3 "$other, largest change"
 done
 

@@ -37,6 +37,11 @@ step "diffuse eigen explore hierarchy preprocess refine remesh render"
 mv kept.off b.off
 step "diffuse eigen explore hierarchy preprocess refine remesh render"
 
+step "$pair" --area-bound 1.5
+step "" --set diffuse.area_bound=1.5 --set refine.area_bound=1.5
+jq -e '.area_bound == 1.5 and .mass_ratio.source.max < 1.226 and .mass_ratio.target.min > .815' out/quality.json >/dev/null ||
+    fail "the bound in quality.json"
+step "$pair" --area-bound 1.5 --area-energy paper
 step "$pair" --landmarks tips.txt
 step "" --landmarks tips.txt
 head -n 3 tips.txt >three.txt

@@ -22,6 +22,9 @@ Plan small_plan() {
     Plan plan;
     plan.samples_A = plan.samples_B = {0, 2};
     plan.mass_A = plan.mass_B = Eigen::Vector2d(0.25, 0.75);
+    plan.transported_A = Eigen::Vector2d(0.3, 0.7);
+    plan.transported_B = plan.mass_B;
+    plan.area_bound = 2;
     plan.plan.resize(2, 2);
     plan.plan.insert(0, 0) = 0.25;
     plan.plan.insert(1, 1) = 0.75;

@@ -68,6 +68,33 @@ TEST(Refine, GoesOnWithTheTrace) {
     EXPECT_EQ(plan.trace.back().euclidean, 1);
 }
 
+TEST(Refine, KeepsTheAreaBoundInBothStages) {
+    // Equal ellipsoids but for their proportions: every bound is used.
+    const KnownPair pair = known_pair(shapes::ellipsoid(3, {1, 1.5, 2.2}), shapes::ellipsoid(3, {1, 1, 3}), {}, 60,
+                                      {{0, 0, 2.2}, {0, 1.5, 0}, {1, 0, 0}});
+    const PairContext context = pair.context();
+    for (const char* energy : {"transported", "paper"})
+        for (const double bound : {1., 1.2}) {
+            DiffuseParams coarse_params;
+            RefineParams params;
+            for (AlternationOptions* options : {&coarse_params.alternation, &params.alternation}) {
+                options->area_bound = bound;
+                options->area_energy = energy;
+                options->mass_penalty = 0;
+            }
+            const Plan coarse = diffuse(context, coarse_params);
+            for (const Plan& plan : {coarse, refine(context, coarse, params)}) {
+                EXPECT_EQ(plan.area_bound, bound);
+                const double D = std::sqrt(bound);
+                EXPECT_LT(MassBounds::around(plan.mass_A, D).excess(plan.transported_A), 1e-3);
+                EXPECT_LT(MassBounds::around(plan.mass_B, D).excess(plan.transported_B), 1e-3);
+                EXPECT_NEAR((plan.transported_A.array() / plan.mass_A.array()).maxCoeff(), D, 1e-3);
+                const Eigen::VectorXd rows = plan.plan * Eigen::VectorXd::Ones(plan.plan.cols());
+                EXPECT_LT((rows - plan.transported_A).lpNorm<1>(), .03);
+            }
+        }
+}
+
 TEST(Refine, StoppedEarlyStillHasACentreForEveryVertex) {
     const KnownPair pair = ellipsoids();
     const PairContext context = pair.context();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "common/map_shapes.h"
 #include "common/shapes.h"
@@ -51,7 +52,7 @@ class Remesh : public ::testing::Test {
         const int n = A_.mesh.vertex_count();
         for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
         plan.samples_B = plan.samples_A;
-        plan.mass_A = plan.mass_B = A_.mass;
+        plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = A_.mass;
         plan.plan.resize(n, n);
         plan.plan.setIdentity();
         plan.position_A = plan.position_B = A_.mesh.vertices;
@@ -93,6 +94,9 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
     const Json quality = Json::parse(read_only().quality);
     expect_finite_numbers(quality, "");
     EXPECT_EQ(quality["energy"], 0.25);
+    EXPECT_EQ(quality["area_bound"], 1);
+    for (const char* side : {"source", "target"})
+        for (const char* end : {"min", "max"}) EXPECT_EQ(quality["mass_ratio"][side][end], 1);
     ASSERT_EQ(quality["landmarks"].size(), 1u);
     EXPECT_NEAR(quality["landmarks"][0], 0, 1e-12);
     for (const char* direction : {"source_to_target", "target_to_source"}) {
@@ -118,6 +122,23 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
     EXPECT_EQ(quality["source"]["input_vertices"], A_.input.vertex_count());
     EXPECT_EQ(quality["target"]["input_faces"], B_.input.face_count());
     EXPECT_EQ(quality["source"]["vertices"], A_.mesh.vertex_count());
+}
+
+TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {
+    plan_.transported_A[3] = 1.25 * plan_.mass_A[3];
+    EXPECT_NEAR(double(Json::parse(read_only().quality)["mass_ratio"]["source"]["max"]), 1.25, 1e-12);
+    std::istringstream lines(masses_csv(A_, plan_.samples_A, plan_.transported_A, plan_.mass_A));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "vertex,ratio");
+    int count = 0;
+    while (std::getline(lines, line)) {
+        const int vertex = std::stoi(line);
+        EXPECT_EQ(line,
+                  std::to_string(vertex) + (A_.vertex_of_input[std::size_t(vertex)] == 3 ? ",1.25" : ",1"));
+        ++count;
+    }
+    EXPECT_EQ(count, A_.mesh.vertex_count());  // not the spare vertex
 }
 
 TEST_F(Remesh, Untangles) {

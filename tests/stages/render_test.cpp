@@ -9,7 +9,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/artifact/artifact.h"
 #include "common/stage/error.h"
+#include "common/temporary_folder.h"
 #include "stages/render/colour.h"
 #include "stages/render/view.h"
 
@@ -133,6 +135,60 @@ TEST_F(Render, MarksReversedTrianglesOnDemand) {
     };
     EXPECT_EQ(marked(map_), 0);
     EXPECT_GT(marked(back), 100);
+}
+
+/// Red minus blue of the pixel in the middle of one of three columns, on the source (row 0) or the target
+/// (row 1).
+int redness(const Image& image, int column, int row) {
+    const Pixel p =
+        pixel(image, image.width / 6 * (2 * column + 1), image.height * 4 / 10 * row + image.height / 5);
+    return p[0] - p[2];
+}
+
+TEST_F(Render, ShowsChangesOfMassAreaAndAngle) {
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(mesh_.vertex_count());
+    const Image image = render_distortion(mesh_, mesh_, map_, map_, 3 * ones, ones / 3, small());
+    EXPECT_EQ(image.width, 400);
+    EXPECT_GT(redness(image, 0, 0), 50);
+    EXPECT_LT(redness(image, 0, 1), -50);
+    for (int row : {0, 1}) EXPECT_LT(std::abs(redness(image, 1, row)), 15);  // area is kept: grey
+    // The scales: blue to red, and black numbers below.
+    const auto of_scale = [&](int x, int k) {
+        int y = image.height - 1;
+        while (pixel(image, x, y) == white || pixel(image, x, y) == Pixel{0, 0, 0}) --y;
+        return pixel(image, x, y)[size_t(k)];
+    };
+    EXPECT_GT(of_scale(30, 2), of_scale(30, 0));
+    EXPECT_GT(of_scale(100, 0), of_scale(100, 2));
+    int black = 0;
+    for (int y = image.height - 40; y < image.height; ++y)
+        for (int x = 0; x < 400; ++x) black += pixel(image, x, y) == Pixel{0, 0, 0};
+    EXPECT_GT(black, 200);
+}
+
+TEST_F(Render, StretchedTrianglesAreShownAsSuch) {
+    TriangleMesh stretched = mesh_;
+    stretched.vertices.col(1) *= 4;  // along the axis that points up
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(mesh_.vertex_count());
+    const Image same = render_distortion(mesh_, mesh_, map_, map_, ones, ones, small());
+    const Image image = render_distortion(mesh_, stretched, map_, map_, ones, ones, small());
+    EXPECT_GT(redness(same, 2, 0), 20);  // yellow
+    EXPECT_LT(redness(image, 2, 0), 0);  // violet
+}
+
+TEST_F(Render, ReadsMassesAndRefusesOthers) {
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& text) {
+        write_file_atomically(folder / "masses.csv", text);
+        return read_csv_masses(folder / "masses.csv", 3);
+    };
+    const Eigen::VectorXd masses = read("vertex,ratio\n2,0.5\n0,1.25\n");
+    EXPECT_EQ(masses[0], 1.25);
+    EXPECT_TRUE(std::isnan(masses[1]));
+    EXPECT_EQ(masses[2], .5);
+    for (const char* bad : {"vertex,face\n", "vertex,ratio\n3,1\n", "vertex,ratio\n-1,1\n",
+                            "vertex,ratio\n1\n", "vertex,ratio\n1,x\n", "vertex,ratio\n1,2,3\n"})
+        EXPECT_THROW(read(bad), InputError) << bad;
 }
 
 TEST_F(Render, RefusesMapsThatDoNotFit) {
