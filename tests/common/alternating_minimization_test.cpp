@@ -163,6 +163,7 @@ TEST(AlternatingMinimization, RunsUntilTheEnergySettles) {
     const LevelPair pair = tube_level();
     AlternationOptions options;
     options.maximum_alternations = 100;
+    options.area_bound = 1;
     AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
     minimization.start(zero_centres(pair), {});
     std::vector<Alternation> steps;

@@ -44,7 +44,9 @@ double reversed_mass(const PairContext& context, const KnownPair& figures, bool 
     IroningOptions options;
     options.enabled = iron;
     std::vector<TraceRow> trace;
-    const Solution solution = solve_level(context, pair, start, index, {}, options, false, trace);
+    AlternationOptions alternation;
+    alternation.area_bound = 1;
+    const Solution solution = solve_level(context, pair, start, index, alternation, options, false, trace);
     *energy = solution.step.energy;
     // Weights are back to what they were.
     EXPECT_EQ(RowMatrix(pair.A.side.averaging),

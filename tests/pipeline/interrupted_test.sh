@@ -41,6 +41,7 @@ for moment in .1 .4 .8 1.2; do
     sleep $moment
     kill -TERM $front_end 2>/dev/null || true
     wait $front_end 2>/dev/null || true
+    [[ -d out ]] || continue  # ended before it began
     find out -name '*.surface' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.candidates' -o -name '*.diffusion' -o -name '*.plan' \
         -o -name '*.map' | while read -r artifact; do
         "$inspect" --check "$artifact" &>/dev/null || fail "$artifact is damaged after an interrupt"

@@ -36,7 +36,7 @@ TEST(Diffuse, GivesAPlanOfTheLastLevel) {
     const KnownPair pair = ellipsoids_with_landmarks();
     const PairContext context = pair.context();
     DiffuseParams params;
-    params.alternation.mass_penalty = 0;  // exact marginals
+    params.alternation.area_bound = 1;  // exact marginals
     const Plan plan = diffuse(context, params);
     EXPECT_LT(mean_error(plan, pair), .02);  // measured .0134
     const LevelPair last = context.diffusion_level(context.diffusion_levels() - 1);
