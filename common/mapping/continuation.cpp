@@ -109,7 +109,8 @@ void continue_map(MovingMap& map, const std::vector<char>& open, double scale) {
         }
         std::erase_if(missing, [&](int v) { return map.has_image(v); });
         std::vector<int> band;
-        for (std::size_t r = rings.size() > relaxed_rings ? rings.size() - relaxed_rings : 0; r < rings.size(); ++r)
+        for (std::size_t r = rings.size() > relaxed_rings ? rings.size() - relaxed_rings : 0;
+             r < rings.size(); ++r)
             band.insert(band.end(), rings[r].begin(), rings[r].end());
         for (int s = 0; s < sweeps_per_ring; ++s) relaxation.sweep(band, front_energy, false);
         for (const int v : rings.back()) held[std::size_t(v)] = 0;

@@ -16,13 +16,13 @@ namespace {
 constexpr int passes = 12;
 constexpr int directions = 12;
 constexpr std::array<double, 5> radii{0.1, 0.3, 0.7, 1.3, 2.2};  ///< in mean edges of the vertex's image
-constexpr double disagreement = 10;  ///< cost per area
-constexpr double reversal = 100;     ///< cost per face: above all else
+constexpr double disagreement = 10;                              ///< cost per area
+constexpr double reversal = 100;                                 ///< cost per face: above all else
 const FoldEnergy energy{1, 0.03};
 const RobustExcess robust{energy, 0.3};
 
-const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,    Vec3(.7, .15, .15),   Vec3(.15, .7, .15),
-                                       Vec3(.15, .15, .7),   Vec3(.08, .46, .46), Vec3(.46, .08, .46),
+const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  Vec3(.15, .7, .15),
+                                       Vec3(.15, .15, .7), Vec3(.08, .46, .46), Vec3(.46, .08, .46),
                                        Vec3(.46, .46, .08)};
 
 }  // namespace
@@ -84,7 +84,8 @@ bool NormalAgreement::search(int v) {
     for (const double radius : radii)
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * i / directions;
-            const Vec3 step = radius * reach * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
+            const Vec3 step =
+                radius * reach * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
             map_.place(v, map_.walk(start, step));
             if (const double c = cost(v, least); c < least) least = c, best = map_.points()[std::size_t(v)];
         }

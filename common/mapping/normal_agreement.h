@@ -7,10 +7,10 @@
 
 namespace varimap {
 
-/// Faces that cut through a thin feature (a finger, an ear): upright by the target's normals at their corners,
-/// which the fold energy looks at, but not by those beneath their interior. They are few and lie where the
-/// energy has many shallow minima, so their vertices are moved by a direct search: each to the best of a fixed
-/// set of places around it, where a disagreeing face costs more than any strain worth having.
+/// Faces that cut through a thin feature (a finger, an ear): upright by the target's normals at their
+/// corners, which the fold energy looks at, but not by those beneath their interior. They are few and lie
+/// where the energy has many shallow minima, so their vertices are moved by a direct search: each to the best
+/// of a fixed set of places around it, where a disagreeing face costs more than any strain worth having.
 class NormalAgreement {
   public:
     explicit NormalAgreement(MovingMap& map);

@@ -18,14 +18,15 @@ namespace {
 
 using Marks = std::vector<char>;
 
-constexpr int smoothing = 3;       ///< rounds of averaging of the excess
-constexpr double saturation = 1;   ///< excess of one face that counts at most
+constexpr int smoothing = 3;      ///< rounds of averaging of the excess
+constexpr double saturation = 1;  ///< excess of one face that counts at most
 constexpr int relaxation_steps = 4;
 constexpr double relaxed_robustness = 0.3;
-constexpr int relaxations = 2;  ///< of an alternative, so of what it is compared with: or it wins by being relaxed
+constexpr int relaxations =
+    2;  ///< of an alternative, so of what it is compared with: or it wins by being relaxed
 constexpr int fold_sweeps = 40;
-constexpr double fold_visits = 60;    ///< of a part's vertices, in the mean
-constexpr double promising = 1.5;     ///< times the energy to beat, after folds were removed once
+constexpr double fold_visits = 60;     ///< of a part's vertices, in the mean
+constexpr double promising = 1.5;      ///< times the energy to beat, after folds were removed once
 constexpr double hopeless = 4;         ///< times the energy to beat, before folds are removed
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
@@ -139,10 +140,14 @@ int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
 /// One part under trial.
 class Trial {
   public:
-    /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the surroundings.
-    /// Leaves the part relaxed: to be followed by a run.
+    /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the
+    /// surroundings. Leaves the part relaxed: to be followed by a run.
     Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options)
-        : map_(map), options_(options), open_(fixed.size(), 1), held_(fixed.size(), 1), before_(map.points()) {
+        : map_(map),
+          options_(options),
+          open_(fixed.size(), 1),
+          held_(fixed.size(), 1),
+          before_(map.points()) {
         const int face_count = map.source().face_count();
         const auto corners = [&](int f) { return map.source().faces.row(f); };
         for (int f = 0; f < face_count; ++f)
@@ -234,7 +239,8 @@ std::vector<std::vector<int>> PartReplacement::strained_parts() const {
     for (std::size_t f = 0; f < strain.size(); ++f) strained[f] = strain[f] > limit;
     auto parts = components(edges_, strained);
     std::erase_if(parts, [&](const auto& part) {
-        const auto known = std::count_if(part.begin(), part.end(), [&](int f) { return rejected_[std::size_t(f)]; });
+        const auto known =
+            std::count_if(part.begin(), part.end(), [&](int f) { return rejected_[std::size_t(f)]; });
         return area_of(map_, part) < options_.area || double(known) > 0.8 * double(part.size());
     });
     std::stable_sort(parts.begin(), parts.end(),
@@ -290,12 +296,14 @@ double PartReplacement::reach_ratio(const Marks& open) const {
     }
     if (cut.empty() || other_images.empty()) return 1;
     const auto from_cut = distances(source_graph_, cut);
-    const auto from_image = distances(target_graph_, cut_images), from_others = distances(target_graph_, other_images);
+    const auto from_image = distances(target_graph_, cut_images),
+               from_others = distances(target_graph_, other_images);
     double here = 0, there = 0;
     for (std::size_t v = 0; v < open.size(); ++v)
         if (open[v] && std::isfinite(from_cut[v])) here = std::max(here, from_cut[v]);
     for (std::size_t w = 0; w < from_image.size(); ++w)
-        if (from_image[w] < from_others[w] && std::isfinite(from_image[w])) there = std::max(there, from_image[w]);
+        if (from_image[w] < from_others[w] && std::isfinite(from_image[w]))
+            there = std::max(there, from_image[w]);
     return here > 0 && there > 0 ? std::clamp(there / here, 0.6, 1.6) : 1;
 }
 

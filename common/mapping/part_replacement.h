@@ -10,13 +10,13 @@ namespace varimap {
 
 /// Which parts of a map are suspected, and how the alternatives are judged.
 struct PartReplacementOptions {
-    double excess = 0.25;    ///< mean excess energy (fold_energy.h) around a face of a strained part, at least
-    double contrast = 3;     ///< times the median over all faces that it is at least
-    double area = 2e-4;      ///< share of the source's area of the smallest part that is tried
-    double robustness = 3;   ///< of the energy by which maps are compared; lower ones think little of spikes
-    double gain = 0.15;      ///< share of the energy that an alternative must save
-    int most_parts = 16;     ///< per round
-    int rounds = 3;          ///< a new map of a limb may leave a finger to be done
+    double excess = 0.25;   ///< mean excess energy (fold_energy.h) around a face of a strained part, at least
+    double contrast = 3;    ///< times the median over all faces that it is at least
+    double area = 2e-4;     ///< share of the source's area of the smallest part that is tried
+    double robustness = 3;  ///< of the energy by which maps are compared; lower ones think little of spikes
+    double gain = 0.15;     ///< share of the energy that an alternative must save
+    int most_parts = 16;    ///< per round
+    int rounds = 3;         ///< a new map of a limb may leave a finger to be done
     double most_visits = 4;  ///< of all vertices in the mean, by trials: bounds the time
 };
 
@@ -25,16 +25,16 @@ struct PartReplacementReport {
     double area_percent = 0;  ///< share of the source's area in replaced parts
 };
 
-/// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained where
-/// such a part meets its surroundings. Each strained part, widened by some of its surroundings and by what it
-/// cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept.
+/// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained
+/// where such a part meets its surroundings. Each strained part, widened by some of its surroundings and by
+/// what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept.
 class PartReplacement {
   public:
     /// fixed[v]: landmarks, which keep their images. Keeps references.
     PartReplacement(MovingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options);
 
-    /// Maps parts as an isometry would continue the map of their surroundings (continuation.h), at the scale at
-    /// which a limb's end meets the limb's end, and at the source's own.
+    /// Maps parts as an isometry would continue the map of their surroundings (continuation.h), at the scale
+    /// at which a limb's end meets the limb's end, and at the source's own.
     void continue_surroundings();
     /// Maps parts by the inverse of a map from the target to the source; `whole`: tries all of it first.
     void adopt_inverse(const PointMap& back, bool whole);

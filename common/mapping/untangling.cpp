@@ -86,7 +86,8 @@ class Untangling {
           before_(measure_distortion(map, source, target)),
           moving_(map, source, target) {
         report_.flipped_before = report_.flipped_after = before_.flipped_count;
-        report_.flipped_area_percent_before = report_.flipped_area_percent_after = before_.flipped_area_percent;
+        report_.flipped_area_percent_before = report_.flipped_area_percent_after =
+            before_.flipped_area_percent;
         if (options.feature_weight > 0 && options.global_steps > 0)
             features_ = std::make_unique<FeatureAgreement>(moving_, options.feature_weight);
     }
@@ -156,8 +157,8 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
     return untangling.finish();
 }
 
-UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B, const PinnedPair& pinned,
-                           const UntanglingOptions& options) {
+UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
+                           const PinnedPair& pinned, const UntanglingOptions& options) {
     Untangling there(maps.A_to_B, A, B, pinned.A, options), back(maps.B_to_A, B, A, pinned.B, options);
     if (!options.enabled) return {there.report(), back.report()};
     tbb::parallel_invoke([&] { there.unfold(); }, [&] { back.unfold(); });

@@ -17,9 +17,11 @@ struct RemeshParams {
                  "excess energy at which a triangle counts half in the relaxation; 0: all count fully", 0,
                  1e6);
         list.add("feature_weight", o.feature_weight,
-                 "weight of features (relief of both surfaces) against the isometry in the relaxation", 0, 1e3);
+                 "weight of features (relief of both surfaces) against the isometry in the relaxation", 0,
+                 1e3);
         list.add("fold_sweeps", o.fold_sweeps, "sweeps that remove folds, per patch size", 0, 100'000);
-        list.add("replace_parts", o.replace_parts, "maps strained parts (mirrored, twisted, crumpled) anew (Sec. 4.4)");
+        list.add("replace_parts", o.replace_parts,
+                 "maps strained parts (mirrored, twisted, crumpled) anew (Sec. 4.4)");
         list.add("strain", o.parts.excess, "mean excess energy from which on a part is strained", 1e-3, 1e3);
         list.add("align_normals", o.align_normals, "turns triangles that cut through thin features");
         list.add("mirror_area", o.gate.area,

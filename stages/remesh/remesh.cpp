@@ -42,7 +42,8 @@ PinnedPair pinned_vertices(const Plan& plan, const Surface& A, const Surface& B)
 
 void log_untangling(const char* name, const UntanglingReport& report) {
     log("{}: {} triangles reversed ({:.3f}% of the area) before untangling, {} ({:.3f}%) after {} global "
-        "steps and {} sweeps; {} of {} strained parts mapped anew; {} triangles cut through features, {} before",
+        "steps and {} sweeps; {} of {} strained parts mapped anew; {} triangles cut through features, {} "
+        "before",
         name, report.flipped_before, report.flipped_area_percent_before, report.flipped_after,
         report.flipped_area_percent_after, report.global_steps, report.sweeps, report.parts_replaced,
         report.parts_tried, report.disagreeing_after, report.disagreeing_before);
