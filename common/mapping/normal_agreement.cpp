@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "common/mapping/fold_removal.h"
 #include "common/stage/parallel.h"
@@ -25,6 +26,12 @@ const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  
                                        Vec3(.15, .15, .7), Vec3(.08, .46, .46), Vec3(.46, .08, .46),
                                        Vec3(.46, .46, .08)};
 
+/// Sorted, each once.
+void make_set(std::vector<int>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 }  // namespace
 
 NormalAgreement::NormalAgreement(MovingMap& map) : map_(map), closest_(map.target()) {}
@@ -40,15 +47,21 @@ bool NormalAgreement::disagrees(int f) const {
     return !((y - x).cross(z - x).dot(below) > 0);
 }
 
-std::vector<int> NormalAgreement::disagreeing_faces() const {
-    std::vector<char> marks(std::size_t(map_.source().face_count()), 0);
-    parallel_for_each_index<int>(map_.source().face_count(), 64, [&](int f) {
-        marks[std::size_t(f)] = map_.is_mapped(f) && (map_.chord(f).D <= 0 || disagrees(f));
+std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) const {
+    std::vector<char> marks(faces.size(), 0);
+    parallel_for_each_index(std::size_t(0) + faces.size(), std::size_t(64), [&](std::size_t i) {
+        marks[i] = map_.is_mapped(faces[i]) && (map_.chord(faces[i]).D <= 0 || disagrees(faces[i]));
     });
-    std::vector<int> faces;
-    for (int f = 0; f < int(marks.size()); ++f)
-        if (marks[std::size_t(f)]) faces.push_back(f);
-    return faces;
+    std::vector<int> found;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (marks[i]) found.push_back(faces[i]);
+    return found;
+}
+
+std::vector<int> NormalAgreement::disagreeing_faces() const {
+    std::vector<int> all(std::size_t(map_.source().face_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return disagreeing_among(all);
 }
 
 double NormalAgreement::cost(int v, double limit) const {
@@ -93,21 +106,26 @@ bool NormalAgreement::search(int v) {
     return least < before;
 }
 
-int NormalAgreement::improve(const std::vector<char>& fixed) {
-    int moves = 0;
-    for (int pass = 0; pass < passes; ++pass) {
+std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const std::vector<char>& fixed) {
+    for (int pass = 0; pass < passes && !disagreeing.empty(); ++pass) {
         std::vector<int> vertices;
-        for (const int f : disagreeing_faces())
+        for (const int f : disagreeing)
             for (int k = 0; k < 3; ++k)
                 if (const int v = map_.source().faces(f, k); !fixed[std::size_t(v)]) vertices.push_back(v);
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        int moved = 0;
-        for (const int v : vertices) moved += search(v);
-        moves += moved;
-        if (moved == 0) break;
+        make_set(vertices);
+        bool moved = false;
+        for (const int v : vertices) moved = search(v) || moved;
+        if (!moved) break;
+        // Only faces around what moved can have changed.
+        std::vector<int> faces = disagreeing;
+        for (const int v : vertices) {
+            const auto star = map_.faces_of_vertex()[v];
+            faces.insert(faces.end(), star.begin(), star.end());
+        }
+        make_set(faces);
+        disagreeing = disagreeing_among(faces);
     }
-    return moves;
+    return disagreeing;
 }
 
 }  // namespace varimap

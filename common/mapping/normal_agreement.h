@@ -15,12 +15,13 @@ class NormalAgreement {
   public:
     explicit NormalAgreement(MovingMap& map);
 
-    /// Faces whose chord does not face the way the target does beneath it, ascending.
+    /// Reversed faces, and those whose chord does not face the way the target does beneath it, ascending.
     std::vector<int> disagreeing_faces() const;
-    /// Vertices with fixed[v] stay. Returns the number of moves.
-    int improve(const std::vector<char>& fixed);
+    /// Turns them; vertices with fixed[v] stay. Returns those that are left.
+    std::vector<int> improve(std::vector<int> disagreeing, const std::vector<char>& fixed);
 
   private:
+    std::vector<int> disagreeing_among(const std::vector<int>& faces) const;
     bool disagrees(int f) const;
     /// Of the faces around a vertex; some number above `limit` if that is exceeded.
     double cost(int v, double limit) const;

@@ -130,9 +130,9 @@ class Untangling {
     }
     void align_normals() {
         NormalAgreement agreement(moving_);
-        report_.disagreeing_before = int(agreement.disagreeing_faces().size());
-        agreement.improve(fixed_);
-        report_.disagreeing_after = int(agreement.disagreeing_faces().size());
+        const std::vector<int> disagreeing = agreement.disagreeing_faces();
+        report_.disagreeing_before = int(disagreeing.size());
+        report_.disagreeing_after = int(agreement.improve(disagreeing, fixed_).size());
     }
 
     PointMap& map_;
