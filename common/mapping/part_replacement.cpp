@@ -63,25 +63,6 @@ std::vector<double> smoothed_excess(const MovingMap& map) {
     return value;
 }
 
-/// Connected sets (over edges) of the marked faces.
-std::vector<std::vector<int>> components(const Edges& edges, Marks marked) {
-    std::vector<std::vector<int>> parts;
-    for (int seed = 0; seed < int(marked.size()); ++seed) {
-        if (!marked[std::size_t(seed)]) continue;
-        std::vector<int> part{seed};
-        marked[std::size_t(seed)] = 0;
-        for (std::size_t i = 0; i < part.size(); ++i)
-            for (int k = 0; k < 3; ++k)
-                for (const int side : edges.sides[edges.of_side[std::size_t(3 * part[i] + k)]])
-                    if (char& mark = marked[std::size_t(side / 3)]; mark) {
-                        mark = 0;
-                        part.push_back(side / 3);
-                    }
-        parts.push_back(std::move(part));
-    }
-    return parts;
-}
-
 double area_of(const MovingMap& map, const std::vector<int>& faces) {
     return std::accumulate(faces.begin(), faces.end(), 0.0,
                            [&](double sum, int f) { return sum + map.rest(f).area; });
@@ -112,7 +93,7 @@ Marks widened(const MovingMap& map, const Edges& edges, const std::vector<int>& 
     }
     Marks outside(inside.size());
     for (std::size_t f = 0; f < inside.size(); ++f) outside[f] = !inside[f];
-    auto rest = components(edges, outside);
+    const auto rest = face_components(edges, outside);
     const auto largest = std::max_element(rest.begin(), rest.end(), [&](const auto& a, const auto& b) {
         return area_of(map, a) < area_of(map, b);
     });
@@ -237,7 +218,7 @@ std::vector<std::vector<int>> PartReplacement::strained_parts() const {
     std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
     const double limit = std::max(options_.excess, options_.contrast * sorted[sorted.size() / 2]);
     for (std::size_t f = 0; f < strain.size(); ++f) strained[f] = strain[f] > limit;
-    auto parts = components(edges_, strained);
+    auto parts = face_components(edges_, strained);
     std::erase_if(parts, [&](const auto& part) {
         const auto known =
             std::count_if(part.begin(), part.end(), [&](int f) { return rejected_[std::size_t(f)]; });

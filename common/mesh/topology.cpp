@@ -87,6 +87,24 @@ Edges find_edges(const TriangleMesh& mesh) {
     return edges;
 }
 
+std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked) {
+    std::vector<std::vector<int>> parts;
+    for (int seed = 0; seed < int(marked.size()); ++seed) {
+        if (!marked[std::size_t(seed)]) continue;
+        std::vector<int> part{seed};
+        marked[std::size_t(seed)] = 0;
+        for (std::size_t i = 0; i < part.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                for (const int side : edges.sides[edges.of_side[std::size_t(3 * part[i] + k)]])
+                    if (char& mark = marked[std::size_t(side / 3)]; mark) {
+                        mark = 0;
+                        part.push_back(side / 3);
+                    }
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
 std::vector<int> vertex_components(const TriangleMesh& mesh) {
     const int n = mesh.vertex_count();
     std::vector<int> parent(n), component(n, -1);

@@ -36,6 +36,9 @@ struct Edges {
 /// Faces must not repeat a vertex. Non-manifold edges are allowed: they have more than two sides.
 Edges find_edges(const TriangleMesh& mesh);
 
+/// Sets of marked faces that hang together over edges, by their lowest faces; each from that face outwards.
+std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked);
+
 /// Per vertex: its connected component, numbered by lowest vertex from 0; -1 where no face uses it.
 std::vector<int> vertex_components(const TriangleMesh& mesh);
 
