@@ -82,9 +82,10 @@ double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres&
               const RelaxedMasses& relaxed = {});
 
 /// Landmarks: the centre of a sample k with a partner becomes W y + (1 - W) eta_k, where y is the partner's point. W = 1
-/// pins it, as the paper does. A smaller W makes it soft: the blend is the centre that is best where each such sample adds
+/// pins it, as the paper does. A smaller W makes it soft: then the blend is the best centre for an energy in which
+/// each such sample adds to C'
 ///   W / (1 - W) s_k m_k |eta_k - y|^2,   s_k = sum_i p_ki rho_i / m'_i (1 where masses are exact),
-/// to C', so the map may disagree, for a price that W times the pinned centre's excess over its own bounds.
+/// so that the map may disagree: it pays W times what it would pay for the same images were the landmark pinned.
 void pull_landmarks(const Side& X, const Side& Y, Centres& centres);
 
 }  // namespace varimap
