@@ -16,6 +16,7 @@ struct UntanglingOptions {
     double robustness =
         0.3;  ///< excess energy at which a face counts half in global steps; 0: all count fully
     double feature_weight = 2;  ///< of features against the fold energy in global steps (feature_agreement.h)
+    double inverse_weight = 100;  ///< of the attraction of both directions to each other's inverse (attachments.h)
     int fold_sweeps = 120;      ///< sweeps per patch size that remove folds
     MirrorGate gate;
     PartReplacementOptions parts;
