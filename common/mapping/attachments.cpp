@@ -33,15 +33,14 @@ AttachmentSystem derivatives(const Attachment& attachment, const MovingMap& map,
     return {u * J.transpose() * d, u * J.transpose() * J};
 }
 
-std::vector<Attachment> inverse_attachments(const MovingMap& map, const PointMap& back, double weight,
-                                            double reach) {
+std::vector<Attachment> inverse_attachments(const MovingMap& map, const PointMap& back, double weight) {
     const Eigen::VectorXd areas = voronoi_masses(map.target());
     std::vector<Attachment> attachments;
     attachments.reserve(back.size());
     for (int b = 0; b < int(back.size()); ++b) {
         const SurfacePoint& point = back[std::size_t(b)];
         if (point.face >= 0 && map.is_mapped(point.face))
-            attachments.push_back({point, map.target().vertex(b), weight * areas[b], reach});
+            attachments.push_back({point, map.target().vertex(b), weight * areas[b], inverse_reach});
     }
     return attachments;
 }

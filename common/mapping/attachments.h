@@ -30,7 +30,7 @@ AttachmentSystem derivatives(const Attachment& attachment, const MovingMap& map,
 /// area n_b, attaches back(b) to itself with the weight n_b * weight. An isometry's energy alone lets images
 /// shrink from the ends of limbs; this holds them there, since the other direction has to put the end of its
 /// limb somewhere.
-std::vector<Attachment> inverse_attachments(const MovingMap& map, const PointMap& back, double weight,
-                                            double reach);
+constexpr double inverse_reach = 0.05;  ///< in sqrt(area)
+std::vector<Attachment> inverse_attachments(const MovingMap& map, const PointMap& back, double weight);
 
 }  // namespace varimap

@@ -73,7 +73,7 @@ struct GlobalRelaxation::State {
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
     std::vector<int> faces;  ///< mapped ones with a free corner
-    Sparse matrix;  ///< lower triangle
+    Sparse matrix;           ///< lower triangle
     /// Per face and pair of corners (k, l) with unknown k >= unknown l: where the block's two columns start.
     std::vector<std::array<int, 18>> slot;
     std::vector<char> is_free;  ///< per face: whether it is among `faces`
@@ -101,7 +101,8 @@ GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, con
     std::vector<char> used(fixed.size(), 0);
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto c = map.source().faces.row(f);
-        const bool movable = !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
+        const bool movable =
+            !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
         if (!movable || !map.is_mapped(f)) continue;
         faces.push_back(f);
         is_free[std::size_t(f)] = 1;

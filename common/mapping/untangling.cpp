@@ -22,13 +22,14 @@ struct Round {
     double regularisation;     ///< e; where it is large, folds pass through each other
     double robustness_factor;  ///< on the option
     double fold_visits;        ///< bounds the removal of folds (fold_removal.h)
+    double last_inverse;       ///< share of the option's inverse_weight in the last step
 };
+constexpr double first_inverse = 0.03;  ///< the same in the first; more would slow both directions down
 /// The first leaves crumpled parts to their replacement.
-constexpr std::array<Round, 2> rounds{{{0.3, 3, 30}, {0.1, 1, 150}}};
+constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150, 1}}};
 constexpr int reconciliations = 2;
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
-constexpr double inverse_reach = 0.05;  ///< of the attraction to the other direction's inverse, in sqrt(area)
 constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
 std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fixed) {
@@ -46,6 +47,7 @@ class Relaxation {
         : map_(map),
           options_(options),
           energy_{options.area_weight, round.regularisation},
+          last_inverse_(round.last_inverse),
           robustness_(round.robustness_factor * options.robustness),
           vertices_(free_vertices(map, fixed)),
           global_(map, fixed, features),
@@ -57,9 +59,8 @@ class Relaxation {
 
     /// `back`: the other direction, whose inverse the map is drawn to.
     void step(const PointMap* back) {
-        if (done()) return;
         if (back && options_.inverse_weight > 0) {
-            attachments_ = inverse_attachments(map_, *back, options_.inverse_weight, inverse_reach);
+            attachments_ = inverse_attachments(map_, *back, options_.inverse_weight * inverse_share());
             global_.attach(attachments_);
         }
         const double gain = global_.step(energy_, robustness_);
@@ -71,10 +72,15 @@ class Relaxation {
     int steps() const { return steps_; }
 
   private:
+    double inverse_share() const {
+        const double progress = (steps_ + 1.0) / most_;
+        return first_inverse + (last_inverse_ - first_inverse) * progress * progress;
+    }
+
     MovingMap& map_;
     const UntanglingOptions& options_;
     FoldEnergy energy_;
-    double robustness_;
+    double last_inverse_, robustness_;
     std::vector<int> vertices_;
     GlobalRelaxation global_;
     LocalRelaxation local_;
@@ -121,20 +127,23 @@ class Untangling {
     /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
     void start_relaxation(const Round& round) {
         fixed_ = stay(moving_, pinned_, options_.gate, report_);
-        relaxation_ =
-            std::make_unique<Relaxation>(moving_, fixed_, features_.get(), round, options_);
+        if (options_.global_steps > 0)
+            relaxation_ = std::make_unique<Relaxation>(moving_, fixed_, features_.get(), round, options_);
     }
-    Relaxation& relaxation() { return *relaxation_; }
+    bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
+    void relax(const PointMap* back) {
+        if (!is_relaxed()) relaxation_->step(back);
+    }
     void end_relaxation(const Round& round) {
-        report_.global_steps += relaxation_->steps();
+        if (relaxation_) report_.global_steps += relaxation_->steps();
         relaxation_.reset();
         report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, fixed_);
     }
 
-    void replace_parts() {
+    void replace_parts(const PointMap& back) {
         if (!options_.replace_parts) return;
         replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts);
-        replacement_->continue_surroundings();
+        replacement_->continue_surroundings(back);
     }
 
     const PointMap& points() const { return moving_.points(); }
@@ -181,25 +190,23 @@ class Untangling {
 
 void run(Untangling& map, const Round& round) {
     map.start_relaxation(round);
-    while (!map.relaxation().done()) map.relaxation().step(nullptr);
+    while (!map.is_relaxed()) map.relax(nullptr);
     map.end_relaxation(round);
 }
 
-/// Calls body(map, other) for both, side by side.
+/// Calls body for both, side by side, with what the other's images are before.
 template <class Body>
-void both(Untangling& there, Untangling& back, const Body& body) {
-    tbb::parallel_invoke([&] { body(there, back); }, [&] { body(back, there); });
+void with_each_other(Untangling& there, Untangling& back, const Body& body) {
+    const PointMap A_to_B = there.points(), B_to_A = back.points();
+    tbb::parallel_invoke([&] { body(there, B_to_A); }, [&] { body(back, A_to_B); });
 }
 
 /// A round of both directions, which draw each other towards their inverses.
 void run(Untangling& there, Untangling& back, const Round& round) {
-    both(there, back, [&](Untangling& map, const Untangling&) { map.start_relaxation(round); });
-    while (!there.relaxation().done() || !back.relaxation().done()) {
-        const PointMap A_to_B = there.points(), B_to_A = back.points();
-        tbb::parallel_invoke([&] { there.relaxation().step(&B_to_A); },
-                             [&] { back.relaxation().step(&A_to_B); });
-    }
-    both(there, back, [&](Untangling& map, const Untangling&) { map.end_relaxation(round); });
+    tbb::parallel_invoke([&] { there.start_relaxation(round); }, [&] { back.start_relaxation(round); });
+    while (!there.is_relaxed() || !back.is_relaxed())
+        with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.relax(&inverse); });
+    tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
 }
 
 }  // namespace
@@ -209,7 +216,7 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
     Untangling untangling(map, source, target, pinned, options);
     if (!options.enabled) return untangling.report();
     run(untangling, rounds[0]);
-    untangling.replace_parts();
+    untangling.replace_parts({});
     run(untangling, rounds[1]);
     return untangling.finish();
 }
@@ -219,12 +226,12 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     Untangling there(maps.A_to_B, A, B, pinned.A, options), back(maps.B_to_A, B, A, pinned.B, options);
     if (!options.enabled) return {there.report(), back.report()};
     run(there, back, rounds[0]);
-    tbb::parallel_invoke([&] { there.replace_parts(); }, [&] { back.replace_parts(); });
-    for (int round = 0; round < reconciliations; ++round) {
-        const PointMap A_to_B = there.points(), B_to_A = back.points();
-        tbb::parallel_invoke([&] { there.reconcile(B_to_A, round == 0); },
-                             [&] { back.reconcile(A_to_B, round == 0); });
-    }
+    with_each_other(there, back,
+                    [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
+    for (int round = 0; round < reconciliations; ++round)
+        with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
+            map.reconcile(inverse, round == 0);
+        });
     run(there, back, rounds[1]);
     UntanglingReports reports;
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
