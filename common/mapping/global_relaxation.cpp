@@ -78,6 +78,8 @@ struct GlobalRelaxation::State {
     Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver;
     std::vector<Frame> frames;
     Eigen::VectorXd gradient;
+    PointMap start;           ///< images of the free vertices before a step
+    std::vector<Vec3> steps;  ///< of the free vertices
 
     State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f);
     void build_pattern();
@@ -85,7 +87,10 @@ struct GlobalRelaxation::State {
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
     void add(int f, const FaceSystem& system, double weight);
     void add_features();
-    void walk(const PointMap& start, const Eigen::VectorXd& direction, double share);
+    PointMap images() const;
+    void place(const PointMap& images);
+    void set_steps(const Eigen::VectorXd& direction);
+    void walk(double share);
     double total(const FoldEnergy& energy, const RobustExcess& robust) const;
 };
 
@@ -197,15 +202,30 @@ double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExce
     return sum;
 }
 
-/// Moves all free vertices from `start` by that share of their step.
-void GlobalRelaxation::State::walk(const PointMap& start, const Eigen::VectorXd& direction, double share) {
-    for (const int v : free) {
-        Vec3 step = frames[std::size_t(v)] * direction.segment<2>(2 * unknown[std::size_t(v)]);
-        const double length = step.norm();
-        if (length > longest_step) step *= longest_step / length;
-        map.place(v, start[std::size_t(v)]);
-        map.move(v, share * step);
+PointMap GlobalRelaxation::State::images() const {
+    PointMap points(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) points[i] = map.points()[std::size_t(free[i])];
+    return points;
+}
+
+void GlobalRelaxation::State::place(const PointMap& images) {
+    for (std::size_t i = 0; i < free.size(); ++i) map.place(free[i], images[i]);
+}
+
+void GlobalRelaxation::State::set_steps(const Eigen::VectorXd& direction) {
+    start = images();
+    steps.resize(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        steps[i] = frames[std::size_t(free[i])] * direction.segment<2>(2 * Eigen::Index(i));
+        const double length = steps[i].norm();
+        if (length > longest_step) steps[i] *= longest_step / length;
     }
+}
+
+/// Moves all free vertices from the start by that share of their step.
+void GlobalRelaxation::State::walk(double share) {
+    for (std::size_t i = 0; i < free.size(); ++i)
+        map.place(free[i], map.walk(start[i], share * steps[i]));
 }
 
 GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
@@ -221,20 +241,24 @@ double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     if (s.solver.info() != Eigen::Success) return 0;
     const Eigen::VectorXd direction = -s.solver.solve(s.gradient);
     if (!direction.allFinite()) return 0;
-    const PointMap start = s.map.points();
+    s.set_steps(direction);
     const double before = s.total(energy, robust);
     // Curved targets make full steps overshoot: the share is halved for as long as that helps.
-    double best = before, best_share = 0;
+    double best = before;
+    PointMap best_images;
     for (double share = 1; share >= least_share; share /= 2) {
-        s.walk(start, direction, share);
+        s.walk(share);
         const double after = s.total(energy, robust);
-        if (after >= best && best_share > 0) break;
+        if (after >= best && !best_images.empty()) break;
         if (after < best) {
             best = after;
-            best_share = share;
+            best_images = s.images();
         }
     }
-    s.walk(start, direction, best_share);
+    if (best_images.empty())
+        s.walk(0);
+    else
+        s.place(best_images);
     return before > 0 ? 1 - best / before : 0;
 }
 
