@@ -1,15 +1,14 @@
 #include "common/mapping/global_relaxation.h"
 
-#include <Eigen/SparseCholesky>
-#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "common/mapping/triangle_system.h"
 
 namespace varimap {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
 using Frame = Eigen::Matrix<double, 3, 2>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -72,20 +71,14 @@ struct GlobalRelaxation::State {
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
     std::vector<int> faces;  ///< mapped ones with a free corner
-    Sparse matrix;  ///< lower triangle
-    /// Per face and pair of corners (k, l) with unknown k >= unknown l: where the block's two columns start.
-    std::vector<std::array<int, 18>> slot;
-    Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver;
+    std::unique_ptr<TriangleSystem> system;  ///< its nodes are the free vertices, its triangles the faces
     std::vector<Frame> frames;
     Eigen::VectorXd gradient;
     PointMap start;           ///< images of the free vertices before a step
     std::vector<Vec3> steps;  ///< of the free vertices
 
     State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f);
-    void build_pattern();
-    int find(int row, int column) const;
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
-    void add(int f, const FaceSystem& system, double weight);
     void add_features();
     PointMap images() const;
     void place(const PointMap& images);
@@ -109,85 +102,36 @@ GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, con
         unknown[v] = int(free.size());
         free.push_back(int(v));
     }
-    build_pattern();
-}
-
-void GlobalRelaxation::State::build_pattern() {
-    std::vector<Eigen::Triplet<double>> entries;
-    const int n = 2 * int(free.size());
-    const auto each_block = [&](const auto& body) {
-        for (const int f : faces)
-            for (int k = 0; k < 3; ++k)
-                for (int l = 0; l < 3; ++l) {
-                    const int row = unknown[std::size_t(map.source().faces(f, k))];
-                    const int column = unknown[std::size_t(map.source().faces(f, l))];
-                    if (column >= 0 && row >= column) body(f, k, l, row, column);
-                }
-    };
-    each_block([&](int, int, int, int row, int column) {
-        for (int a = 0; a < 2; ++a)
-            for (int b = 0; b < 2; ++b)
-                if (row > column || a >= b) entries.emplace_back(2 * row + a, 2 * column + b, 0.0);
-    });
-    matrix.resize(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    slot.resize(std::size_t(map.source().face_count()));
-    each_block([&](int f, int k, int l, int row, int column) {
-        auto* slots = slot[std::size_t(f)].data() + 6 * k + 2 * l;
-        slots[0] = find(2 * row, 2 * column);
-        slots[1] = find(2 * row + (row == column), 2 * column + 1);
-    });
-    solver.analyzePattern(matrix);
-}
-
-int GlobalRelaxation::State::find(int row, int column) const {
-    const int* begin = matrix.innerIndexPtr();
-    return int(std::lower_bound(begin + matrix.outerIndexPtr()[column],
-                                begin + matrix.outerIndexPtr()[column + 1], row) -
-               begin);
+    std::vector<std::array<int, 3>> triangles;
+    for (const int f : faces) {
+        const auto c = map.source().faces.row(f);
+        triangles.push_back(
+            {unknown[std::size_t(c[0])], unknown[std::size_t(c[1])], unknown[std::size_t(c[2])]});
+    }
+    system = std::make_unique<TriangleSystem>(int(free.size()), triangles);
 }
 
 void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExcess& robust) {
     for (const int v : free) frames[std::size_t(v)] = map.tangents(v);
-    Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).setZero();
-    gradient = Eigen::VectorXd::Zero(matrix.rows());
-    for (const int f : faces) {
-        const FaceSystem system = face_system(map, frames, f, energy);
-        add(f, system, robust.slope(system.value));
+    system->clear();
+    gradient = Eigen::VectorXd::Zero(2 * Eigen::Index(free.size()));
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const FaceSystem face = face_system(map, frames, faces[i], energy);
+        const double weight = robust.slope(face.value);
+        system->add(int(i), face.hessian, weight);
+        for (int k = 0; k < 3; ++k)
+            if (const int row = unknown[std::size_t(map.source().faces(faces[i], k))]; row >= 0)
+                gradient.segment<2>(2 * row) += weight * face.gradient.segment<2>(2 * k);
     }
     if (features) add_features();
-    for (int i = 0; i < matrix.rows(); ++i) matrix.valuePtr()[matrix.outerIndexPtr()[i]] *= 1 + 1e-8;
-}
-
-void GlobalRelaxation::State::add(int f, const FaceSystem& system, double weight) {
-    const auto corners = map.source().faces.row(f);
-    for (int k = 0; k < 3; ++k) {
-        const int row = unknown[std::size_t(corners[k])];
-        if (row < 0) continue;
-        gradient.segment<2>(2 * row) += weight * system.gradient.segment<2>(2 * k);
-        for (int l = 0; l < 3; ++l) {
-            const int column = unknown[std::size_t(corners[l])];
-            if (column < 0 || row < column) continue;
-            const int* slots = slot[std::size_t(f)].data() + 6 * k + 2 * l;
-            double* values = matrix.valuePtr();
-            const bool diagonal = row == column;
-            values[slots[0]] += weight * system.hessian(2 * k, 2 * l);
-            values[slots[0] + 1] += weight * system.hessian(2 * k + 1, 2 * l);
-            if (!diagonal) values[slots[1]] += weight * system.hessian(2 * k, 2 * l + 1);
-            values[slots[1] + !diagonal] += weight * system.hessian(2 * k + 1, 2 * l + 1);
-        }
-    }
+    system->scale_diagonal(1 + 1e-8);
 }
 
 void GlobalRelaxation::State::add_features() {
     for (std::size_t i = 0; i < free.size(); ++i) {
-        const auto system = features->derivatives(free[i], frames[std::size_t(free[i])]);
-        gradient.segment<2>(2 * int(i)) += system.gradient;
-        // The lower triangle's columns start with the block on the diagonal.
-        const int* start = matrix.outerIndexPtr() + 2 * i;
-        matrix.valuePtr()[start[0]] += system.hessian(0, 0);
-        matrix.valuePtr()[start[0] + 1] += system.hessian(1, 0);
-        matrix.valuePtr()[start[1]] += system.hessian(1, 1);
+        const auto data = features->derivatives(free[i], frames[std::size_t(free[i])]);
+        gradient.segment<2>(2 * Eigen::Index(i)) += data.gradient;
+        system->add(int(i), data.hessian);
     }
 }
 
@@ -237,9 +181,8 @@ double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     State& s = *state_;
     const RobustExcess robust(energy, robustness);
     s.assemble(energy, robust);
-    s.solver.factorize(s.matrix);
-    if (s.solver.info() != Eigen::Success) return 0;
-    const Eigen::VectorXd direction = -s.solver.solve(s.gradient);
+    if (!s.system->factorize()) return 0;
+    const Eigen::VectorXd direction = -s.system->solve(s.gradient);
     if (!direction.allFinite()) return 0;
     s.set_steps(direction);
     const double before = s.total(energy, robust);
