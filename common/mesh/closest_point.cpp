@@ -31,9 +31,10 @@ Vec3 project_to_plane(const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c
 
 }  // namespace
 
-// A point inside the triangle competes with the closest points of its three sides by the distance that is
-// really reached, so needles and triangles without area need no case of their own.
+// A point inside the triangle competes with the closest points of the sides that it does not lie well inside
+// of by the distance that is really reached, so needles and triangles without area need no case of their own.
 Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double well_inside = 1e-3;
     const std::array<Vec3, 3> corner{a, b, c};
     Vec3 best = Vec3::UnitX();
     double least = std::numeric_limits<double>::infinity();
@@ -48,6 +49,7 @@ Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const 
     if (inside.minCoeff() >= 0) offer(inside);
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
+        if (inside[(i + 2) % 3] > well_inside) continue;  // that side does not face the query
         Vec3 on_side = Vec3::Zero();
         on_side[j] = closest_on_segment(query, corner[i], corner[j]);
         on_side[i] = 1 - on_side[j];
