@@ -108,9 +108,22 @@ struct Search {
     ClosestPoint::Hit best{{}, std::numeric_limits<double>::infinity()};
 };
 
+/// Whether the face's box is farther than the best point, beyond doubt.
+bool is_beyond(const Search& search, int f) {
+    const Vec3 a = search.mesh.vertex(search.mesh.faces(f, 0)),
+               b = search.mesh.vertex(search.mesh.faces(f, 1)),
+               c = search.mesh.vertex(search.mesh.faces(f, 2));
+    const Vec3 below = a.cwiseMin(b).cwiseMin(c) - search.query,
+               above = search.query - a.cwiseMax(b).cwiseMax(c);
+    const double rounding = 1e-14 / search.scale;
+    return below.cwiseMax(above).cwiseMax(0).squaredNorm() >
+           search.best.squared_distance * (1 + 1e-9) + rounding * rounding;
+}
+
 /// Offers one face; true if it is the best so far.
 bool offer(Search& search, int f) {
     const TriangleMesh& mesh = search.mesh;
+    if (is_beyond(search, f)) return false;
     if (search.normal && !(face_normal(mesh, f).dot(*search.normal) > 0)) return false;
     SurfacePoint point{f, closest_barycentric(search.query, mesh.vertex(mesh.faces(f, 0)),
                                               mesh.vertex(mesh.faces(f, 1)), mesh.vertex(mesh.faces(f, 2)))};
