@@ -92,7 +92,8 @@ GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, con
     std::vector<char> used(fixed.size(), 0);
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto c = map.source().faces.row(f);
-        const bool movable = !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
+        const bool movable =
+            !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
         if (!movable || !map.is_mapped(f)) continue;
         faces.push_back(f);
         for (int k = 0; k < 3; ++k) used[std::size_t(c[k])] = 1;
@@ -168,8 +169,7 @@ void GlobalRelaxation::State::set_steps(const Eigen::VectorXd& direction) {
 
 /// Moves all free vertices from the start by that share of their step.
 void GlobalRelaxation::State::walk(double share) {
-    for (std::size_t i = 0; i < free.size(); ++i)
-        map.place(free[i], map.walk(start[i], share * steps[i]));
+    for (std::size_t i = 0; i < free.size(); ++i) map.place(free[i], map.walk(start[i], share * steps[i]));
 }
 
 GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,

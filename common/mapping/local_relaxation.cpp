@@ -37,9 +37,8 @@ void add_face(Quadratic& sum, const MovingMap& map, const Eigen::Matrix<double, 
         rest.area * (d.f_qD * (q * D.transpose() + D * q.transpose()) + d.f_DD * D * D.transpose());
     sum.hessian.diagonal().array() += d.f_q * (cj + ck);
     const Vec3 here = map.source().vertex(v);
-    sum.squared_reach =
-        std::max({sum.squared_reach, (map.source().vertex(corners[j]) - here).squaredNorm(),
-                  (map.source().vertex(corners[k]) - here).squaredNorm()});
+    sum.squared_reach = std::max({sum.squared_reach, (map.source().vertex(corners[j]) - here).squaredNorm(),
+                                  (map.source().vertex(corners[k]) - here).squaredNorm()});
 }
 
 /// Newton's direction with the Hessian's eigenvalues made positive.

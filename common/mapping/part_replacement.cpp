@@ -175,8 +175,7 @@ class Trial {
 
   private:
     void relax() {
-        for (int step = 0; step < relaxation_steps; ++step)
-            global_->step(judged_energy, relaxed_robustness);
+        for (int step = 0; step < relaxation_steps; ++step) global_->step(judged_energy, relaxed_robustness);
     }
     void remove_folds() {
         const double share = double(std::count(held_.begin(), held_.end(), 0)) / double(held_.size());

@@ -8,7 +8,7 @@ namespace varimap {
 
 /// A sparse symmetric system A x = b with two unknowns per node, A the sum of one 6 x 6 matrix per triangle
 /// of nodes. Solved by a factorisation A = L D L' into 2 x 2 blocks, row by row (up-looking), in an order of
-/// approximate minimum degree: a quarter of the indices, and a third of the time, of Eigen's SimplicialLDLT.
+/// approximate minimum degree; with a quarter of the indices of a factorisation by single entries.
 class TriangleSystem {
   public:
     using Block = Eigen::Matrix2d;
