@@ -68,9 +68,11 @@ FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, i
 struct GlobalRelaxation::State {
     MovingMap& map;
     const FeatureAgreement* features;
+    const std::vector<Attachment>* attachments = nullptr;
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
-    std::vector<int> faces;  ///< mapped ones with a free corner
+    std::vector<int> faces;                  ///< mapped ones with a free corner
+    std::vector<int> place_of;               ///< per face: its place among `faces`, or -1
     std::unique_ptr<TriangleSystem> system;  ///< its nodes are the free vertices, its triangles the faces
     std::vector<Frame> frames;
     Eigen::VectorXd gradient;
@@ -80,6 +82,8 @@ struct GlobalRelaxation::State {
     State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f);
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
     void add_features();
+    void add(int i, const FaceSystem& face, double weight);
+    void add_attachments();
     PointMap images() const;
     void place(const PointMap& images);
     void set_steps(const Eigen::VectorXd& direction);
@@ -88,13 +92,18 @@ struct GlobalRelaxation::State {
 };
 
 GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f)
-    : map(m), features(f), unknown(fixed.size(), -1), frames(fixed.size(), Frame::Zero()) {
+    : map(m),
+      features(f),
+      unknown(fixed.size(), -1),
+      place_of(std::size_t(m.source().face_count()), -1),
+      frames(fixed.size(), Frame::Zero()) {
     std::vector<char> used(fixed.size(), 0);
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto c = map.source().faces.row(f);
         const bool movable =
             !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
         if (!movable || !map.is_mapped(f)) continue;
+        place_of[std::size_t(f)] = int(faces.size());
         faces.push_back(f);
         for (int k = 0; k < 3; ++k) used[std::size_t(c[k])] = 1;
     }
@@ -118,14 +127,19 @@ void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExc
     gradient = Eigen::VectorXd::Zero(2 * Eigen::Index(free.size()));
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const FaceSystem face = face_system(map, frames, faces[i], energy);
-        const double weight = robust.slope(face.value);
-        system->add(int(i), face.hessian, weight);
-        for (int k = 0; k < 3; ++k)
-            if (const int row = unknown[std::size_t(map.source().faces(faces[i], k))]; row >= 0)
-                gradient.segment<2>(2 * row) += weight * face.gradient.segment<2>(2 * k);
+        add(int(i), face, robust.slope(face.value));
     }
     if (features) add_features();
+    if (attachments) add_attachments();
     system->scale_diagonal(1 + 1e-8);
+}
+
+/// Adds to what belongs to faces[i].
+void GlobalRelaxation::State::add(int i, const FaceSystem& face, double weight) {
+    system->add(i, face.hessian, weight);
+    for (int k = 0; k < 3; ++k)
+        if (const int row = unknown[std::size_t(map.source().faces(faces[std::size_t(i)], k))]; row >= 0)
+            gradient.segment<2>(2 * row) += weight * face.gradient.segment<2>(2 * k);
 }
 
 void GlobalRelaxation::State::add_features() {
@@ -133,6 +147,15 @@ void GlobalRelaxation::State::add_features() {
         const auto data = features->derivatives(free[i], frames[std::size_t(free[i])]);
         gradient.segment<2>(2 * Eigen::Index(i)) += data.gradient;
         system->add(int(i), data.hessian);
+    }
+}
+
+void GlobalRelaxation::State::add_attachments() {
+    for (const Attachment& attachment : *attachments) {
+        const int i = place_of[std::size_t(attachment.from.face)];
+        if (i < 0) continue;
+        const auto [gradient, hessian] = derivatives(attachment, map, frames);
+        add(i, {0, gradient, hessian}, 1);
     }
 }
 
@@ -144,6 +167,9 @@ double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExce
     }
     if (features)
         for (const int v : free) sum += features->value(v);
+    if (attachments)
+        for (const Attachment& attachment : *attachments)
+            if (place_of[std::size_t(attachment.from.face)] >= 0) sum += varimap::value(attachment, map);
     return sum;
 }
 
@@ -176,6 +202,10 @@ GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixe
                                    const FeatureAgreement* features)
     : state_(std::make_unique<State>(map, fixed, features)) {}
 GlobalRelaxation::~GlobalRelaxation() = default;
+
+void GlobalRelaxation::attach(const std::vector<Attachment>& attachments) {
+    state_->attachments = &attachments;
+}
 
 double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     State& s = *state_;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/mapping/attachments.h"
 #include "common/mapping/feature_agreement.h"
 #include "common/mapping/moving_map.h"
 
@@ -18,6 +19,9 @@ class GlobalRelaxation {
     GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
                      const FeatureAgreement* features = nullptr);
     ~GlobalRelaxation();
+
+    /// The attachments whose energy is added from now on; keeps a reference.
+    void attach(const std::vector<Attachment>& attachments);
 
     /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
     /// stays as it is.
