@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "common/mapping/chord_mesh.h"
@@ -153,6 +154,7 @@ class Trial {
             if (any(free, attachment.from.face)) attachments_.push_back(attachment);
         for (std::size_t v = 0; v < fixed.size(); ++v)
             if (open_[v] && fixed[v]) landmarks_.push_back(int(v));
+        global_ = std::make_unique<GlobalRelaxation>(map, held_);
         for (int i = 0; i < relaxations; ++i) relax();
         energy_to_beat_ = (1 - options.gain) * energy();
     }
@@ -178,8 +180,7 @@ class Trial {
 
   private:
     void relax() {
-        GlobalRelaxation global(map_, held_);
-        for (int step = 0; step < relaxation_steps; ++step) global.step(judged_energy, relaxed_robustness);
+        for (int step = 0; step < relaxation_steps; ++step) global_->step(judged_energy, relaxed_robustness);
     }
     void remove_folds() {
         const double share = double(std::count(held_.begin(), held_.end(), 0)) / double(held_.size());
@@ -203,6 +204,7 @@ class Trial {
     PointMap before_;
     std::vector<int> faces_, landmarks_;
     std::vector<Attachment> attachments_;  ///< of those faces
+    std::unique_ptr<GlobalRelaxation> global_;
     double energy_to_beat_ = 0;
 };
 
