@@ -33,6 +33,15 @@ AttachmentSystem derivatives(const Attachment& attachment, const MovingMap& map,
     return {u * J.transpose() * d, u * J.transpose() * J};
 }
 
+std::vector<Attachment> landmark_attachments(const MovingMap& map, const PointPairs& landmarks) {
+    constexpr double weight = 1e4, reach = 1;
+    std::vector<Attachment> attachments;
+    for (const auto& [from, to] : landmarks)
+        if (map.is_mapped(from.face))
+            attachments.push_back({from, position(map.target(), to), weight, reach});
+    return attachments;
+}
+
 std::vector<Attachment> inverse_attachments(const MovingMap& map, const PointMap& back, double weight) {
     const Eigen::VectorXd areas = voronoi_masses(map.target());
     std::vector<Attachment> attachments;

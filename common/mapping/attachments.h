@@ -26,6 +26,10 @@ double value(const Attachment& attachment, const MovingMap& map);
 AttachmentSystem derivatives(const Attachment& attachment, const MovingMap& map,
                              const std::vector<Eigen::Matrix<double, 3, 2>>& frames);
 
+/// Landmarks that are points, as attachments: the image of each first point, on the source, goes to the
+/// second, on the target. They hold to within about 0.001 of sqrt(area).
+std::vector<Attachment> landmark_attachments(const MovingMap& map, const PointPairs& landmarks);
+
 /// What makes a map the inverse of `back`, from its target to its source: every vertex b of the target, of
 /// area n_b, attaches back(b) to itself with the weight n_b * weight. An isometry's energy alone lets images
 /// shrink from the ends of limbs; this holds them there, since the other direction has to put the end of its

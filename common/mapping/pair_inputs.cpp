@@ -43,13 +43,13 @@ void PairInputs::require_same(const Header& plan, const std::string& plan_path) 
         Stage::require_lineage(plan, plan_path, role, header, role == "A.hierarchy" ? A_.hierarchy : B_.hierarchy);
 }
 
-std::vector<std::pair<int, int>> read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
-                                                const Surface& B) {
+Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A, const Surface& B) {
     if (files.empty()) return {};
-    const auto landmarks = read_landmarks(files, A.input, B.input);
+    Landmarks landmarks = read_landmarks(files, A.input, B.input);
     for (size_t i = 0; i < files.size(); ++i)
         stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);
-    return to_mesh_vertices(landmarks, A, B);
+    landmarks.vertices = to_mesh_vertices(landmarks.vertices, A, B);
+    return landmarks;
 }
 
 std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks, const Surface& A,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/mapping/pair_context.h"
+#include "common/mapping/vertex_list.h"
 #include "common/stage/stage_main.h"
 
 namespace varimap {
@@ -28,9 +29,9 @@ class PairInputs {
     std::vector<std::pair<std::string, Header>> hierarchies_;  ///< role, header
 };
 
-/// Reads landmarks (vertex_list.h) as pairs of vertices of the preprocessed meshes and records their files as inputs.
-std::vector<std::pair<int, int>> read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
-                                                const Surface& B);
+/// Reads landmarks (vertex_list.h), vertices as those of the preprocessed meshes, points as places on the input meshes,
+/// and records their files as inputs.
+Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A, const Surface& B);
 /// Landmarks from input vertices to vertices of the preprocessed meshes. Throws InputError for vertices no face uses.
 std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks, const Surface& A,
                                                   const Surface& B);

@@ -125,9 +125,10 @@ int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
 class Trial {
   public:
     /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the
-    /// surroundings; attachments: of the whole map. Leaves the part relaxed: to be followed by a run.
+    /// surroundings; attachments: of the whole map; landmarks: those of them that hold while it relaxes.
+    /// Leaves the part relaxed: to be followed by a run.
     Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options,
-          const std::vector<Attachment>& attachments)
+          const std::vector<Attachment>& attachments, const std::vector<Attachment>& landmarks)
         : map_(map),
           options_(options),
           open_(fixed.size(), 1),
@@ -155,6 +156,7 @@ class Trial {
         for (std::size_t v = 0; v < fixed.size(); ++v)
             if (open_[v] && fixed[v]) landmarks_.push_back(int(v));
         global_ = std::make_unique<GlobalRelaxation>(map, held_);
+        global_->attach(landmarks);
         for (int i = 0; i < relaxations; ++i) relax();
         energy_to_beat_ = (1 - options.gain) * energy();
     }
@@ -210,13 +212,15 @@ class Trial {
 
 }  // namespace
 
-PartReplacement::PartReplacement(MovingMap& map, const Marks& fixed, const PartReplacementOptions& options)
+PartReplacement::PartReplacement(MovingMap& map, const Marks& fixed, const PartReplacementOptions& options,
+                                 const std::vector<Attachment>& landmarks)
     : map_(map),
       fixed_(fixed),
       options_(options),
       edges_(find_edges(map.source())),
       source_graph_(map.source()),
       target_graph_(map.target()),
+      landmarks_(landmarks),
       rejected_(std::size_t(map.source().face_count()), 0) {}
 
 /// Largest first; without those that were rejected before.
@@ -244,7 +248,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
         const Marks inside = widened(map_, edges_, part, widening * area_of(map_, part));
         const double area = area_of(map_, inside);
         if (area > largest_part) return false;
-        Trial trial(map_, inside, fixed_, options_, attachments_);
+        Trial trial(map_, inside, fixed_, options_, attachments_, landmarks_);
         for (const Proposal& propose : proposals(trial.open())) {
             visits_ += double(std::count(trial.open().begin(), trial.open().end(), 1));
             if (!trial.run(propose)) continue;
@@ -297,8 +301,13 @@ double PartReplacement::reach_ratio(const Marks& open) const {
     return here > 0 && there > 0 ? std::clamp(there / here, 0.6, 1.6) : 1;
 }
 
+void PartReplacement::judge_by(const PointMap& back, double weight) {
+    attachments_ = inverse_attachments(map_, back, weight);
+    attachments_.insert(attachments_.end(), landmarks_.begin(), landmarks_.end());
+}
+
 void PartReplacement::continue_surroundings(const PointMap& back) {
-    attachments_ = inverse_attachments(map_, back, doubt * options_.inverse_weight);
+    judge_by(back, doubt * options_.inverse_weight);
     constexpr double noticeable = 0.03;  ///< difference of scales
     replace_parts([&](const Marks& part) {
         const double ratio = reach_ratio(part);
@@ -311,7 +320,7 @@ void PartReplacement::continue_surroundings(const PointMap& back) {
 }
 
 void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
-    attachments_ = inverse_attachments(map_, back, options_.inverse_weight);
+    judge_by(back, options_.inverse_weight);
     // The target's faces as they lie on the source.
     const ChordMesh chords(back, map_.target(), map_.source());
     const ClosestPoint closest(chords.image);
@@ -324,7 +333,8 @@ void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
         }
     };
     std::fill(rejected_.begin(), rejected_.end(), 0);
-    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_).run(invert)) {
+    if (whole &&
+        Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_, landmarks_).run(invert)) {
         ++report_.replaced;
         report_.area_percent += 100;
     }

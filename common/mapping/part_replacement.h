@@ -35,8 +35,9 @@ struct PartReplacementReport {
 /// what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept.
 class PartReplacement {
   public:
-    /// fixed[v]: landmarks, which keep their images. Keeps references.
-    PartReplacement(MovingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options);
+    /// fixed[v]: landmarks, which keep their images; landmarks: those that are points. Keeps references.
+    PartReplacement(MovingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options,
+                    const std::vector<Attachment>& landmarks = {});
 
     /// Maps parts as an isometry would continue the map of their surroundings (continuation.h), at the scale
     /// at which a limb's end meets the limb's end, and at the source's own. `back`: the other direction, or
@@ -56,13 +57,15 @@ class PartReplacement {
     bool replace_part(const std::vector<int>& part, const Proposals& proposals);
     std::vector<std::vector<int>> strained_parts() const;
     double reach_ratio(const std::vector<char>& open) const;
+    void judge_by(const PointMap& back, double weight);
 
     MovingMap& map_;
     const std::vector<char>& fixed_;
     PartReplacementOptions options_;
     Edges edges_;
     GeodesicGraph source_graph_, target_graph_;
-    std::vector<Attachment> attachments_;  ///< by which alternatives are judged
+    const std::vector<Attachment> landmarks_;
+    std::vector<Attachment> attachments_;  ///< also the landmarks: by which alternatives are judged
     std::vector<char> rejected_;           ///< faces of parts for which nothing better was found
     double visits_ = 0;                    ///< vertices in trials so far
     PartReplacementReport report_;

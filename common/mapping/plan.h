@@ -39,6 +39,7 @@ struct Plan {
     Points position_A;                            ///< per VERTEX of A's mesh: centre of its image, in R^3 near B's mesh
     Points position_B;                            ///< per VERTEX of B's mesh: the same near A's mesh
     std::vector<std::pair<int, int>> landmarks;   ///< pairs of mesh vertices (A, B)
+    PointPairs landmark_points;                   ///< on the INPUT meshes, where landmarks were given as points; or empty
     double landmark_weight = 1;                   ///< W of pull_landmarks (cost.h), in (0, 1]
     std::vector<TraceRow> trace;                  ///< of all levels so far
     std::vector<LandmarkCheck> landmark_checks;   ///< per landmark, or none
@@ -53,7 +54,7 @@ template <>
 struct ArtifactType<Plan> {
     static constexpr const char* kind = "plan";
     static constexpr const char* stage = "varimap-diffuse or varimap-refine";
-    static constexpr int schema = 4;
+    static constexpr int schema = 5;
 };
 std::string encode(const Plan& plan);
 void decode(const std::string& payload, Plan& plan);

@@ -4,6 +4,11 @@
 namespace varimap {
 
 template <class Archive>
+void serialize(Archive& archive, SurfacePoint& point) {
+    archive(point.face, point.barycentric);
+}
+
+template <class Archive>
 void serialize(Archive& archive, TraceRow& row) {
     archive(row.level, row.euclidean, row.iteration, row.samples_A, row.samples_B, row.sinkhorn_iterations,
             row.entries, row.gamma, row.energy, row.marginal_error);
@@ -28,7 +33,7 @@ template <class Archive>
 void serialize(Archive& archive, Plan& plan) {
     archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.transported_A, plan.transported_B,
             plan.area_bound, plan.plan, plan.position_A, plan.position_B, plan.landmarks,
-            plan.landmark_weight, plan.trace, plan.landmark_checks, plan.candidates, plan.candidate);
+            plan.landmark_points, plan.landmark_weight, plan.trace, plan.landmark_checks, plan.candidates, plan.candidate);
 }
 
 namespace {
@@ -57,6 +62,7 @@ void require_consistent(const Plan& plan) {
         require<Plan>(
             all_in_range({first}, plan.position_A.rows()) && all_in_range({second}, plan.position_B.rows()),
             "landmarks");
+    require<Plan>(plan.landmark_points.empty() || plan.landmark_points.size() == plan.landmarks.size(), "landmarks");
     require<Plan>(plan.landmark_checks.empty() || plan.landmark_checks.size() == plan.landmarks.size(),
                   "landmark checks");
     require<Plan>(plan.candidate >= 0 && plan.candidate <= int(plan.candidates.size()), "candidates");

@@ -135,14 +135,18 @@ RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, con
     return {weight > 0 ? sum / weight : 0, weighted_quantile(distances, used, 0.95)};
 }
 
-std::vector<double> landmark_residuals(const PointMap& map, const std::vector<std::pair<int, int>>& landmarks,
+std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks, const TriangleMesh& source,
                                        const TriangleMesh& target) {
     const double length = std::sqrt(surface_area(target));
     std::vector<double> residuals;
     for (const auto& [from, to] : landmarks) {
-        const SurfacePoint& image = map[std::size_t(from)];
-        if (image.face >= 0)
-            residuals.push_back((position(target, image) - target.vertex(to)).norm() / length);
+        Vec3 image = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const SurfacePoint& corner = map[std::size_t(source.faces(from.face, k))];
+            if (from.barycentric[k] > 0 && corner.face >= 0)
+                image += from.barycentric[k] * position(target, corner);
+        }
+        residuals.push_back((image - position(target, to)).norm() / length);
     }
     return residuals;
 }

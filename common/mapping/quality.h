@@ -65,9 +65,9 @@ struct RoundTrip {
 RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,
                              const TriangleMesh& B);
 
-/// Distance in R^3 between the image of the first vertex of each pair and the second vertex, in units of
-/// sqrt(area of the target).
-std::vector<double> landmark_residuals(const PointMap& map, const std::vector<std::pair<int, int>>& landmarks,
+/// Distance in R^3 between the image of the first point of each pair (linear on the source's faces) and the second
+/// point, in units of sqrt(area of the target).
+std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks, const TriangleMesh& source,
                                        const TriangleMesh& target);
 
 }  // namespace varimap

@@ -43,9 +43,10 @@ std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fi
 class Relaxation {
   public:
     Relaxation(MovingMap& map, const std::vector<char>& fixed, const FeatureAgreement* features,
-               const Round& round, const UntanglingOptions& options)
+               const std::vector<Attachment>& landmarks, const Round& round, const UntanglingOptions& options)
         : map_(map),
           options_(options),
+          landmarks_(landmarks),
           energy_{options.area_weight, round.regularisation},
           last_inverse_(round.last_inverse),
           robustness_(round.robustness_factor * options.robustness),
@@ -59,10 +60,12 @@ class Relaxation {
 
     /// `back`: the other direction, whose inverse the map is drawn to.
     void step(const PointMap* back) {
+        attachments_ = landmarks_;
         if (back && options_.inverse_weight > 0) {
-            attachments_ = inverse_attachments(map_, *back, options_.inverse_weight * inverse_share());
-            global_.attach(attachments_);
+            const auto inverse = inverse_attachments(map_, *back, options_.inverse_weight * inverse_share());
+            attachments_.insert(attachments_.end(), inverse.begin(), inverse.end());
         }
+        global_.attach(attachments_);
         const double gain = global_.step(energy_, robustness_);
         local_.sweep(vertices_, energy_, false);
         ++steps_;
@@ -79,6 +82,7 @@ class Relaxation {
 
     MovingMap& map_;
     const UntanglingOptions& options_;
+    const std::vector<Attachment>& landmarks_;
     FoldEnergy energy_;
     double last_inverse_, robustness_;
     std::vector<int> vertices_;
@@ -109,14 +113,15 @@ std::vector<char> stay(const MovingMap& map, const std::vector<char>& pinned, co
 class Untangling {
   public:
     Untangling(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-               const std::vector<char>& pinned, const UntanglingOptions& options)
+               const std::vector<char>& pinned, const PointPairs& points, const UntanglingOptions& options)
         : map_(map),
           source_(source),
           target_(target),
           pinned_(pinned),
           options_(options),
           before_(measure_distortion(map, source, target)),
-          moving_(map, source, target) {
+          moving_(map, source, target),
+          landmarks_(landmark_attachments(moving_, points)) {
         report_.flipped_before = report_.flipped_after = before_.flipped_count;
         report_.flipped_area_percent_before = report_.flipped_area_percent_after =
             before_.flipped_area_percent;
@@ -128,7 +133,8 @@ class Untangling {
     void start_relaxation(const Round& round) {
         fixed_ = stay(moving_, pinned_, options_.gate, report_);
         if (options_.global_steps > 0)
-            relaxation_ = std::make_unique<Relaxation>(moving_, fixed_, features_.get(), round, options_);
+            relaxation_ =
+                std::make_unique<Relaxation>(moving_, fixed_, features_.get(), landmarks_, round, options_);
     }
     bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
     void relax(const PointMap* back) {
@@ -142,7 +148,7 @@ class Untangling {
 
     void replace_parts(const PointMap& back) {
         if (!options_.replace_parts) return;
-        replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts);
+        replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts, landmarks_);
         replacement_->continue_surroundings(back);
     }
 
@@ -181,6 +187,7 @@ class Untangling {
     const UntanglingOptions& options_;
     Distortion before_;
     MovingMap moving_;
+    const std::vector<Attachment> landmarks_;  ///< that are points
     std::vector<char> fixed_;
     std::unique_ptr<FeatureAgreement> features_;
     std::unique_ptr<Relaxation> relaxation_;
@@ -209,11 +216,17 @@ void run(Untangling& there, Untangling& back, const Round& round) {
     tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
 }
 
+PointPairs swapped(const PointPairs& points) {
+    PointPairs result;
+    for (const auto& [first, second] : points) result.emplace_back(second, first);
+    return result;
+}
+
 }  // namespace
 
 UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                           const std::vector<char>& pinned, const UntanglingOptions& options) {
-    Untangling untangling(map, source, target, pinned, options);
+    Untangling untangling(map, source, target, pinned, {}, options);
     if (!options.enabled) return untangling.report();
     run(untangling, rounds[0]);
     untangling.replace_parts({});
@@ -223,7 +236,8 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
 
 UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
                            const PinnedPair& pinned, const UntanglingOptions& options) {
-    Untangling there(maps.A_to_B, A, B, pinned.A, options), back(maps.B_to_A, B, A, pinned.B, options);
+    Untangling there(maps.A_to_B, A, B, pinned.A, pinned.points, options),
+        back(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options);
     if (!options.enabled) return {there.report(), back.report()};
     run(there, back, rounds[0]);
     with_each_other(there, back,

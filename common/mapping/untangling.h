@@ -59,6 +59,7 @@ struct MapPair {
 };
 struct PinnedPair {
     std::vector<char> A, B;
+    PointPairs points = {};  ///< of both meshes, drawn onto each other (attachments.h) rather than pinned
 };
 struct UntanglingReports {
     UntanglingReport A_to_B, B_to_A;

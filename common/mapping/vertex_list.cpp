@@ -12,6 +12,7 @@
 
 #include "common/artifact/artifact.h"
 #include "common/mapping/landmark_points.h"
+#include "common/mesh/topology.h"
 #include "common/stage/error.h"
 #include "common/stage/log.h"
 
@@ -31,6 +32,7 @@ struct Row {
 struct Named {
     int line, vertex;
     std::string name = {};  ///< by which it is matched; empty: by its row
+    std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
 
 [[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
@@ -168,7 +170,7 @@ std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const st
         const std::string what = fmt::format("{}:{}: landmark {}", path, picked[i].line, picked[i].name);
         log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, distance, snapped.vertices[i]);
         if (distance > far) warn("{} lies far from the surface: is the list that of this mesh?", what);
-        list.push_back({picked[i].line, snapped.vertices[i], picked[i].name});
+        list.push_back({picked[i].line, snapped.vertices[i], picked[i].name, snapped.points[i]});
     }
     return list;
 }
@@ -210,14 +212,15 @@ bool have_distinct_names(const std::vector<Named>& list) {
 }
 
 /// Row by row, or by name where all have one; names that only one list has are left out.
-std::vector<std::pair<int, int>> matched(const std::vector<Named> (&lists)[2], const std::vector<std::string>& files) {
-    std::vector<std::pair<int, int>> pairs;
+std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
+                                             const std::vector<std::string>& files) {
+    std::vector<std::pair<Named, Named>> pairs;
     if (have_distinct_names(lists[0]) && have_distinct_names(lists[1])) {
-        std::map<std::string, int> target;
-        for (const Named& named : lists[1]) target[named.name] = named.vertex;
+        std::map<std::string, Named> target;
+        for (const Named& named : lists[1]) target[named.name] = named;
         for (const Named& named : lists[0])
             if (const auto found = target.find(named.name); found != target.end())
-                pairs.emplace_back(named.vertex, found->second);
+                pairs.emplace_back(named, found->second);
         if (pairs.empty()) throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
         if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
             warn("{} landmarks are in both {} and {}; the others are left out", pairs.size(), files[0], files[1]);
@@ -226,8 +229,12 @@ std::vector<std::pair<int, int>> matched(const std::vector<Named> (&lists)[2], c
     if (lists[0].size() != lists[1].size())
         throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
                                      files[0], lists[0].size(), files[1], lists[1].size()));
-    for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i].vertex, lists[1][i].vertex);
+    for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
     return pairs;
+}
+
+SurfacePoint place_of(const Named& named, const TriangleMesh& mesh) {
+    return named.point ? *named.point : point_at_vertex(mesh, named.vertex);
 }
 
 void require_distinct_used(const std::vector<Named>& list, const std::string& path, const char* role,
@@ -235,7 +242,7 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
     std::vector<bool> used(size_t(mesh.vertex_count()), false);
     for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
     std::map<int, int> lines;
-    for (const auto& [line, vertex, name] : list) {
+    for (const auto& [line, vertex, name, point] : list) {
         const auto [it, added] = lines.try_emplace(vertex, line);
         if (!added)
             fail(path, line,
@@ -267,9 +274,8 @@ std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path) {
     return pairs;
 }
 
-std::vector<std::pair<int, int>> read_landmarks(const std::vector<std::string>& files,
-                                                const TriangleMesh& source_input,
-                                                const TriangleMesh& target_input) {
+Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
+                         const TriangleMesh& target_input) {
     if (files.size() != 1 && files.size() != 2)
         throw UsageError(
             "landmarks: give one file of pairs, or a list for the source and one for the target");
@@ -280,7 +286,15 @@ std::vector<std::pair<int, int>> read_landmarks(const std::vector<std::string>& 
         lists[side] = files.size() == 1 ? read_pair_side(path, side, *meshes[side]) : read_side(path, *meshes[side]);
         require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
     }
-    return matched(lists, files);
+    Landmarks landmarks;
+    bool picked = false;
+    for (const auto& [source, target] : matched(lists, files)) {
+        landmarks.vertices.emplace_back(source.vertex, target.vertex);
+        landmarks.points.emplace_back(place_of(source, source_input), place_of(target, target_input));
+        picked = picked || source.point || target.point;
+    }
+    if (!picked) landmarks.points.clear();
+    return landmarks;
 }
 
 }  // namespace varimap

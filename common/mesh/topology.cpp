@@ -71,6 +71,13 @@ Adjacency vertex_neighbours(const TriangleMesh& mesh) {
     return result;
 }
 
+SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v) {
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (mesh.faces(f, k) == v) return {f, Vec3::Unit(k)};
+    return {};
+}
+
 Edges find_edges(const TriangleMesh& mesh) {
     const std::vector<Side> sides = sorted_sides(mesh);
     Edges edges;

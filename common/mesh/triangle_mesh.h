@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>  // cross()
+#include <utility>
 #include <vector>
 
 namespace varimap {
@@ -28,6 +29,9 @@ struct SurfacePoint {
 
 /// Images of the vertices of one mesh on another: one point per vertex, in the vertices' order.
 using PointMap = std::vector<SurfacePoint>;
+
+/// Points of two surfaces that belong together.
+using PointPairs = std::vector<std::pair<SurfacePoint, SurfacePoint>>;
 
 /// Position in space of a surface point.
 inline Vec3 position(const TriangleMesh& mesh, const SurfacePoint& p) {

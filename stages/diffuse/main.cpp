@@ -37,9 +37,10 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);
-        const PairContext context(std::move(A), std::move(B), landmarks, params.landmark_weight);
+        const PairContext context(std::move(A), std::move(B), landmarks.vertices, params.landmark_weight);
         const auto candidates = read_candidates(stage, inputs, candidates_in);
-        const Plan plan = diffuse(context, params, candidates);
+        Plan plan = diffuse(context, params, candidates);
+        plan.landmark_points = landmarks.points;
         report(plan.landmark_checks);
         stage.record_number("levels", plan.trace.back().level + 1);
         stage.record_number("alternations", double(plan.trace.size()));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/mapping/quality.h"
+#include "common/mesh/topology.h"
 #include "common/mapping/verification.h"
 
 namespace varimap {
@@ -111,19 +112,20 @@ Json to_json(const std::vector<LandmarkCheck>& checks) {
     return list;
 }
 
-/// Landmarks as pairs of input vertices.
-std::vector<std::pair<int, int>> input_landmarks(const Plan& plan, const Surface& A, const Surface& B) {
-    const auto input_of_vertex = [](const Surface& surface) {
-        std::vector<int> input(std::size_t(surface.mesh.vertex_count()), -1);
-        for (std::size_t i = 0; i < surface.vertex_of_input.size(); ++i)
-            if (surface.vertex_of_input[i] >= 0) input[std::size_t(surface.vertex_of_input[i])] = int(i);
-        return input;
+/// Landmarks as points of the input meshes.
+PointPairs input_landmarks(const Plan& plan, const Surface& A, const Surface& B) {
+    if (!plan.landmark_points.empty()) return plan.landmark_points;
+    const auto on_input = [](const Surface& surface, int vertex) {
+        const auto& vertices = surface.vertex_of_input;
+        const auto input = std::find(vertices.begin(), vertices.end(), vertex);
+        return input == vertices.end() ? SurfacePoint{}
+                                       : point_at_vertex(surface.input, int(input - vertices.begin()));
     };
-    const std::vector<int> of_A = input_of_vertex(A), of_B = input_of_vertex(B);
-    std::vector<std::pair<int, int>> pairs;
-    for (const auto& [a, b] : plan.landmarks)
-        if (of_A[std::size_t(a)] >= 0 && of_B[std::size_t(b)] >= 0)
-            pairs.emplace_back(of_A[std::size_t(a)], of_B[std::size_t(b)]);
+    PointPairs pairs;
+    for (const auto& [a, b] : plan.landmarks) {
+        const SurfacePoint from = on_input(A, a), to = on_input(B, b);
+        if (from.face >= 0 && to.face >= 0) pairs.emplace_back(from, to);
+    }
     return pairs;
 }
 
@@ -164,7 +166,7 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     quality["area_bound"] = plan.area_bound;
     quality["mass_ratio"] = {{"source", mass_ratios(plan.transported_A, plan.mass_A)},
                              {"target", mass_ratios(plan.transported_B, plan.mass_B)}};
-    quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
+    quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), A.input, B.input);
     if (!plan.landmarks.empty()) quality["landmark_weight"] = plan.landmark_weight;
     if (!plan.landmark_checks.empty()) quality["landmark_checks"] = to_json(plan.landmark_checks);
     if (!plan.candidates.empty()) quality["exploration"] = to_json(plan.candidates, plan.candidate);

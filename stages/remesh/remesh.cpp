@@ -67,9 +67,14 @@ SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const Re
         options.global_steps = 0;
         options.replace_parts = false;
     }
+    PinnedPair pinned_input{on_input(pinned.A, A), on_input(pinned.B, B)};
+    // Landmarks that are points lie between vertices: none of these is where its image has to be.
+    if (plan.pins_landmarks() && !plan.landmark_points.empty())
+        pinned_input = {std::vector<char>(pinned_input.A.size(), 0), std::vector<char>(pinned_input.B.size(), 0),
+                        plan.landmark_points};
     MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
     const UntanglingReports reports =
-        untangle(inputs, A.input, B.input, {on_input(pinned.A, A), on_input(pinned.B, B)}, options);
+        untangle(inputs, A.input, B.input, pinned_input, options);
     if (options.enabled) {
         log_untangling("source to target", reports.A_to_B);
         log_untangling("target to source", reports.B_to_A);

@@ -4,6 +4,7 @@
 
 #include "common/map_shapes.h"
 #include "common/mesh/closest_point.h"
+#include "common/mesh/topology.h"
 #include "common/shapes.h"
 
 namespace varimap {
@@ -171,7 +172,10 @@ TEST(RoundTrip, MeasuresTheDistance) {
 
 TEST(LandmarkResiduals, AreDistancesBySquareRootOfArea) {
     const TriangleMesh mesh = rectangle(2, 3, 3);
-    const auto residuals = landmark_residuals(at_vertices(mesh), {{4, 4}, {0, 2}}, mesh);
+    const auto residuals = landmark_residuals(at_vertices(mesh),
+                                              {{point_at_vertex(mesh, 4), point_at_vertex(mesh, 4)},
+                                               {point_at_vertex(mesh, 0), point_at_vertex(mesh, 2)}},
+                                              mesh, mesh);
     ASSERT_EQ(residuals.size(), 2u);
     EXPECT_NEAR(residuals[0], 0, 1e-12);
     EXPECT_NEAR(residuals[1], 1, 1e-12);
