@@ -60,7 +60,7 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     const SourceColour colour(there.source, params.checker);
     const ClosestPoint closest(there.source);
     const auto flags = [&](const ChordMesh& chords) {
-        return params.flips ? reversed_faces(chords) : std::vector<bool>(size_t(chords.source.face_count()));
+        return params.flips ? reversed_faces(chords, params.mirror) : std::vector<bool>(size_t(chords.source.face_count()));
     };
     const Figure source_figure(
         there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, flags(there));

@@ -137,6 +137,21 @@ TEST_F(Render, MarksReversedTrianglesOnDemand) {
     EXPECT_GT(marked(back), 100);
 }
 
+TEST_F(Render, MarksTrianglesThatKeepOrientationOfAMirror) {
+    TriangleMesh left = mesh_;  // the outside stays outside
+    left.vertices.col(2) *= -1;
+    left.faces.col(1).swap(left.faces.col(2));
+    PointMap map = map_;
+    for (SurfacePoint& point : map) std::swap(point.barycentric[1], point.barycentric[2]);
+    const auto with_flips = [&](bool flips, bool mirror) {
+        RenderParams params = small();
+        params.flips = flips, params.mirror = mirror;
+        return render(mesh_, left, map, map_, params).rgb;
+    };
+    EXPECT_EQ(with_flips(true, true), with_flips(false, true));
+    EXPECT_NE(with_flips(true, false), with_flips(false, false));
+}
+
 /// Red minus blue of the pixel in the middle of one of three columns, on the source (row 0) or the target
 /// (row 1).
 int redness(const Image& image, int column, int row) {
