@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/artifact/artifact.h"
+#include "common/mesh/triangle_mesh.h"
 
 namespace varimap {
 
@@ -42,13 +43,16 @@ struct Candidates {
     Eigen::VectorXd mass_A, mass_B;         ///< masses of the samples, each sums to 1
     std::vector<Candidate> list;
     std::vector<SparseMatrix> plans;        ///< per candidate: its plan, summed over the cells of that level
+    /// For a picture of the first two, where the choice between them is not sure: per INPUT vertex of B, its rough
+    /// image on INPUT faces of A. Else none.
+    std::vector<PointMap> previews;
 };
 
 template <>
 struct ArtifactType<Candidates> {
     static constexpr const char* kind = "candidates";
     static constexpr const char* stage = "varimap-explore";
-    static constexpr int schema = 1;
+    static constexpr int schema = 2;
 };
 std::string encode(const Candidates& candidates);
 void decode(const std::string& payload, Candidates& candidates);
