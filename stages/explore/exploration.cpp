@@ -264,8 +264,9 @@ Candidates explore(const PairContext& context, const ExplorationOptions& options
     for (const Trial& trial : trials)
         found.plans.push_back(to_matrix(coarsened(trial.solution.plan, exploration.last_level(), coarse),
                                         found.mass_A, found.mass_B));
+    constexpr size_t shown = 3;
     if (!confidence_of(found.list).confident)
-        for (size_t k = 0; k < std::min(trials.size(), size_t(2)); ++k)
+        for (size_t k = 0; k < std::min(trials.size(), shown); ++k)
             found.previews.push_back(preview(trials[k], exploration.last_level(), context));
     return found;
 }

@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
                           "of mass, area and angle instead of colours",
                           2, 2);
     const auto& candidates_in = stage.option(
-        "candidates", "of varimap-explore: where its choice was not sure, the first two also go to candidates.png beside the picture");
+        "candidates", "of varimap-explore: where its choice was not sure, the first three also go to candidates.png beside the picture");
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
         const TriangleMesh A = read_mesh(source), B = read_mesh(target);
@@ -41,6 +41,6 @@ int main(int argc, char** argv) {
         if (previews.empty()) return;
         params.samples = std::min(params.samples, 4);  // rough maps need no smooth picture
         write_file_atomically(beside, to_png(render_candidates(A, B, previews, params)));
-        log("the first two candidates to {}", beside);
+        log("the first candidates to {}", beside);
     });
 }

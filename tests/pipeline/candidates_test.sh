@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Where symmetry leaves several maps, the run says so and shows two; once landmarks decide, the picture goes.
+# Where symmetry leaves several maps, the run says so and shows them; once landmarks decide, the picture goes.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
 figure a.off 9 0 0
