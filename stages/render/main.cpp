@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
         const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
         const auto previews = stage.read<Candidates>("candidates", candidates_in).value.previews;
         if (previews.empty()) return;
-        params.samples = std::min(params.samples, 4);  // rough maps need no smooth picture
+        params.samples = std::min(params.samples, 2);  // rough maps need no smooth picture
         write_file_atomically(beside, to_png(render_candidates(A, B, previews, params)));
         log("the first candidates to {}", beside);
     });
