@@ -69,12 +69,14 @@ FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, i
 struct GlobalRelaxation::State {
     MovingMap& map;
     const FeatureAgreement* features;
+    const std::vector<Attachment>* attachments = nullptr;
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
     std::vector<int> faces;  ///< mapped ones with a free corner
-    Sparse matrix;  ///< lower triangle
+    Sparse matrix;           ///< lower triangle
     /// Per face and pair of corners (k, l) with unknown k >= unknown l: where the block's two columns start.
     std::vector<std::array<int, 18>> slot;
+    std::vector<char> is_free;  ///< per face: whether it is among `faces`
     Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver;
     std::vector<Frame> frames;
     Eigen::VectorXd gradient;
@@ -85,18 +87,25 @@ struct GlobalRelaxation::State {
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
     void add(int f, const FaceSystem& system, double weight);
     void add_features();
+    void add_attachments();
     void walk(const PointMap& start, const Eigen::VectorXd& direction, double share);
     double total(const FoldEnergy& energy, const RobustExcess& robust) const;
 };
 
 GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f)
-    : map(m), features(f), unknown(fixed.size(), -1), frames(fixed.size(), Frame::Zero()) {
+    : map(m),
+      features(f),
+      unknown(fixed.size(), -1),
+      is_free(std::size_t(m.source().face_count()), 0),
+      frames(fixed.size(), Frame::Zero()) {
     std::vector<char> used(fixed.size(), 0);
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto c = map.source().faces.row(f);
-        const bool movable = !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
+        const bool movable =
+            !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
         if (!movable || !map.is_mapped(f)) continue;
         faces.push_back(f);
+        is_free[std::size_t(f)] = 1;
         for (int k = 0; k < 3; ++k) used[std::size_t(c[k])] = 1;
     }
     for (std::size_t v = 0; v < fixed.size(); ++v) {
@@ -151,6 +160,7 @@ void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExc
         add(f, system, robust.slope(system.value));
     }
     if (features) add_features();
+    if (attachments) add_attachments();
     for (int i = 0; i < matrix.rows(); ++i) matrix.valuePtr()[matrix.outerIndexPtr()[i]] *= 1 + 1e-8;
 }
 
@@ -186,6 +196,15 @@ void GlobalRelaxation::State::add_features() {
     }
 }
 
+void GlobalRelaxation::State::add_attachments() {
+    for (const Attachment& attachment : *attachments) {
+        const int f = attachment.from.face;
+        if (!is_free[std::size_t(f)]) continue;
+        const auto [gradient, hessian] = derivatives(attachment, map, frames);
+        add(f, {0, gradient, hessian}, 1);
+    }
+}
+
 double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExcess& robust) const {
     double sum = 0;
     for (const int f : faces) {
@@ -194,6 +213,9 @@ double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExce
     }
     if (features)
         for (const int v : free) sum += features->value(v);
+    if (attachments)
+        for (const Attachment& attachment : *attachments)
+            if (is_free[std::size_t(attachment.from.face)]) sum += varimap::value(attachment, map);
     return sum;
 }
 
@@ -212,6 +234,10 @@ GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixe
                                    const FeatureAgreement* features)
     : state_(std::make_unique<State>(map, fixed, features)) {}
 GlobalRelaxation::~GlobalRelaxation() = default;
+
+void GlobalRelaxation::attach(const std::vector<Attachment>& attachments) {
+    state_->attachments = &attachments;
+}
 
 double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     State& s = *state_;

@@ -59,7 +59,7 @@ Start coarsest_start(const LevelPair& pair, const PairContext& context, const Di
     Start start = zero_start(pair);
     if (params.start == "wasserstein") {
         start.centres = wasserstein_centres(pair, context, params.alternation);
-        pin_landmarks(pair.A.side, pair.B.side, start.centres);
+        pull_landmarks(pair.A.side, pair.B.side, start.centres);
     }
     return start;
 }
@@ -78,6 +78,7 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     plan.position_B = context.A().surface.mesh.vertices(
         vertex_images(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(), context.graph_A()), Eigen::all);
     plan.landmarks = context.landmarks();
+    plan.landmark_weight = context.landmark_weight();
     return plan;
 }
 
