@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/artifact/artifact.h"
+#include "common/mesh/triangle_mesh.h"
 
 namespace varimap {
 
@@ -25,10 +26,11 @@ struct Candidate {
 /// A mirrored map is no answer, however small its energy.
 bool is_mirrored(const Candidate& candidate);
 
-/// How sure the choice of the first candidate is.
+/// How sure the choice of the first candidate is among its rivals: those that are not mirrored and give more than 5% of
+/// A another image.
 struct Confidence {
-    double margin = 0;          ///< score of the second that is not mirrored, less the first's; 1 without a second
-    bool levels_agree = true;   ///< the first has the smallest energy on both levels
+    double margin = 0;          ///< score of the best rival, less the first's; 1 without a rival
+    bool levels_agree = true;   ///< the first has a smaller energy than each rival on both levels
     bool confident = true;      ///< levels agree, and the margin is at least 0.015
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates);
@@ -42,13 +44,16 @@ struct Candidates {
     Eigen::VectorXd mass_A, mass_B;         ///< masses of the samples, each sums to 1
     std::vector<Candidate> list;
     std::vector<SparseMatrix> plans;        ///< per candidate: its plan, summed over the cells of that level
+    /// For a picture of the first three, where the choice among them is not sure: per INPUT vertex of B, its rough
+    /// image on INPUT faces of A. Else none.
+    std::vector<PointMap> previews;
 };
 
 template <>
 struct ArtifactType<Candidates> {
     static constexpr const char* kind = "candidates";
     static constexpr const char* stage = "varimap-explore";
-    static constexpr int schema = 1;
+    static constexpr int schema = 2;
 };
 std::string encode(const Candidates& candidates);
 void decode(const std::string& payload, Candidates& candidates);

@@ -26,7 +26,7 @@ void serialize(Archive& archive, Candidate& c) {
 
 template <class Archive>
 void serialize(Archive& archive, Candidates& c) {
-    archive(c.samples_A, c.samples_B, c.mass_A, c.mass_B, c.list, c.plans);
+    archive(c.samples_A, c.samples_B, c.mass_A, c.mass_B, c.list, c.plans, c.previews);
 }
 
 template <class Archive>
@@ -72,6 +72,7 @@ void require_consistent(const Candidates& c) {
     const auto a = Eigen::Index(c.samples_A.size()), b = Eigen::Index(c.samples_B.size());
     require<Candidates>(!c.list.empty() && c.list.size() == c.plans.size(), "numbers of plans");
     require<Candidates>(c.mass_A.size() == a && c.mass_B.size() == b, "masses");
+    require<Candidates>(c.previews.size() <= c.list.size(), "previews");
     for (const SparseMatrix& plan : c.plans)
         require<Candidates>(plan.rows() == a && plan.cols() == b, "numbers of samples");
 }

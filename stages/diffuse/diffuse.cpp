@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/mapping/orientation.h"
 #include "common/mapping/solve_level.h"
+#include "common/mapping/vertex_images.h"
 #include "common/stage/error.h"
-#include "common/stage/parallel.h"
 #include "stages/diffuse/landmark_check.h"
 
 namespace varimap {
@@ -65,42 +64,6 @@ Start coarsest_start(const LevelPair& pair, const PairContext& context, const Di
     return start;
 }
 
-/// Column of the largest entry of each row.
-std::vector<int> best_partners(const SparseMatrix& plan) {
-    std::vector<int> best(plan.rows(), 0);
-    for (int i = 0; i < plan.outerSize(); ++i) {
-        double largest = -1;
-        for (SparseMatrix::InnerIterator it(plan, i); it; ++it)
-            if (it.value() > largest) largest = it.value(), best[i] = int(it.col());
-    }
-    return best;
-}
-
-/// For every vertex of one mesh: the position of the other mesh's vertex nearest to its centre in the embedding.
-Points vertex_positions(const LevelSide& from, const LevelSide& to, const RowMatrix& sample_image, const SparseMatrix& plan,
-                        const Surface& target, const GeodesicGraph& target_graph) {
-    const std::vector<int> best = best_partners(plan);
-    Points positions(from.level.cell.size(), 3);
-    parallel_for_each_index(size_t(0) + from.level.cell.size(), size_t(64), [&](size_t v) {
-        const int k = from.level.cell[v];
-        const auto here = from.vertex_points.row(v);
-        // The vertex's own neighbourhood (Eq. 7), among the samples of its cell's neighbourhood.
-        Eigen::RowVectorXd centre = Eigen::RowVectorXd::Zero(sample_image.cols());
-        double total = 0;
-        for (SparseMatrix::InnerIterator it(from.side.weights, k); it; ++it) {
-            const auto there = from.side.points.row(it.col());
-            const double w = 2 * here.dot(there) / (here.squaredNorm() + there.squaredNorm());
-            if (w < 0.5 && it.col() != k) continue;
-            total += from.side.mass[it.col()] * std::max(w, 0.0);
-            centre += from.side.mass[it.col()] * std::max(w, 0.0) * sample_image.row(it.col());
-        }
-        const int start = to.level.samples[best[k]];
-        const int image = total > 0 ? nearest_by_descent(start, centre / total, to.vertex_points, target_graph) : start;
-        positions.row(v) = target.mesh.vertices.row(image);
-    });
-    return positions;
-}
-
 Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext& context) {
     Plan plan;
     plan.samples_A = pair.A.level.samples;
@@ -110,10 +73,10 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     plan.transported_A = row_sums(solution.plan);
     plan.transported_B = column_sums(solution.plan);
     plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
-    plan.position_A = vertex_positions(pair.A, pair.B, solution.step.row_image, plan.plan, context.B().surface,
-                                       context.graph_B());
-    plan.position_B = vertex_positions(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(),
-                                       context.A().surface, context.graph_A());
+    plan.position_A = context.B().surface.mesh.vertices(
+        vertex_images(pair.A, pair.B, solution.step.row_image, plan.plan, context.graph_B()), Eigen::all);
+    plan.position_B = context.A().surface.mesh.vertices(
+        vertex_images(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(), context.graph_A()), Eigen::all);
     plan.landmarks = context.landmarks();
     plan.landmark_weight = context.landmark_weight();
     return plan;

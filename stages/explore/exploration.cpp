@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/mapping/solve_level.h"
+#include "common/mapping/vertex_images.h"
 #include "common/stage/log.h"
 #include "common/stage/parallel.h"
 #include "stages/explore/bending.h"
@@ -233,6 +234,22 @@ std::vector<Candidate> describe(const Exploration& exploration, const std::vecto
     return list;
 }
 
+namespace {
+
+/// Per INPUT vertex of B, its image on INPUT faces of A, as well as the last diffusion level tells.
+PointMap preview(const Trial& trial, const LevelPair& pair, const PairContext& context) {
+    const SparseMatrix plan = to_matrix(trial.solution.plan, pair.A.side.mass, pair.B.side.mass);
+    const std::vector<int> image =
+        vertex_images(pair.B, pair.A, trial.solution.step.column_image, plan.transpose(), context.graph_A());
+    const Surface &A = context.A().surface, &B = context.B().surface;
+    PointMap map(B.vertex_of_input.size());
+    for (size_t v = 0; v < map.size(); ++v)
+        if (B.vertex_of_input[v] >= 0) map[v] = A.on_input[image[B.vertex_of_input[v]]];
+    return A.mirrored ? on_reversed_faces(std::move(map)) : map;
+}
+
+}  // namespace
+
 Candidates explore(const PairContext& context, const ExplorationOptions& options,
                    const AlternationOptions& alternation, const IroningOptions& ironing) {
     Exploration exploration(context, options, alternation, ironing);
@@ -243,10 +260,14 @@ Candidates explore(const PairContext& context, const ExplorationOptions& options
     while (coarse.A.level.samples.size() < coarse_samples && level + 1 < context.diffusion_levels())
         coarse = context.diffusion_level(++level);
     Candidates found{coarse.A.level.samples, coarse.B.level.samples, coarse.A.side.mass, coarse.B.side.mass,
-                     describe(exploration, trials, context), {}};
+                     describe(exploration, trials, context), {}, {}};
     for (const Trial& trial : trials)
         found.plans.push_back(to_matrix(coarsened(trial.solution.plan, exploration.last_level(), coarse),
                                         found.mass_A, found.mass_B));
+    constexpr size_t shown = 3;
+    if (!confidence_of(found.list).confident)
+        for (size_t k = 0; k < std::min(trials.size(), shown); ++k)
+            found.previews.push_back(preview(trials[k], exploration.last_level(), context));
     return found;
 }
 

@@ -71,7 +71,7 @@ class Exploration {
 std::vector<Candidate> describe(const Exploration& exploration, const std::vector<Trial>& trials,
                                 const PairContext& context);
 
-/// Explores, and sums the plans over the cells of a coarse level: coarse enough that varimap-diffuse can relax
+/// Explores, sums the plans over the cells of a coarse level: coarse enough that varimap-diffuse can relax
 /// marginals from there on.
 Candidates explore(const PairContext& context, const ExplorationOptions& options,
                    const AlternationOptions& alternation, const IroningOptions& ironing);

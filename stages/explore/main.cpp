@@ -13,10 +13,10 @@ void report(const std::vector<Candidate>& candidates) {
             100 * candidates[k].reversed_mass, relation(candidates[k]));
     const Confidence confidence = confidence_of(candidates);
     if (is_mirrored(candidates.front()))
-        warn("only mirrored maps were found; are the surfaces of opposite handedness (--mirror)?");
+        warn("only mirrored maps were found; are the surfaces of opposite handedness (--mirror)? look at candidates.png");
     else if (!confidence.confident)
-        warn("the choice among the candidates is not sure ({}): look at the picture, try --candidate 2, or give landmarks",
-             confidence.levels_agree ? fmt::format("the second is only {:.1f}% worse", 100 * confidence.margin)
+        warn("the choice among the candidates is not sure ({}): look at candidates.png, try --candidate 2, or give landmarks",
+             confidence.levels_agree ? fmt::format("another is only {:.1f}% worse", 100 * confidence.margin)
                                      : "coarse and fine levels disagree");
 }
 

@@ -25,8 +25,9 @@ Colour SourceColour::operator()(const Vec3& point) const {
     const Vec3 cell = ((point - low_ - extent_ / 2) / cell_ + Vec3(.5, .37, .43)).array().floor();
     const bool dark = (long(cell[0]) + long(cell[1]) + long(cell[2])) & 1;
     const double hue = 2 * std::numbers::pi * (.06 + .70 * t[first_] + .24 * (t[second_] - .5));
-    const double lightness = .76 + .12 * (t[second_] - .5) + .06 * (t[third_] - .5) - (dark ? .17 : 0);
-    return from_oklch(lightness, dark ? .13 : .12, hue);
+    const double lightness = .76 + .12 * (t[second_] - .5) - .1 * (t[third_] - .5) - (dark ? .17 : 0);
+    const double chroma = .12 + .1 * (t[third_] - .5);  // pale on one side: mirrored maps must show
+    return from_oklch(lightness, chroma, hue);
 }
 
 Colour from_oklch(double lightness, double chroma, double hue) {

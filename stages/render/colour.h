@@ -6,7 +6,7 @@ namespace varimap {
 
 using Colour = Vec3;  ///< linear red, green, blue, from 0 to 1
 
-/// Colours the points of the source: hue runs along its longest axis, and with the others' lightness,
+/// Colours the points of the source: hue runs along its longest axis, with lightness and chroma along the others,
 /// modulated by a checkerboard in space.
 class SourceColour {
   public:

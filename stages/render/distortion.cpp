@@ -64,12 +64,6 @@ std::array<Quantity, 3> quantities(const RenderParams& params) {
                  conformal, 1, params.conformal_range}};
 }
 
-void set_pixel(Image& image, int x, int y, const Colour& colour) {
-    if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
-    for (int k = 0; k < 3; ++k)
-        image.rgb[3 * (size_t(y) * size_t(image.width) + size_t(x)) + size_t(k)] = encode_channel(colour[k]);
-}
-
 /// A bar of the quantity's colours between its ends, with numbers at both ends and in the middle, and its
 /// name.
 void draw_scale(const Quantity& quantity, int left, int top, int width, int letter, Image& image) {
@@ -119,7 +113,7 @@ Image draw_distortion(const DistortedSurface& source, const DistortedSurface& ta
         for (const Quantity& q : columns) {
             std::vector<bool> flagged;
             for (const TriangleDistortion& t : surface->triangles)
-                flagged.push_back(params.flips && t.flipped);
+                flagged.push_back(params.flips && t.area > 0 && (t.collapsed || t.flipped != params.mirror));
             figures.emplace_back(
                 surface->mesh,
                 [&q, surface](const SurfacePoint& p) { return q.colour(q.value(*surface, p)); }, flagged);

@@ -31,7 +31,8 @@ class Figure {
     std::vector<double> openness_;
 };
 
-/// Per triangle of the chord mesh's source: whether its image is reversed (as quality.h counts flips).
-std::vector<bool> reversed_faces(const ChordMesh& chords);
+/// Per triangle of the chord mesh's source: whether its image is reversed (as quality.h counts flips); where the map
+/// reverses orientation on purpose (`mirror`), whether it is not.
+std::vector<bool> reversed_faces(const ChordMesh& chords, bool mirror);
 
 }  // namespace varimap

@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "common/artifact/artifact.h"
+#include "common/mapping/candidates.h"
 #include "common/mapping/surface_map.h"
 #include "common/mesh/mesh_file.h"
 #include "common/stage/stage_main.h"
@@ -18,6 +22,8 @@ int main(int argc, char** argv) {
                           "source_masses.csv and target_masses.csv of varimap-remesh: shows changes "
                           "of mass, area and angle instead of colours",
                           2, 2);
+    const auto& candidates_in = stage.option(
+        "candidates", "of varimap-explore: where its choice was not sure, the first three also go to candidates.png beside the picture");
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
         const TriangleMesh A = read_mesh(source), B = read_mesh(target);
@@ -29,5 +35,12 @@ int main(int argc, char** argv) {
                                     read_csv_masses(masses[1], B.vertex_count()), params);
         write_file_atomically(out, to_png(image));
         log("{} x {} pixels to {}", image.width, image.height, out);
+        if (candidates_in.empty()) return;
+        const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
+        const auto previews = stage.read<Candidates>("candidates", candidates_in).value.previews;
+        if (previews.empty()) return;
+        params.samples = std::min(params.samples, 2);  // rough maps need no smooth picture
+        write_file_atomically(beside, to_png(render_candidates(A, B, previews, params)));
+        log("the first candidates to {}", beside);
     });
 }

@@ -5,37 +5,48 @@
 
 #include "common/stage/parallel.h"
 #include "stages/render/bounds.h"
+#include "stages/render/lettering.h"
 
 namespace varimap {
 
 namespace {
 
-/// Places the panels (source, its back, target, its back); returns the height of the picture.
-int lay_out(std::vector<Panel>& panels, int picture_width) {
-    double widths[2], height = 0;
-    for (int i : {0, 1}) {
-        const Vec3 a = panels[size_t(2 * i)].box.sizes();
-        const Vec3 b = panels[size_t(2 * i + 1)].box.sizes();
-        widths[i] = std::max(a[0], b[0]) + panel_margin;
+/// Places the panels (each figure, then its back) below a strip of height `top`; returns the height of the picture.
+int lay_out(std::vector<Panel>& panels, int picture_width, int top) {
+    double sum = 0, height = 0;
+    std::vector<double> widths;
+    for (size_t i = 0; i < panels.size(); i += 2) {
+        const Vec3 a = panels[i].box.sizes(), b = panels[i + 1].box.sizes();
+        sum += widths.emplace_back(std::max(a[0], b[0]) + panel_margin);
         height = std::max({height, a[1] + panel_margin, b[1] + panel_margin});
     }
-    const bool in_a_row = height > .8 * (widths[0] + widths[1]);
-    const double total = (in_a_row ? 2 : 1) * (widths[0] + widths[1]);
+    const bool in_a_row = height > .8 * sum;
+    const double total = (in_a_row ? 2 : 1) * sum;
     // A long thin figure must not make the picture endless.
     const double scale = std::min(picture_width / total, 2. * picture_width / ((in_a_row ? 1 : 2) * height));
     const int panel_height = std::max(1, int(std::lround(height * scale)));
-    for (int i = 0; i < 4; ++i) {
-        Panel& p = panels[size_t(i)];
-        const double left =
-            in_a_row ? (i >= 2 ? 2 * widths[0] : 0) + (i % 2) * widths[i / 2] : (i >= 2 ? widths[0] : 0);
+    double left = 0;
+    for (size_t i = 0; i < panels.size(); ++i) {
+        Panel& p = panels[i];
         const double right = left + widths[i / 2];
         p.x = int(std::lround(left / total * picture_width));
         p.width = int(std::lround(right / total * picture_width)) - p.x;
-        p.y = !in_a_row && i % 2 ? panel_height : 0;
+        p.y = top + (!in_a_row && i % 2 ? panel_height : 0);
         p.height = panel_height;
         p.scale = scale;
+        if (in_a_row || i % 2) left = right;
     }
-    return in_a_row ? panel_height : 2 * panel_height;
+    return top + (in_a_row ? panel_height : 2 * panel_height);
+}
+
+/// Writes each label above the middle of its panel.
+void write_labels(const std::vector<Exhibit>& exhibits, const std::vector<Panel>& panels, int size, Image& image) {
+    for (size_t i = 0; i < exhibits.size(); ++i) {
+        const Panel& p = panels[2 * i];
+        const int left = p.x + (p.width - size * text_width(exhibits[i].label)) / 2;
+        draw_text(exhibits[i].label, left, size * letter_height / 2, size,
+                  [&](int x, int y) { set_pixel(image, x, y, Colour::Zero()); });
+    }
 }
 
 /// Pixels whose rays may hit the figure: those under the bounding boxes of its triangles.
@@ -120,16 +131,23 @@ void trace_panels(const std::vector<Panel>& panels, int samples, Image& image) {
     for (const Panel& panel : panels) trace(panel, places, image);
 }
 
-Image draw_panels(const Figure& source, const View& source_view, const Figure& target,
-                  const View& target_view, const RenderParams& params) {
-    const auto panel = [&](const Figure& figure, const View& view, double turn) {
-        return Panel(figure, moved(view, params.azimuth + turn, params.elevation));
-    };
-    std::vector panels{panel(source, source_view, 0), panel(source, source_view, 180),
-                       panel(target, target_view, 0), panel(target, target_view, 180)};
-    Image image{params.width, lay_out(panels, params.width), {}};
+void set_pixel(Image& image, int x, int y, const Colour& colour) {
+    if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+    for (int k = 0; k < 3; ++k)
+        image.rgb[3 * (size_t(y) * size_t(image.width) + size_t(x)) + size_t(k)] = encode_channel(colour[k]);
+}
+
+Image draw_panels(const std::vector<Exhibit>& exhibits, const RenderParams& params) {
+    std::vector<Panel> panels;
+    for (const Exhibit& e : exhibits)
+        for (const double turn : {0., 180.})
+            panels.emplace_back(*e.figure, moved(e.view, params.azimuth + turn, params.elevation));
+    const bool labelled = std::any_of(exhibits.begin(), exhibits.end(), [](const Exhibit& e) { return !e.label.empty(); });
+    const int letter = std::max(1, params.width / 600), top = labelled ? 2 * letter * letter_height : 0;
+    Image image{params.width, lay_out(panels, params.width, top), {}};
     image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);
     trace_panels(panels, params.samples, image);
+    write_labels(exhibits, panels, letter, image);
     return image;
 }
 

@@ -24,12 +24,21 @@ struct Panel {
 /// White space around every panel's figure, in units of sqrt(area).
 inline constexpr double panel_margin = .12;
 
+/// Does nothing outside the image.
+void set_pixel(Image& image, int x, int y, const Colour& colour);
+
 /// Draws the panels, with that many rays per pixel, into the rectangles they say.
 void trace_panels(const std::vector<Panel>& panels, int samples, Image& image);
 
-/// Lays out and traces both figures, each from its view (moved as the parameters say) and from the opposite
-/// one.
-Image draw_panels(const Figure& source, const View& source_view, const Figure& target,
-                  const View& target_view, const RenderParams& params);
+/// A figure, its view, and what is written above it (nothing, or letters of lettering.h).
+struct Exhibit {
+    const Figure* figure;
+    View view;
+    std::string label;
+};
+
+/// Lays out and traces the figures side by side, each from its view (moved as the parameters say) and from the
+/// opposite one.
+Image draw_panels(const std::vector<Exhibit>& exhibits, const RenderParams& params);
 
 }  // namespace varimap

@@ -12,6 +12,7 @@ struct RenderParams {
     double elevation = 8;
     std::string up = "auto";
     bool flips = false;
+    bool mirror = false;
     double ratio_range = 4;
     double conformal_range = 4;
 
@@ -26,6 +27,7 @@ struct RenderParams {
         list.add("ratio_range", ratio_range, "distortion: end of the scale of mass and area ratios", 1.01, 1e6);
         list.add("conformal_range", conformal_range, "distortion: end of the scale of conformal distortion", 1.01, 1e6);
         list.add("flips", flips, "shows triangles in magenta whose image is reversed");
+        list.add("mirror", mirror, "the map reverses orientation on purpose; flips are triangles where it does not");
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 #include "common/artifact/artifact.h"
@@ -60,7 +61,7 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     const SourceColour colour(there.source, params.checker);
     const ClosestPoint closest(there.source);
     const auto flags = [&](const ChordMesh& chords) {
-        return params.flips ? reversed_faces(chords) : std::vector<bool>(size_t(chords.source.face_count()));
+        return params.flips ? reversed_faces(chords, params.mirror) : std::vector<bool>(size_t(chords.source.face_count()));
     };
     const Figure source_figure(
         there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, flags(there));
@@ -70,7 +71,30 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     const View source_view = natural_view(source, params.up);
     const View target_view =
         matching_view(back.source, back.image.vertices, have_image(target_to_source), source_view);
-    return draw_panels(source_figure, source_view, target_figure, target_view, params);
+    return draw_panels({{&source_figure, source_view, ""}, {&target_figure, target_view, ""}}, params);
+}
+
+Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
+                        const std::vector<PointMap>& target_to_source, const RenderParams& params) {
+    const TriangleMesh at_unit_area = unit_area(source);
+    const SourceColour colour(at_unit_area, params.checker);
+    const ClosestPoint closest(at_unit_area);
+    const auto figure = [](const TriangleMesh& mesh, const Figure::Paint& paint) {
+        return std::make_unique<Figure>(mesh, paint, std::vector<bool>(size_t(mesh.face_count())));
+    };
+    const View source_view = natural_view(source, params.up);
+    std::vector<std::unique_ptr<Figure>> figures;
+    figures.push_back(figure(at_unit_area, [&](const SurfacePoint& p) { return colour(position(at_unit_area, p)); }));
+    std::vector<Exhibit> exhibits{{figures[0].get(), source_view, "source"}};
+    for (const PointMap& map : target_to_source) {
+        require_fit(map, target, source, "a candidate", "target", "source");
+        const auto back = std::make_shared<ChordMesh>(map, target, source);
+        figures.push_back(figure(back->source, [&, back](const SurfacePoint& p) { return carried_colour(*back, closest, colour, p); }));
+        const View view = exhibits.size() > 1 ? exhibits[1].view  // the same for all, for comparison
+                                              : matching_view(back->source, back->image.vertices, have_image(map), source_view);
+        exhibits.push_back({figures.back().get(), view, fmt::format("candidate {}", exhibits.size())});
+    }
+    return draw_panels(exhibits, params);
 }
 
 Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,

@@ -23,6 +23,11 @@ struct Image {
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params);
 
+/// Several maps beside each other, with labels: the source, then the target with the source's colours carried by each
+/// of them, all from the same two views. Throws InputError where a map does not fit the meshes.
+Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
+                        const std::vector<PointMap>& target_to_source, const RenderParams& params);
+
 /// How the map changes areas and angles (the rows of Fig. 15): three columns with the transported mass by the
 /// mass at each vertex, the area ratio of each triangle, and its conformal distortion (quality.h), on the
 /// source under source_to_target above and on the target under target_to_source below; at the bottom the

@@ -34,8 +34,10 @@ void require_fit(const PointMap& map, const std::string& path, const TriangleMes
 }  // namespace
 
 Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
-                          const std::string& map) {
-    const TriangleMesh source = read_surface(source_mesh), target = read_surface(target_mesh);
+                          const std::string& map, bool mirror) {
+    TriangleMesh source = read_surface(source_mesh);
+    if (mirror) source.faces.col(1).swap(source.faces.col(2));
+    const TriangleMesh target = read_surface(target_mesh);
     const PointMap images = read_csv_map(map);
     require_fit(images, map, source, target);
     return verify_map(images, source, target);

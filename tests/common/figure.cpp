@@ -1,21 +1,8 @@
-#include <algorithm>
-#include <cmath>
-
+#include "common/limbs.h"
 #include "common/shapes.h"
 
 namespace varimap::shapes {
 namespace {
-
-/// A capsule that tapers from radius ra at a to rb at b.
-struct Limb {
-    Vec3 a, b;
-    double ra, rb;
-    double distance(const Vec3& p) const {
-        const Vec3 axis = b - a;
-        const double t = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
-        return (p - a - t * axis).norm() - (ra + t * (rb - ra));
-    }
-};
 
 /// x forward, y left, z up.
 const std::vector<Limb> limbs{
@@ -30,20 +17,13 @@ const std::vector<Limb> limbs{
     {{-0.85, -0.22, -0.2}, {-0.8, -0.35, -1.32}, 0.2, 0.12},
     {{-1.2, 0, 0.15}, {-2.1, 0.1, 0.45}, 0.17, 0.13}};  // tail
 
-/// Negative inside; a smooth union of the limbs.
-double figure_function(const Vec3& p) {
-    double sum = 0;
-    for (const Limb& limb : limbs) sum += std::exp(-limb.distance(p) / 0.06);
-    return -0.06 * std::log(std::max(sum, 1e-300));
-}
-
 }  // namespace
 
 TriangleMesh figure(double cell, double shift) {
     const Vec3 offset = shift * cell * Vec3(0.37, 0.71, 0.53);
     const Vec3 low = Vec3(-2.4, -0.85, -1.8) - cell * Vec3::Ones() + offset;
     const Vec3 high = Vec3(2.4, 0.85, 1.75) + cell * Vec3::Ones() + offset;
-    return level_set(figure_function, low, high, cell);
+    return level_set([](const Vec3& p) { return smooth_distance(limbs, p); }, low, high, cell);
 }
 
 Pose figure_pose(double amount) {

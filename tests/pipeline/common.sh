@@ -20,11 +20,11 @@ fail() {
     exit 1
 }
 
-# figure FILE N [TWIST]: a closed surface of 4 N^2 + 2 vertices without symmetry: an ellipsoid with five limbs of
-# different sizes, turned about its long axis by TWIST radians per unit length. Vertex i of every figure of
-# the same N is the same point of the body.
+# figure FILE N [TWIST [LIMBS]]: a closed surface of 4 N^2 + 2 vertices without symmetry: an ellipsoid with five limbs
+# of different sizes (times LIMBS; 0: with none), turned about its long axis by TWIST radians per unit length.
+# Vertex i of every figure of the same N is the same point of the body.
 figure() {
-    awk -v n="$2" -v twist="${3:-0}" '
+    awk -v n="$2" -v twist="${3:-0}" -v limbs="${4:-1}" '
         function vertex(x, y, z,    key) {
             key = x "," y "," z
             if (!(key in index_of)) { index_of[key] = count; X[count] = x; Y[count] = y; Z[count] = z; count++ }
@@ -52,9 +52,10 @@ figure() {
             printf "OFF\n%d %d 0\n", count, face_count
             for (v = 0; v < count; v++) {
                 l = sqrt(X[v] ^ 2 + Y[v] ^ 2 + Z[v] ^ 2); x = X[v] / l; y = Y[v] / l; z = Z[v] / l
-                r = 1 + limb(x, y, z, 1, .2, .9, .9, .1) + limb(x, y, z, -.9, .3, 1, .6, .12) \
+                r = limb(x, y, z, 1, .2, .9, .9, .1) + limb(x, y, z, -.9, .3, 1, .6, .12) \
                     + limb(x, y, z, .9, -.2, -1, .7, .08) + limb(x, y, z, -1, .1, -.8, .8, .1) \
                     + limb(x, y, z, .1, 1, .3, .5, .15)
+                r = 1 + limbs * r
                 x *= .7 * r; y *= .5 * r; z *= 1.3 * r
                 printf "%.17g %.17g %.17g\n", x * cos(twist * z) - y * sin(twist * z), x * sin(twist * z) + y * cos(twist * z), z
             }

@@ -169,7 +169,7 @@ TEST(Diffuse, ContinuesTheCandidateAskedFor) {
     const PairContext context = pair.context();
     const LevelPair coarse = context.diffusion_level(3);
     Candidates candidates{coarse.A.level.samples, coarse.B.level.samples, coarse.A.level.mass, coarse.B.level.mass,
-                          {Candidate{.score = 1}, Candidate{.score = 2}}, {}};
+                          {Candidate{.score = 1}, Candidate{.score = 2}}, {}, {}};
     DiffuseParams params;
     params.levels = 4;
     const SparseMatrix right = diffuse(context, params).plan;

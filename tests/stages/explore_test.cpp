@@ -44,6 +44,7 @@ TEST(Explore, FindsTheMapOfAFigureOntoItsPose) {
     EXPECT_EQ(found.list[0].moved_mass, 0);
     EXPECT_GT(found.list[1].moved_mass, .02);
     EXPECT_GT(found.list[1].score, found.list[0].score);
+    EXPECT_TRUE(found.previews.empty());  // sure
 }
 
 TEST(Explore, MapsOppositeHandednessOnlyWhenMirrored) {
@@ -72,6 +73,22 @@ TEST(Explore, SumsPlansOverTheCellsOfACoarseLevel) {
     EXPECT_GE(found.samples_A.size(), 20u);
     EXPECT_LT(found.samples_A.size(), 100u);
     for (const SparseMatrix& plan : found.plans) EXPECT_NEAR(plan.sum(), 1, .05);
+}
+
+TEST(Explore, PreviewsMapsWhereItIsNotSure) {
+    // Symmetry leaves four maps of an ellipsoid, which keep or reverse coordinates.
+    const TriangleMesh mesh = shapes::ellipsoid(3, {1, .7, .5});
+    TriangleMesh other = shapes::moved(shapes::ellipsoid(3), 1, 1, Vec3::Zero());  // tessellated otherwise
+    other.vertices *= Vec3(1, .7, .5).asDiagonal();
+    const Candidates found = explore(shapes::known_pair(mesh, other, {}, 60, {}).context());
+    ASSERT_EQ(found.previews.size(), std::min(found.list.size(), size_t(3)));
+    for (const PointMap& map : found.previews) {
+        ASSERT_EQ(int(map.size()), other.vertex_count());
+        double sum = 0;
+        for (int v = 0; v < other.vertex_count(); ++v)
+            sum += (position(mesh, map[size_t(v)]).cwiseAbs() - other.vertex(v).cwiseAbs()).norm();
+        EXPECT_LT(sum / other.vertex_count(), .2);  // a vertex's distance from the next is .1
+    }
 }
 
 TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
@@ -134,6 +151,8 @@ TEST(Confidence, NeedsAMarginAndLevelsThatAgree) {
     other.score = .005;
     EXPECT_FALSE(confidence_of({best, other}).confident);
     other.reversed_mass = .9;  // a mirrored map is no rival
+    EXPECT_TRUE(confidence_of({best, other}).confident);
+    other = {.diffusion_energy = .9, .euclidean_energy = 2, .score = .001, .moved_mass = .03};  // nor is the same map
     EXPECT_TRUE(confidence_of({best, other}).confident);
     other = {.diffusion_energy = .9, .euclidean_energy = 2, .score = .02};
     EXPECT_FALSE(confidence_of({best, other}).confident);

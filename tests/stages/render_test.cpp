@@ -120,6 +120,30 @@ TEST_F(Render, ShowsWhatHasNoImageInGrey) {
     EXPECT_NE(p, white);
 }
 
+TEST_F(Render, ShowsCandidatesBesideEachOther) {
+    PointMap other = map_;
+    std::reverse(other.begin(), other.end());
+    const Image image = render_candidates(mesh_, mesh_, {map_, other}, small());
+    const int column = image.width / 3, strip = 2 * 7;  // the labels' height
+    const auto difference = [&](int first, int second) {
+        int count = 0;
+        for (int y = strip; y < image.height; ++y)
+            for (int x = 0; x < column; ++x) {
+                const Pixel p = pixel(image, first * column + x, y), q = pixel(image, second * column + x, y);
+                for (int k = 0; k < 3; ++k) count += std::abs(p[k] - q[k]) > 40;
+            }
+        return count;
+    };
+    EXPECT_GT(difference(1, 2), 5 * difference(0, 1));
+    for (int panel : {0, 1, 2}) {
+        int black = 0;
+        for (int y = 0; y < strip; ++y)
+            for (int x = 0; x < column; ++x) black += pixel(image, panel * column + x, y) == Pixel{0, 0, 0};
+        EXPECT_GT(black, 50) << panel;
+    }
+    EXPECT_THROW(render_candidates(mesh_, mesh_, {PointMap(3)}, small()), InputError);
+}
+
 TEST_F(Render, MarksReversedTrianglesOnDemand) {
     PointMap back = map_;  // the target's middle rings exchange their images
     for (int j = 0; j < 30; ++j) std::swap(back[size_t(9 * 30 + j)], back[size_t(10 * 30 + j)]);
@@ -135,6 +159,21 @@ TEST_F(Render, MarksReversedTrianglesOnDemand) {
     };
     EXPECT_EQ(marked(map_), 0);
     EXPECT_GT(marked(back), 100);
+}
+
+TEST_F(Render, MarksTrianglesThatKeepOrientationOfAMirror) {
+    TriangleMesh left = mesh_;  // the outside stays outside
+    left.vertices.col(2) *= -1;
+    left.faces.col(1).swap(left.faces.col(2));
+    PointMap map = map_;
+    for (SurfacePoint& point : map) std::swap(point.barycentric[1], point.barycentric[2]);
+    const auto with_flips = [&](bool flips, bool mirror) {
+        RenderParams params = small();
+        params.flips = flips, params.mirror = mirror;
+        return render(mesh_, left, map, map_, params).rgb;
+    };
+    EXPECT_EQ(with_flips(true, true), with_flips(false, true));
+    EXPECT_NE(with_flips(true, false), with_flips(false, false));
 }
 
 /// Red minus blue of the pixel in the middle of one of three columns, on the source (row 0) or the target

@@ -48,6 +48,19 @@ TEST_F(Verify, JudgesFiles) {
     EXPECT_EQ(found.degree.value(), 1);
 }
 
+TEST_F(Verify, ExpectsReversedTrianglesOfAMirror) {
+    TriangleMesh left = sphere_;  // z to -z, with the outside kept outside
+    left.vertices.col(2) *= -1;
+    left.faces.col(1).swap(left.faces.col(2));
+    PointMap map = identity_;
+    for (SurfacePoint& point : map) std::swap(point.barycentric[1], point.barycentric[2]);
+    const std::string right = write_mesh("a.ply", sphere_), other = write_mesh("b.ply", left);
+    const Verification mirrored = verify_files(right, other, write_map(map), true);
+    EXPECT_TRUE(mirrored.reversed_faces.empty());
+    EXPECT_EQ(mirrored.degree.value(), 1);
+    EXPECT_EQ(int(verify_files(right, other, write_map(map)).reversed_faces.size()), sphere_.face_count());
+}
+
 TEST_F(Verify, RefusesAMapOfAnotherSource) {
     const std::string a = write_mesh("a.ply", sphere_), b = write_mesh("b.ply", shapes::ellipsoid(1));
     EXPECT_THAT(refusal(b, a, write_map(identity_)),

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Where symmetry leaves several maps, the run says so and shows them; once landmarks decide, the picture goes.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+figure a.off 9 0 0
+figure b.off 10 0 0
+map a.off b.off -o out
+grep -q 'explore. warning: .*candidates.png' log || fail "no warning names the picture"
+grep -q 'not sure: look at out/candidates.png' out.txt || fail "the summary does not name the picture"
+[[ $(head -c 4 out/candidates.png | tail -c 3) == PNG ]] || fail "no picture of the candidates"
+jq -e '.exploration | .confident == false and .margin < .015' out/quality.json >/dev/null || fail "sure of a symmetric shape"
+
+# The long axis runs up to 1.3, the next one to 0.7.
+tips() {
+    awk 'NR > 2 && NF == 3 { if ($3 > 1.29) up = NR - 3; if ($3 < -1.29) down = NR - 3; if ($1 > .69) side = NR - 3 }
+        END { print up; print down; print side }' "$1"
+}
+paste <(tips a.off) <(tips b.off) >tips.txt
+map a.off b.off -o out --landmarks tips.txt
+[[ ! -e out/candidates.png ]] || fail "the candidates of an earlier run are still shown"

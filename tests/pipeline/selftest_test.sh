@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Two of the generated shapes, one of genus 1, onto bent copies of themselves without landmarks.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+selftest=$VARIMAP_SOURCE/pipelines/selftest
+"$selftest" -o out --first 2 --count 2 "${small_picture[@]}" >out.txt 2>log || fail "selftest (exit $?)"
+cat out.txt
+[[ $(tail -n 1 out.txt) == '2 of 2 right;'* ]] || fail "the summary"
+[[ $(awk -F, 'NR > 1 { print $1, $2, $7 }' out/selftest.csv) == $'2 ring right\n3 animal right' ]] || fail "selftest.csv"
+
+# A map that reverses orientation is called wrong.
+code=0
+"$selftest" -o out --first 3 --count 1 "${small_picture[@]}" --mirror >out.txt 2>log || code=$?
+((code == 1)) || fail "exit $code for a wrong map"
+grep -Eq ' (wrong|mirrored)$' out.txt || fail "no row says that the map is wrong"
+expect_exit 2 "$selftest" --count x
