@@ -11,7 +11,7 @@ namespace varimap {
 
 namespace {
 
-constexpr double largest_feature = 2.5;
+constexpr double largest_feature = 2.5;  ///< in standard deviations
 
 Points outward_normals(const Surface& surface) {
     const Points normals = vertex_normals(surface.mesh);
@@ -30,8 +30,12 @@ Eigen::VectorXd compressed(const Eigen::VectorXd& height) {
     return (height / std::max(median(height.cwiseAbs()), flat)).array().asinh();
 }
 
-Eigen::VectorXd centred(const Eigen::VectorXd& feature, const Eigen::VectorXd& mass) {
-    return (feature.array() - mass.dot(feature)).max(-largest_feature).min(largest_feature);
+/// Of mean 0 and variance 1, without outliers; what hardly varies stays small, for it may be noise.
+Eigen::VectorXd standardised(const Eigen::VectorXd& feature, const Eigen::VectorXd& mass) {
+    constexpr double least_deviation = 0.2;
+    const Eigen::ArrayXd centred = feature.array() - mass.dot(feature);
+    const double deviation = std::sqrt(mass.dot(centred.square().matrix()));
+    return (centred / std::max(deviation, least_deviation)).max(-largest_feature).min(largest_feature);
 }
 
 /// The inward normal and three directions around it.
@@ -78,9 +82,9 @@ RowMatrix local_shape(const SurfaceData& data) {
     const double t0 = coarsest_time(data.basis);
     const Eigen::VectorXd& mass = data.surface.mass;
     RowMatrix features(mass.size(), 3);
-    features.col(0) = centred(compressed(bending(data, t0 / 8)), mass);
-    features.col(1) = centred(compressed(bending(data, t0 / 32)), mass);
-    features.col(2) = centred(2 * thickness(data.surface).array().log(), mass);
+    features.col(0) = standardised(compressed(bending(data, t0 / 8)), mass);
+    features.col(1) = standardised(compressed(bending(data, t0 / 32)), mass);
+    features.col(2) = standardised(thickness(data.surface).array().log(), mass);
     return features / std::sqrt(3.0);
 }
 

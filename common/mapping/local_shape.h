@@ -16,7 +16,7 @@ Eigen::VectorXd bending(const SurfaceData& data, double time);
 Eigen::VectorXd thickness(const Surface& surface);
 
 /// vertices x F features that tell parts of a surface apart by their shape, not by where they are: bending at
-/// two times and thickness, compressed, of mean 0. Of order 1 on animals and people, near 0 on a sphere. They were
+/// two times and thickness, compressed, of mean 0 and together of variance 1; near 0 where all places are alike. They were
 /// chosen because between shapes of different proportions true correspondences agree in them better than maps of
 /// least energy do. For heat kernels, whose low frequencies feel proportions just as the energy does, the opposite holds.
 RowMatrix local_shape(const SurfaceData& data);
