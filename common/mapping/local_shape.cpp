@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/mapping/map_degree.h"
 #include "common/mesh/ray_mesh.h"
 #include "common/stage/parallel.h"
 
@@ -13,9 +14,18 @@ namespace {
 
 constexpr double largest_feature = 2.5;  ///< in standard deviations
 
+/// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that of the file.
+bool looks_inward(const Surface& surface) {
+    if (!is_closed(surface.mesh)) return surface.mirrored;
+    double volume = 0;
+    for (int f = 0; f < surface.mesh.face_count(); ++f)
+        volume += surface.mesh.vertex(surface.mesh.faces(f, 0)).dot(face_normal(surface.mesh, f));
+    return volume < 0;
+}
+
 Points outward_normals(const Surface& surface) {
     const Points normals = vertex_normals(surface.mesh);
-    return surface.mirrored ? Points(-normals) : normals;
+    return looks_inward(surface) ? Points(-normals) : normals;
 }
 
 double median(Eigen::VectorXd values) {

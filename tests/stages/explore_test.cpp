@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/known_pair.h"
+#include "common/mapping/local_shape.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/bending_agreement.h"
 #include "stages/explore/params.h"
