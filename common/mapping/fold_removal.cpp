@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/mapping/local_relaxation.h"
 
@@ -60,16 +61,38 @@ struct PatchState {
     int folded = 0;
 };
 
-PatchState measure(const MovingMap& map, const std::vector<int>& faces, const FoldEnergy& energy) {
-    PatchState state;
-    for (const int f : faces) {
-        const Chord chord = map.chord(f);
-        state.energy += map.rest(f).area * energy.value(chord.q, chord.D);
-        state.worst = std::min(state.worst, chord.D);
-        state.folded += chord.D <= FoldRemoval::flat_limit;
+/// The faces of a patch, as last looked at.
+class PatchFaces {
+  public:
+    PatchFaces(const MovingMap& map, std::vector<int> faces)
+        : map_(map), faces_(std::move(faces)), shape_(faces_.size()) {}
+
+    PatchState look(const FoldEnergy& energy) {
+        PatchState state;
+        for (std::size_t i = 0; i < faces_.size(); ++i) {
+            const Chord chord = map_.chord(faces_[i]);
+            shape_[i] = {chord.q, chord.D};
+            state.worst = std::min(state.worst, chord.D);
+            state.folded += chord.D <= FoldRemoval::flat_limit;
+        }
+        state.energy = energy_as_seen(energy);
+        return state;
     }
-    return state;
-}
+    double energy_as_seen(const FoldEnergy& energy) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < faces_.size(); ++i)
+            sum += map_.rest(faces_[i]).area * energy.value(shape_[i].q, shape_[i].D);
+        return sum;
+    }
+
+  private:
+    struct Shape {
+        double q, D;
+    };
+    const MovingMap& map_;
+    std::vector<int> faces_;
+    std::vector<Shape> shape_;
+};
 
 /// The schedule of foldover-free maps: e falls with the energy's progress, never faster than the worst face
 /// allows.
@@ -86,15 +109,15 @@ void lower_regularisation(FoldEnergy& energy, double before, const PatchState& n
 /// Sweeps one patch until nothing in it is folded; returns the number of sweeps.
 int unfold_patch(MovingMap& map, LocalRelaxation& relax, std::vector<int> patch, double weight,
                  int most_sweeps) {
-    const std::vector<int> faces = faces_of(map, patch);
+    PatchFaces faces(map, faces_of(map, patch));
     FoldEnergy energy{weight, 1};
-    PatchState best = measure(map, faces, energy);
+    PatchState best = faces.look(energy);
     int sweeps = 0, idle = 0, clean = 0;
     while (sweeps < most_sweeps && idle < patience && clean < polishing) {
-        const double before = measure(map, faces, energy).energy;
+        const double before = faces.energy_as_seen(energy);
         relax.sweep(patch, energy, sweeps % leap_period == leap_period - 1);
         ++sweeps;
-        const PatchState now = measure(map, faces, energy);
+        const PatchState now = faces.look(energy);
         const bool better = now.folded < best.folded || (now.folded == best.folded && now.worst > best.worst);
         idle = better ? 0 : idle + 1;
         clean = now.folded == 0 ? clean + 1 : 0;

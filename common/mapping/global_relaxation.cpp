@@ -1,15 +1,14 @@
 #include "common/mapping/global_relaxation.h"
 
-#include <Eigen/SparseCholesky>
-#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "common/mapping/triangle_system.h"
 
 namespace varimap {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
 using Frame = Eigen::Matrix<double, 3, 2>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -69,33 +68,42 @@ FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, i
 struct GlobalRelaxation::State {
     MovingMap& map;
     const FeatureAgreement* features;
+    const std::vector<Attachment>* attachments = nullptr;
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
-    std::vector<int> faces;  ///< mapped ones with a free corner
-    Sparse matrix;  ///< lower triangle
-    /// Per face and pair of corners (k, l) with unknown k >= unknown l: where the block's two columns start.
-    std::vector<std::array<int, 18>> slot;
-    Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver;
+    std::vector<int> faces;                  ///< mapped ones with a free corner
+    std::vector<int> place_of;               ///< per face: its place among `faces`, or -1
+    std::unique_ptr<TriangleSystem> system;  ///< its nodes are the free vertices, its triangles the faces
     std::vector<Frame> frames;
     Eigen::VectorXd gradient;
+    PointMap start;           ///< images of the free vertices before a step
+    std::vector<Vec3> steps;  ///< of the free vertices
 
     State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f);
-    void build_pattern();
-    int find(int row, int column) const;
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
-    void add(int f, const FaceSystem& system, double weight);
     void add_features();
-    void walk(const PointMap& start, const Eigen::VectorXd& direction, double share);
+    void add(int i, const FaceSystem& face, double weight);
+    void add_attachments();
+    PointMap images() const;
+    void place(const PointMap& images);
+    void set_steps(const Eigen::VectorXd& direction);
+    void walk(double share);
     double total(const FoldEnergy& energy, const RobustExcess& robust) const;
 };
 
 GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f)
-    : map(m), features(f), unknown(fixed.size(), -1), frames(fixed.size(), Frame::Zero()) {
+    : map(m),
+      features(f),
+      unknown(fixed.size(), -1),
+      place_of(std::size_t(m.source().face_count()), -1),
+      frames(fixed.size(), Frame::Zero()) {
     std::vector<char> used(fixed.size(), 0);
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto c = map.source().faces.row(f);
-        const bool movable = !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
+        const bool movable =
+            !fixed[std::size_t(c[0])] || !fixed[std::size_t(c[1])] || !fixed[std::size_t(c[2])];
         if (!movable || !map.is_mapped(f)) continue;
+        place_of[std::size_t(f)] = int(faces.size());
         faces.push_back(f);
         for (int k = 0; k < 3; ++k) used[std::size_t(c[k])] = 1;
     }
@@ -104,85 +112,50 @@ GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, con
         unknown[v] = int(free.size());
         free.push_back(int(v));
     }
-    build_pattern();
-}
-
-void GlobalRelaxation::State::build_pattern() {
-    std::vector<Eigen::Triplet<double>> entries;
-    const int n = 2 * int(free.size());
-    const auto each_block = [&](const auto& body) {
-        for (const int f : faces)
-            for (int k = 0; k < 3; ++k)
-                for (int l = 0; l < 3; ++l) {
-                    const int row = unknown[std::size_t(map.source().faces(f, k))];
-                    const int column = unknown[std::size_t(map.source().faces(f, l))];
-                    if (column >= 0 && row >= column) body(f, k, l, row, column);
-                }
-    };
-    each_block([&](int, int, int, int row, int column) {
-        for (int a = 0; a < 2; ++a)
-            for (int b = 0; b < 2; ++b)
-                if (row > column || a >= b) entries.emplace_back(2 * row + a, 2 * column + b, 0.0);
-    });
-    matrix.resize(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    slot.resize(std::size_t(map.source().face_count()));
-    each_block([&](int f, int k, int l, int row, int column) {
-        auto* slots = slot[std::size_t(f)].data() + 6 * k + 2 * l;
-        slots[0] = find(2 * row, 2 * column);
-        slots[1] = find(2 * row + (row == column), 2 * column + 1);
-    });
-    solver.analyzePattern(matrix);
-}
-
-int GlobalRelaxation::State::find(int row, int column) const {
-    const int* begin = matrix.innerIndexPtr();
-    return int(std::lower_bound(begin + matrix.outerIndexPtr()[column],
-                                begin + matrix.outerIndexPtr()[column + 1], row) -
-               begin);
+    std::vector<std::array<int, 3>> triangles;
+    for (const int f : faces) {
+        const auto c = map.source().faces.row(f);
+        triangles.push_back(
+            {unknown[std::size_t(c[0])], unknown[std::size_t(c[1])], unknown[std::size_t(c[2])]});
+    }
+    system = std::make_unique<TriangleSystem>(int(free.size()), triangles);
 }
 
 void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExcess& robust) {
     for (const int v : free) frames[std::size_t(v)] = map.tangents(v);
-    Eigen::Map<Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).setZero();
-    gradient = Eigen::VectorXd::Zero(matrix.rows());
-    for (const int f : faces) {
-        const FaceSystem system = face_system(map, frames, f, energy);
-        add(f, system, robust.slope(system.value));
+    system->clear();
+    gradient = Eigen::VectorXd::Zero(2 * Eigen::Index(free.size()));
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const FaceSystem face = face_system(map, frames, faces[i], energy);
+        add(int(i), face, robust.slope(face.value));
     }
     if (features) add_features();
-    for (int i = 0; i < matrix.rows(); ++i) matrix.valuePtr()[matrix.outerIndexPtr()[i]] *= 1 + 1e-8;
+    if (attachments) add_attachments();
+    system->scale_diagonal(1 + 1e-8);
 }
 
-void GlobalRelaxation::State::add(int f, const FaceSystem& system, double weight) {
-    const auto corners = map.source().faces.row(f);
-    for (int k = 0; k < 3; ++k) {
-        const int row = unknown[std::size_t(corners[k])];
-        if (row < 0) continue;
-        gradient.segment<2>(2 * row) += weight * system.gradient.segment<2>(2 * k);
-        for (int l = 0; l < 3; ++l) {
-            const int column = unknown[std::size_t(corners[l])];
-            if (column < 0 || row < column) continue;
-            const int* slots = slot[std::size_t(f)].data() + 6 * k + 2 * l;
-            double* values = matrix.valuePtr();
-            const bool diagonal = row == column;
-            values[slots[0]] += weight * system.hessian(2 * k, 2 * l);
-            values[slots[0] + 1] += weight * system.hessian(2 * k + 1, 2 * l);
-            if (!diagonal) values[slots[1]] += weight * system.hessian(2 * k, 2 * l + 1);
-            values[slots[1] + !diagonal] += weight * system.hessian(2 * k + 1, 2 * l + 1);
-        }
-    }
+/// Adds to what belongs to faces[i].
+void GlobalRelaxation::State::add(int i, const FaceSystem& face, double weight) {
+    system->add(i, face.hessian, weight);
+    for (int k = 0; k < 3; ++k)
+        if (const int row = unknown[std::size_t(map.source().faces(faces[std::size_t(i)], k))]; row >= 0)
+            gradient.segment<2>(2 * row) += weight * face.gradient.segment<2>(2 * k);
 }
 
 void GlobalRelaxation::State::add_features() {
     for (std::size_t i = 0; i < free.size(); ++i) {
-        const auto system = features->derivatives(free[i], frames[std::size_t(free[i])]);
-        gradient.segment<2>(2 * int(i)) += system.gradient;
-        // The lower triangle's columns start with the block on the diagonal.
-        const int* start = matrix.outerIndexPtr() + 2 * i;
-        matrix.valuePtr()[start[0]] += system.hessian(0, 0);
-        matrix.valuePtr()[start[0] + 1] += system.hessian(1, 0);
-        matrix.valuePtr()[start[1]] += system.hessian(1, 1);
+        const auto data = features->derivatives(free[i], frames[std::size_t(free[i])]);
+        gradient.segment<2>(2 * Eigen::Index(i)) += data.gradient;
+        system->add(int(i), data.hessian);
+    }
+}
+
+void GlobalRelaxation::State::add_attachments() {
+    for (const Attachment& attachment : *attachments) {
+        const int i = place_of[std::size_t(attachment.from.face)];
+        if (i < 0) continue;
+        const auto [gradient, hessian] = derivatives(attachment, map, frames);
+        add(i, {0, gradient, hessian}, 1);
     }
 }
 
@@ -194,18 +167,35 @@ double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExce
     }
     if (features)
         for (const int v : free) sum += features->value(v);
+    if (attachments)
+        for (const Attachment& attachment : *attachments)
+            if (place_of[std::size_t(attachment.from.face)] >= 0) sum += varimap::value(attachment, map);
     return sum;
 }
 
-/// Moves all free vertices from `start` by that share of their step.
-void GlobalRelaxation::State::walk(const PointMap& start, const Eigen::VectorXd& direction, double share) {
-    for (const int v : free) {
-        Vec3 step = frames[std::size_t(v)] * direction.segment<2>(2 * unknown[std::size_t(v)]);
-        const double length = step.norm();
-        if (length > longest_step) step *= longest_step / length;
-        map.place(v, start[std::size_t(v)]);
-        map.move(v, share * step);
+PointMap GlobalRelaxation::State::images() const {
+    PointMap points(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) points[i] = map.points()[std::size_t(free[i])];
+    return points;
+}
+
+void GlobalRelaxation::State::place(const PointMap& images) {
+    for (std::size_t i = 0; i < free.size(); ++i) map.place(free[i], images[i]);
+}
+
+void GlobalRelaxation::State::set_steps(const Eigen::VectorXd& direction) {
+    start = images();
+    steps.resize(free.size());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        steps[i] = frames[std::size_t(free[i])] * direction.segment<2>(2 * Eigen::Index(i));
+        const double length = steps[i].norm();
+        if (length > longest_step) steps[i] *= longest_step / length;
     }
+}
+
+/// Moves all free vertices from the start by that share of their step.
+void GlobalRelaxation::State::walk(double share) {
+    for (std::size_t i = 0; i < free.size(); ++i) map.place(free[i], map.walk(start[i], share * steps[i]));
 }
 
 GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
@@ -213,28 +203,35 @@ GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixe
     : state_(std::make_unique<State>(map, fixed, features)) {}
 GlobalRelaxation::~GlobalRelaxation() = default;
 
+void GlobalRelaxation::attach(const std::vector<Attachment>& attachments) {
+    state_->attachments = &attachments;
+}
+
 double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     State& s = *state_;
     const RobustExcess robust(energy, robustness);
     s.assemble(energy, robust);
-    s.solver.factorize(s.matrix);
-    if (s.solver.info() != Eigen::Success) return 0;
-    const Eigen::VectorXd direction = -s.solver.solve(s.gradient);
+    if (!s.system->factorize()) return 0;
+    const Eigen::VectorXd direction = -s.system->solve(s.gradient);
     if (!direction.allFinite()) return 0;
-    const PointMap start = s.map.points();
+    s.set_steps(direction);
     const double before = s.total(energy, robust);
     // Curved targets make full steps overshoot: the share is halved for as long as that helps.
-    double best = before, best_share = 0;
+    double best = before;
+    PointMap best_images;
     for (double share = 1; share >= least_share; share /= 2) {
-        s.walk(start, direction, share);
+        s.walk(share);
         const double after = s.total(energy, robust);
-        if (after >= best && best_share > 0) break;
+        if (after >= best && !best_images.empty()) break;
         if (after < best) {
             best = after;
-            best_share = share;
+            best_images = s.images();
         }
     }
-    s.walk(start, direction, best_share);
+    if (best_images.empty())
+        s.walk(0);
+    else
+        s.place(best_images);
     return before > 0 ? 1 - best / before : 0;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/mapping/attachments.h"
 #include "common/mapping/feature_agreement.h"
 #include "common/mapping/moving_map.h"
 
@@ -19,10 +20,14 @@ class GlobalRelaxation {
                      const FeatureAgreement* features = nullptr);
     ~GlobalRelaxation();
 
+    /// The attachments whose energy is added from now on; keeps a reference.
+    void attach(const std::vector<Attachment>& attachments);
+
     /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
     /// stays as it is.
     /// Robust: what is summed is area * r log(1 + x / r) with the excess x of a face's energy (per area) over
-    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; r = 0: area * x.
+    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; r = 0: area *
+    /// x.
     double step(const FoldEnergy& energy, double robustness);
 
   private:

@@ -87,7 +87,7 @@ Centres Ironing::reflected_centres(const PairOrientation& orientation, const Cen
     }
     reflected.row = pair_.A.side.averaging * reflected.row;
     reflected.column = pair_.B.side.averaging * reflected.column;
-    pin_landmarks(pair_.A.side, pair_.B.side, reflected);
+    pull_landmarks(pair_.A.side, pair_.B.side, reflected);
     return reflected;
 }
 
@@ -160,7 +160,7 @@ void Ironing::reanchor(AlternatingMinimization& minimization, const std::functio
             kept[images[n]].push_back(part.samples[n]);
         }
     }
-    pin_landmarks(pair_.A.side, pair_.B.side, centres);
+    pull_landmarks(pair_.A.side, pair_.B.side, centres);
 
     AlternatingMinimization trial(pair_.A.side, pair_.B.side, minimization.options());
     trial.start(centres, kept);

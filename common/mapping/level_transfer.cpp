@@ -38,7 +38,8 @@ LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::Vec
     return {std::move(level), std::move(vertex_points), vertex_mass, std::move(side)};
 }
 
-void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks) {
+void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks, double weight) {
+    pair.A.side.landmark_weight = pair.B.side.landmark_weight = weight;
     for (const auto& [a, b] : landmarks) {
         const int i = pair.A.level.cell[a], j = pair.B.level.cell[b];
         pair.A.side.partner[i] = j;
@@ -49,7 +50,7 @@ void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& land
 Start zero_start(const LevelPair& pair) {
     const RowMatrix &a = pair.A.side.points, &b = pair.B.side.points;
     Start start{{RowMatrix::Zero(a.rows(), b.cols()), RowMatrix::Zero(b.rows(), a.cols())}, {}};
-    pin_landmarks(pair.A.side, pair.B.side, start.centres);
+    pull_landmarks(pair.A.side, pair.B.side, start.centres);
     return start;
 }
 
@@ -66,7 +67,7 @@ Start LevelSwitch::hand_down(const Coupling& coarse_plan, double support_thresho
     Start start;
     start.centres.row = fine_.A.side.averaging * rows_of(row_barycentres(coarse_plan, means_B_), parent_A_);
     start.centres.column = fine_.B.side.averaging * rows_of(column_barycentres(coarse_plan, means_A_), parent_B_);
-    pin_landmarks(fine_.A.side, fine_.B.side, start.centres);
+    pull_landmarks(fine_.A.side, fine_.B.side, start.centres);
     start.kept = inherited(significant_entries(coarse_plan, coarse_mass_A_, coarse_mass_B_, support_threshold),
                            parent_A_, parent_B_);
     return start;

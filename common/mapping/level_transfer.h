@@ -24,8 +24,8 @@ struct LevelPair {
 /// Builds a side from a level, the embedding of all vertices and their masses.
 LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::VectorXd& vertex_mass);
 
-/// Pins landmarks (pairs of mesh vertices, samples of both levels) to each other.
-void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks);
+/// Makes landmarks (pairs of mesh vertices, samples of both levels) pull at each other with this weight (cost.h).
+void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks, double weight);
 
 /// Where a level starts: centres, and the kept entries of the plan before it.
 struct Start {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace varimap {
@@ -14,7 +15,7 @@ constexpr double longest_step = 2;  ///< of a Newton step, in lengths of the ver
 
 /// Gradient, Hessian and value of the energy of the faces around one vertex, in its tangent plane.
 struct Quadratic {
-    double value = 0, reach = 0;  ///< reach: longest source edge
+    double value = 0, squared_reach = 0;  ///< reach: longest source edge
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
@@ -36,8 +37,8 @@ void add_face(Quadratic& sum, const MovingMap& map, const Eigen::Matrix<double, 
         rest.area * (d.f_qD * (q * D.transpose() + D * q.transpose()) + d.f_DD * D * D.transpose());
     sum.hessian.diagonal().array() += d.f_q * (cj + ck);
     const Vec3 here = map.source().vertex(v);
-    sum.reach = std::max({sum.reach, (map.source().vertex(corners[j]) - here).norm(),
-                          (map.source().vertex(corners[k]) - here).norm()});
+    sum.squared_reach = std::max({sum.squared_reach, (map.source().vertex(corners[j]) - here).squaredNorm(),
+                                  (map.source().vertex(corners[k]) - here).squaredNorm()});
 }
 
 /// Newton's direction with the Hessian's eigenvalues made positive.
@@ -71,9 +72,10 @@ void LocalRelaxation::shuffle(std::vector<int>& vertices) {
     }
 }
 
-double LocalRelaxation::star_energy(int v, const FoldEnergy& energy) const {
+double LocalRelaxation::star_energy(int v, const FoldEnergy& energy, double limit) const {
     double sum = 0;
     for (const int f : map_.faces_of_vertex()[v]) {
+        if (sum >= limit) break;
         if (!map_.is_mapped(f)) continue;
         const Chord chord = map_.chord(f);
         sum += map_.rest(f).area * energy.value(chord.q, chord.D);
@@ -90,7 +92,7 @@ bool LocalRelaxation::has_reversed_face(int v) const {
 bool LocalRelaxation::try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy) {
     const SurfacePoint old = map_.points()[std::size_t(v)];
     map_.move(v, step);
-    if (star_energy(v, energy) < before) return true;
+    if (star_energy(v, energy, before) < before) return true;
     map_.place(v, old);
     return false;
 }
@@ -101,7 +103,7 @@ void LocalRelaxation::newton_step(int v, const FoldEnergy& energy) {
     for (const int f : map_.faces_of_vertex()[v])
         if (map_.is_mapped(f)) add_face(quadratic, map_, frame, f, v, energy);
     Vec3 step = frame * descent(quadratic);
-    const double length = step.norm(), limit = longest_step * quadratic.reach;
+    const double length = step.norm(), limit = longest_step * std::sqrt(quadratic.squared_reach);
     if (!(length > 1e-12)) return;
     if (length > limit) step *= limit / length;
     for (int i = 0; i <= backtracks; ++i, step /= 2)
@@ -120,7 +122,7 @@ void LocalRelaxation::leap_to_mean(int v, const FoldEnergy& energy) {
         }
     if (count == 0) return;
     const Vec3 step = mean / count - map_.image(v);
-    const double before = star_energy(v, energy);
+    const double before = star_energy(v, energy, std::numeric_limits<double>::infinity());
     for (const double share : {1.0, 0.5, 0.25, 2.0})
         if (try_walk(v, share * step, before, energy)) return;
 }

@@ -24,7 +24,8 @@ class LocalRelaxation {
     void newton_step(int v, const FoldEnergy& energy);
     void leap_to_mean(int v, const FoldEnergy& energy);
     bool try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy);
-    double star_energy(int v, const FoldEnergy& energy) const;
+    /// Of the faces around a vertex; some number from `limit` on if that is reached.
+    double star_energy(int v, const FoldEnergy& energy, double limit) const;
     bool has_reversed_face(int v) const;
 
     MovingMap& map_;

@@ -40,8 +40,9 @@ bool NormalAgreement::disagrees(int f) const {
     const auto c = map_.source().faces.row(f);
     const Vec3 &x = map_.image(c[0]), &y = map_.image(c[1]), &z = map_.image(c[2]);
     Vec3 below = Vec3::Zero();
+    int face = -1;
     for (const Vec3& b : inner_points) {
-        const int face = closest_(b[0] * x + b[1] * y + b[2] * z).point.face;
+        face = closest_(b[0] * x + b[1] * y + b[2] * z, face).point.face;
         below += face_normal(map_.target(), face).normalized();
     }
     return !((y - x).cross(z - x).dot(below) > 0);

@@ -67,14 +67,16 @@ LevelSide diffusion_side(const SurfaceData& data, const GeodesicGraph& graph, in
 
 }  // namespace
 
-PairContext::PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks)
+PairContext::PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks,
+                         double landmark_weight)
     : A_(std::move(A)),
       B_(std::move(B)),
       graph_A_(A_.surface.mesh),
       graph_B_(B_.surface.mesh),
       sample_graph_A_(sample_graph(last_diffusion_level(A_.hierarchy), graph_A_)),
       sample_graph_B_(sample_graph(last_diffusion_level(B_.hierarchy), graph_B_)),
-      landmarks_(std::move(landmarks)) {
+      landmarks_(std::move(landmarks)),
+      landmark_weight_(landmark_weight) {
     for (const auto& [a, b] : landmarks_) {
         landmarks_A_.push_back(a);
         landmarks_B_.push_back(b);
@@ -87,7 +89,7 @@ int PairContext::diffusion_levels() const {
 
 LevelPair PairContext::diffusion_level(int index) const {
     LevelPair pair{diffusion_side(A_, graph_A_, index, landmarks_A_), diffusion_side(B_, graph_B_, index, landmarks_B_)};
-    set_landmarks(pair, landmarks_);
+    set_landmarks(pair, landmarks_, landmark_weight_);
     return pair;
 }
 
@@ -114,7 +116,7 @@ LevelSide PairContext::euclidean_side(const SurfaceData& data, const GeodesicGra
 LevelPair PairContext::euclidean_level(int index, double mu) const {
     LevelPair pair{euclidean_side(A_, graph_A_, index, mu, landmarks_A_),
                    euclidean_side(B_, graph_B_, index, mu, landmarks_B_)};
-    set_landmarks(pair, landmarks_);
+    set_landmarks(pair, landmarks_, landmark_weight_);
     return pair;
 }
 

@@ -15,10 +15,11 @@ struct SurfaceData {
     Hierarchy hierarchy;
 };
 
-/// Two surfaces with their landmarks: builds the level pairs that the solving stages work on.
+/// Two surfaces with their landmarks and these' weight (cost.h): builds the level pairs that the solving stages work
+/// on.
 class PairContext {
   public:
-    PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks);
+    PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks, double landmark_weight = 1);
 
     const SurfaceData& A() const { return A_; }
     const SurfaceData& B() const { return B_; }
@@ -28,10 +29,11 @@ class PairContext {
     const GeodesicGraph& sample_graph_A() const { return sample_graph_A_; }
     const GeodesicGraph& sample_graph_B() const { return sample_graph_B_; }
     const std::vector<std::pair<int, int>>& landmarks() const { return landmarks_; }
+    double landmark_weight() const { return landmark_weight_; }
 
     /// Number of diffusion levels of the pair; the surface with fewer stays at its last one meanwhile.
     int diffusion_levels() const;
-    /// Levels in the surfaces' own diffusion embeddings (Eq. 4), landmarks inserted and pinned.
+    /// Levels in the surfaces' own diffusion embeddings (Eq. 4), landmarks inserted and joined.
     LevelPair diffusion_level(int index) const;
 
     /// Number of Euclidean levels of the pair: sampled ones, then the two with every vertex.
@@ -49,6 +51,7 @@ class PairContext {
     SurfaceData A_, B_;
     GeodesicGraph graph_A_, graph_B_, sample_graph_A_, sample_graph_B_;
     std::vector<std::pair<int, int>> landmarks_;
+    double landmark_weight_;
     std::vector<int> landmarks_A_, landmarks_B_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "common/mapping/chord_mesh.h"
@@ -31,6 +32,8 @@ constexpr double hopeless = 4;         ///< times the energy to beat, before fol
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
 constexpr std::array<double, 3> widenings{1.6, 4, 10};
+constexpr double doubt =
+    0.1;  ///< of the other direction, which may be wrong where a part is to be mapped anew
 const FoldEnergy judged_energy{1, 0.1};
 
 double excess(const MovingMap& map, int f) {
@@ -122,8 +125,9 @@ int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
 class Trial {
   public:
     /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the
-    /// surroundings. Leaves the part relaxed: to be followed by a run.
-    Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options)
+    /// surroundings; attachments: of the whole map. Leaves the part relaxed: to be followed by a run.
+    Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options,
+          const std::vector<Attachment>& attachments)
         : map_(map),
           options_(options),
           open_(fixed.size(), 1),
@@ -146,8 +150,11 @@ class Trial {
         for (std::size_t v = 0; v < free.size(); ++v) free[v] = !held_[v];
         for (int f = 0; f < face_count; ++f)
             if (any(free, f)) faces_.push_back(f);
+        for (const Attachment& attachment : attachments)
+            if (any(free, attachment.from.face)) attachments_.push_back(attachment);
         for (std::size_t v = 0; v < fixed.size(); ++v)
             if (open_[v] && fixed[v]) landmarks_.push_back(int(v));
+        global_ = std::make_unique<GlobalRelaxation>(map, held_);
         for (int i = 0; i < relaxations; ++i) relax();
         energy_to_beat_ = (1 - options.gain) * energy();
     }
@@ -173,8 +180,7 @@ class Trial {
 
   private:
     void relax() {
-        GlobalRelaxation global(map_, held_);
-        for (int step = 0; step < relaxation_steps; ++step) global.step(judged_energy, relaxed_robustness);
+        for (int step = 0; step < relaxation_steps; ++step) global_->step(judged_energy, relaxed_robustness);
     }
     void remove_folds() {
         const double share = double(std::count(held_.begin(), held_.end(), 0)) / double(held_.size());
@@ -188,6 +194,7 @@ class Trial {
             const Chord chord = map_.chord(f);
             sum += map_.rest(f).area * robust.value(judged_energy.value(chord.q, chord.D));
         }
+        for (const Attachment& attachment : attachments_) sum += value(attachment, map_);
         return sum;
     }
 
@@ -196,6 +203,8 @@ class Trial {
     Marks open_, held_;  ///< vertices that are placed anew; that stay while the part is relaxed
     PointMap before_;
     std::vector<int> faces_, landmarks_;
+    std::vector<Attachment> attachments_;  ///< of those faces
+    std::unique_ptr<GlobalRelaxation> global_;
     double energy_to_beat_ = 0;
 };
 
@@ -235,7 +244,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
         const Marks inside = widened(map_, edges_, part, widening * area_of(map_, part));
         const double area = area_of(map_, inside);
         if (area > largest_part) return false;
-        Trial trial(map_, inside, fixed_, options_);
+        Trial trial(map_, inside, fixed_, options_, attachments_);
         for (const Proposal& propose : proposals(trial.open())) {
             visits_ += double(std::count(trial.open().begin(), trial.open().end(), 1));
             if (!trial.run(propose)) continue;
@@ -288,7 +297,8 @@ double PartReplacement::reach_ratio(const Marks& open) const {
     return here > 0 && there > 0 ? std::clamp(there / here, 0.6, 1.6) : 1;
 }
 
-void PartReplacement::continue_surroundings() {
+void PartReplacement::continue_surroundings(const PointMap& back) {
+    attachments_ = inverse_attachments(map_, back, doubt * options_.inverse_weight);
     constexpr double noticeable = 0.03;  ///< difference of scales
     replace_parts([&](const Marks& part) {
         const double ratio = reach_ratio(part);
@@ -301,6 +311,7 @@ void PartReplacement::continue_surroundings() {
 }
 
 void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
+    attachments_ = inverse_attachments(map_, back, options_.inverse_weight);
     // The target's faces as they lie on the source.
     const ChordMesh chords(back, map_.target(), map_.source());
     const ClosestPoint closest(chords.image);
@@ -313,7 +324,7 @@ void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
         }
     };
     std::fill(rejected_.begin(), rejected_.end(), 0);
-    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_).run(invert)) {
+    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_).run(invert)) {
         ++report_.replaced;
         report_.area_percent += 100;
     }

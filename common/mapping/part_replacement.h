@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "common/mapping/attachments.h"
 #include "common/mapping/moving_map.h"
 #include "common/mesh/geodesic_graph.h"
 
@@ -14,9 +15,13 @@ struct PartReplacementOptions {
     double contrast = 3;    ///< times the median over all faces that it is at least
     double area = 2e-4;     ///< share of the source's area of the smallest part that is tried
     double robustness = 3;  ///< of the energy by which maps are compared; lower ones think little of spikes
-    double gain = 0.15;     ///< share of the energy that an alternative must save
-    int most_parts = 16;    ///< per round
-    int rounds = 3;         ///< a new map of a limb may leave a finger to be done
+    /// Of an alternative's being inverse to the other direction (attachments.h), beside its energy: what
+    /// leaves a part of the target uncovered may be nearer to an isometry. A tenth of it, where parts are
+    /// continued from their surroundings, since the other direction may be wrong there too.
+    double inverse_weight = 1000;
+    double gain = 0.15;      ///< share of the energy that an alternative must save
+    int most_parts = 16;     ///< per round
+    int rounds = 3;          ///< a new map of a limb may leave a finger to be done
     double most_visits = 4;  ///< of all vertices in the mean, by trials: bounds the time
 };
 
@@ -34,8 +39,9 @@ class PartReplacement {
     PartReplacement(MovingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options);
 
     /// Maps parts as an isometry would continue the map of their surroundings (continuation.h), at the scale
-    /// at which a limb's end meets the limb's end, and at the source's own.
-    void continue_surroundings();
+    /// at which a limb's end meets the limb's end, and at the source's own. `back`: the other direction, or
+    /// empty.
+    void continue_surroundings(const PointMap& back);
     /// Maps parts by the inverse of a map from the target to the source; `whole`: tries all of it first.
     void adopt_inverse(const PointMap& back, bool whole);
 
@@ -56,8 +62,9 @@ class PartReplacement {
     PartReplacementOptions options_;
     Edges edges_;
     GeodesicGraph source_graph_, target_graph_;
-    std::vector<char> rejected_;  ///< faces of parts for which nothing better was found
-    double visits_ = 0;           ///< vertices in trials so far
+    std::vector<Attachment> attachments_;  ///< by which alternatives are judged
+    std::vector<char> rejected_;           ///< faces of parts for which nothing better was found
+    double visits_ = 0;                    ///< vertices in trials so far
     PartReplacementReport report_;
 };
 

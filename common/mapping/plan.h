@@ -8,6 +8,7 @@
 
 #include "common/artifact/artifact.h"
 #include "common/mapping/candidates.h"
+#include "common/mapping/landmark_check.h"
 #include "common/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -27,13 +28,6 @@ struct TraceRow {
     double marginal_error = 0;    ///< L1 distance of the row sums from the masses
 };
 
-/// What the other landmarks say of a landmark.
-struct LandmarkCheck {
-    double distance = 0;     ///< along B, units of sqrt(area): from where they take it to where it was put
-    double energy_fall = 0;  ///< by which share Eq. (3) falls without it, on a coarse level
-    bool is_contradicted() const { return distance > 0.25 && energy_fall > 0.015; }
-};
-
 /// A transport plan between samples of two surfaces, with its centres: the artifact of varimap-diffuse (last
 /// diffusion level) and of varimap-refine (all vertices).
 struct Plan {
@@ -45,17 +39,21 @@ struct Plan {
     Points position_A;                            ///< per VERTEX of A's mesh: centre of its image, in R^3 near B's mesh
     Points position_B;                            ///< per VERTEX of B's mesh: the same near A's mesh
     std::vector<std::pair<int, int>> landmarks;   ///< pairs of mesh vertices (A, B)
+    double landmark_weight = 1;                   ///< W of pull_landmarks (cost.h), in (0, 1]
     std::vector<TraceRow> trace;                  ///< of all levels so far
     std::vector<LandmarkCheck> landmark_checks;   ///< per landmark, or none
     std::vector<Candidate> candidates;            ///< of varimap-explore, the best first; none with landmarks
     int candidate = 0;                            ///< which of them this plan continues, from 1; 0 without any
+
+    /// Whether landmarks are mapped exactly: the soft ones may end elsewhere.
+    bool pins_landmarks() const { return landmark_weight == 1; }
 };
 
 template <>
 struct ArtifactType<Plan> {
     static constexpr const char* kind = "plan";
     static constexpr const char* stage = "varimap-diffuse or varimap-refine";
-    static constexpr int schema = 3;
+    static constexpr int schema = 4;
 };
 std::string encode(const Plan& plan);
 void decode(const std::string& payload, Plan& plan);
@@ -63,7 +61,7 @@ void decode(const std::string& payload, Plan& plan);
 /// Images on the other mesh of every vertex: closest points from the centres (remesh, Sec. 5). On a plan with
 /// every vertex as a sample only faces that touch the row's support (entries of at least 5% of the row's maximum)
 /// are candidates, so that a point never jumps to another limb; otherwise the closest face whose normal
-/// agrees. Landmarks are mapped exactly.
+/// agrees. Pinned landmarks are mapped exactly.
 struct VertexMaps {
     PointMap A_to_B;  ///< per vertex of A's mesh, on faces of B's mesh
     PointMap B_to_A;

@@ -27,8 +27,8 @@ void serialize(Archive& archive, Candidates& c) {
 template <class Archive>
 void serialize(Archive& archive, Plan& plan) {
     archive(plan.samples_A, plan.samples_B, plan.mass_A, plan.mass_B, plan.transported_A, plan.transported_B,
-            plan.area_bound, plan.plan, plan.position_A, plan.position_B, plan.landmarks, plan.trace,
-            plan.landmark_checks, plan.candidates, plan.candidate);
+            plan.area_bound, plan.plan, plan.position_A, plan.position_B, plan.landmarks,
+            plan.landmark_weight, plan.trace, plan.landmark_checks, plan.candidates, plan.candidate);
 }
 
 namespace {

@@ -218,6 +218,7 @@ VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B) {
         maps.A_to_B = nearest_images(plan.position_A, A.mesh, B.mesh);
         maps.B_to_A = nearest_images(plan.position_B, B.mesh, A.mesh);
     }
+    if (!plan.pins_landmarks()) return maps;
     for (const auto& [a, b] : plan.landmarks) {
         maps.A_to_B[std::size_t(a)] = at_vertex(B.mesh, b);
         maps.B_to_A[std::size_t(b)] = at_vertex(A.mesh, a);

@@ -22,9 +22,11 @@ struct Round {
     double regularisation;     ///< e; where it is large, folds pass through each other
     double robustness_factor;  ///< on the option
     double fold_visits;        ///< bounds the removal of folds (fold_removal.h)
+    double last_inverse;       ///< share of the option's inverse_weight in the last step
 };
+constexpr double first_inverse = 0.03;  ///< the same in the first; more would slow both directions down
 /// The first leaves crumpled parts to their replacement.
-constexpr std::array<Round, 2> rounds{{{0.3, 3, 30}, {0.1, 1, 150}}};
+constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150, 1}}};
 constexpr int reconciliations = 2;
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
@@ -37,25 +39,55 @@ std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fi
     return free;
 }
 
-/// Global steps, each followed by a local sweep that lets single vertices out of corners.
-int relax(MovingMap& map, const std::vector<char>& fixed, const FeatureAgreement* features,
-          const Round& round, const UntanglingOptions& options) {
-    if (options.global_steps == 0) return 0;
-    const FoldEnergy energy{options.area_weight, round.regularisation};
-    GlobalRelaxation global(map, fixed, features);
-    LocalRelaxation local(map, 99);
-    std::vector<int> vertices = free_vertices(map, fixed);
-    // A factorisation takes more than linear time; the first steps are those that matter.
-    const double affordable = options.global_steps * large / double(vertices.size() + 1);
-    const int most = std::min(options.global_steps, std::max(least_steps, int(affordable)));
-    int steps = 0;
-    for (; steps < most; ++steps) {
-        const double gain = global.step(energy, round.robustness_factor * options.robustness);
-        local.sweep(vertices, energy, false);
-        if (gain < converged && steps > 2) break;
+/// Global steps over the whole map, each followed by a local sweep that lets single vertices out of corners.
+class Relaxation {
+  public:
+    Relaxation(MovingMap& map, const std::vector<char>& fixed, const FeatureAgreement* features,
+               const Round& round, const UntanglingOptions& options)
+        : map_(map),
+          options_(options),
+          energy_{options.area_weight, round.regularisation},
+          last_inverse_(round.last_inverse),
+          robustness_(round.robustness_factor * options.robustness),
+          vertices_(free_vertices(map, fixed)),
+          global_(map, fixed, features),
+          local_(map, 99) {
+        // A factorisation takes more than linear time; the first steps are those that matter.
+        const double affordable = options.global_steps * large / double(vertices_.size() + 1);
+        most_ = std::min(options.global_steps, std::max(least_steps, int(affordable)));
     }
-    return steps;
-}
+
+    /// `back`: the other direction, whose inverse the map is drawn to.
+    void step(const PointMap* back) {
+        if (back && options_.inverse_weight > 0) {
+            attachments_ = inverse_attachments(map_, *back, options_.inverse_weight * inverse_share());
+            global_.attach(attachments_);
+        }
+        const double gain = global_.step(energy_, robustness_);
+        local_.sweep(vertices_, energy_, false);
+        ++steps_;
+        converged_ = gain < converged && steps_ > 3;
+    }
+    bool done() const { return converged_ || steps_ >= most_; }
+    int steps() const { return steps_; }
+
+  private:
+    double inverse_share() const {
+        const double progress = (steps_ + 1.0) / most_;
+        return first_inverse + (last_inverse_ - first_inverse) * progress * progress;
+    }
+
+    MovingMap& map_;
+    const UntanglingOptions& options_;
+    FoldEnergy energy_;
+    double last_inverse_, robustness_;
+    std::vector<int> vertices_;
+    GlobalRelaxation global_;
+    LocalRelaxation local_;
+    std::vector<Attachment> attachments_;
+    int most_ = 0, steps_ = 0;
+    bool converged_ = false;
+};
 
 /// Vertices that stay: the pinned ones and those of mirrored parts.
 std::vector<char> stay(const MovingMap& map, const std::vector<char>& pinned, const MirrorGate& gate,
@@ -92,12 +124,26 @@ class Untangling {
             features_ = std::make_unique<FeatureAgreement>(moving_, options.feature_weight);
     }
 
-    void unfold() {
+    /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
+    void start_relaxation(const Round& round) {
         fixed_ = stay(moving_, pinned_, options_.gate, report_);
-        run(rounds[0]);
+        if (options_.global_steps > 0)
+            relaxation_ = std::make_unique<Relaxation>(moving_, fixed_, features_.get(), round, options_);
+    }
+    bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
+    void relax(const PointMap* back) {
+        if (!is_relaxed()) relaxation_->step(back);
+    }
+    void end_relaxation(const Round& round) {
+        if (relaxation_) report_.global_steps += relaxation_->steps();
+        relaxation_.reset();
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, fixed_);
+    }
+
+    void replace_parts(const PointMap& back) {
         if (!options_.replace_parts) return;
         replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts);
-        replacement_->continue_surroundings();
+        replacement_->continue_surroundings(back);
     }
 
     const PointMap& points() const { return moving_.points(); }
@@ -107,8 +153,6 @@ class Untangling {
 
     const UntanglingReport& report() const { return report_; }
     UntanglingReport finish() {
-        fixed_ = stay(moving_, pinned_, options_.gate, report_);
-        run(rounds[1]);
         if (options_.align_normals) align_normals();
         if (replacement_) {
             report_.parts_tried = replacement_->report().tried;
@@ -124,10 +168,6 @@ class Untangling {
     }
 
   private:
-    void run(const Round& round) {
-        report_.global_steps += relax(moving_, fixed_, features_.get(), round, options_);
-        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, fixed_);
-    }
     void align_normals() {
         NormalAgreement agreement(moving_);
         const std::vector<int> disagreeing = agreement.disagreeing_faces();
@@ -143,9 +183,31 @@ class Untangling {
     MovingMap moving_;
     std::vector<char> fixed_;
     std::unique_ptr<FeatureAgreement> features_;
+    std::unique_ptr<Relaxation> relaxation_;
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;
 };
+
+void run(Untangling& map, const Round& round) {
+    map.start_relaxation(round);
+    while (!map.is_relaxed()) map.relax(nullptr);
+    map.end_relaxation(round);
+}
+
+/// Calls body for both, side by side, with what the other's images are before.
+template <class Body>
+void with_each_other(Untangling& there, Untangling& back, const Body& body) {
+    const PointMap A_to_B = there.points(), B_to_A = back.points();
+    tbb::parallel_invoke([&] { body(there, B_to_A); }, [&] { body(back, A_to_B); });
+}
+
+/// A round of both directions, which draw each other towards their inverses.
+void run(Untangling& there, Untangling& back, const Round& round) {
+    tbb::parallel_invoke([&] { there.start_relaxation(round); }, [&] { back.start_relaxation(round); });
+    while (!there.is_relaxed() || !back.is_relaxed())
+        with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.relax(&inverse); });
+    tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
+}
 
 }  // namespace
 
@@ -153,7 +215,9 @@ UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const Trian
                           const std::vector<char>& pinned, const UntanglingOptions& options) {
     Untangling untangling(map, source, target, pinned, options);
     if (!options.enabled) return untangling.report();
-    untangling.unfold();
+    run(untangling, rounds[0]);
+    untangling.replace_parts({});
+    run(untangling, rounds[1]);
     return untangling.finish();
 }
 
@@ -161,12 +225,14 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
                            const PinnedPair& pinned, const UntanglingOptions& options) {
     Untangling there(maps.A_to_B, A, B, pinned.A, options), back(maps.B_to_A, B, A, pinned.B, options);
     if (!options.enabled) return {there.report(), back.report()};
-    tbb::parallel_invoke([&] { there.unfold(); }, [&] { back.unfold(); });
-    for (int round = 0; round < reconciliations; ++round) {
-        const PointMap A_to_B = there.points(), B_to_A = back.points();
-        tbb::parallel_invoke([&] { there.reconcile(B_to_A, round == 0); },
-                             [&] { back.reconcile(A_to_B, round == 0); });
-    }
+    run(there, back, rounds[0]);
+    with_each_other(there, back,
+                    [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
+    for (int round = 0; round < reconciliations; ++round)
+        with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
+            map.reconcile(inverse, round == 0);
+        });
+    run(there, back, rounds[1]);
     UntanglingReports reports;
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;

@@ -16,7 +16,9 @@ struct UntanglingOptions {
     double robustness =
         0.3;  ///< excess energy at which a face counts half in global steps; 0: all count fully
     double feature_weight = 2;  ///< of features against the fold energy in global steps (feature_agreement.h)
-    int fold_sweeps = 120;      ///< sweeps per patch size that remove folds
+    /// Of each direction's attraction to the other's inverse (attachments.h) in the last global steps.
+    double inverse_weight = 1000;
+    int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
     MirrorGate gate;
     PartReplacementOptions parts;
     bool replace_parts = true;
@@ -50,8 +52,8 @@ struct UntanglingReport {
 UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                           const std::vector<char>& pinned, const UntanglingOptions& options);
 
-/// Both directions, in parallel; after the second step each tries the other's inverse, for itself and for its
-/// strained parts.
+/// Both directions, in parallel; in global steps each is drawn to the other's inverse, and after the second
+/// step each tries the other's inverse, for itself and for its strained parts.
 struct MapPair {
     PointMap A_to_B, B_to_A;
 };

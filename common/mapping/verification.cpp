@@ -112,8 +112,9 @@ Verdict Judge::judge(int f) {
     const Corners p = corners_of(image_, f);
     if (!spans_area(p, target_area_)) return Verdict::reversed;
     Vec3 m = Vec3::Zero();
+    int face = -1;
     for (const Vec3& b : inner_points) {
-        const int face = closest_(b[0] * p[0] + b[1] * p[1] + b[2] * p[2]).point.face;
+        face = closest_(b[0] * p[0] + b[1] * p[1] + b[2] * p[2], face).point.face;
         const Corners q = corners_of(target_, face);
         m += (q[1] - q[0]).cross(q[2] - q[0]).stableNormalized();
     }

@@ -31,9 +31,10 @@ Vec3 project_to_plane(const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c
 
 }  // namespace
 
-// A point inside the triangle competes with the closest points of its three sides by the distance that is
-// really reached, so needles and triangles without area need no case of their own.
+// A point inside the triangle competes with the closest points of the sides that it does not lie well inside
+// of by the distance that is really reached, so needles and triangles without area need no case of their own.
 Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double well_inside = 1e-3;
     const std::array<Vec3, 3> corner{a, b, c};
     Vec3 best = Vec3::UnitX();
     double least = std::numeric_limits<double>::infinity();
@@ -48,6 +49,7 @@ Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const 
     if (inside.minCoeff() >= 0) offer(inside);
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
+        if (inside[(i + 2) % 3] > well_inside) continue;  // that side does not face the query
         Vec3 on_side = Vec3::Zero();
         on_side[j] = closest_on_segment(query, corner[i], corner[j]);
         on_side[i] = 1 - on_side[j];
@@ -69,7 +71,7 @@ struct ClosestPoint::State {
         if (device) rtcReleaseDevice(device);
     }
     void build();
-    Hit search(const Vec3& query, const Vec3* normal) const;
+    Hit search(const Vec3& query, const Vec3* normal, int guess = -1) const;
 };
 
 void ClosestPoint::State::build() {
@@ -106,36 +108,56 @@ struct Search {
     ClosestPoint::Hit best{{}, std::numeric_limits<double>::infinity()};
 };
 
-/// Offers one face; called by Embree for every face whose box meets the ball of the current radius.
-bool visit(RTCPointQueryFunctionArguments* arguments) {
-    Search& search = *static_cast<Search*>(arguments->userPtr);
-    const int f = int(arguments->primID);
+/// Whether the face's box is farther than the best point, beyond doubt.
+bool is_beyond(const Search& search, int f) {
+    const Vec3 a = search.mesh.vertex(search.mesh.faces(f, 0)),
+               b = search.mesh.vertex(search.mesh.faces(f, 1)),
+               c = search.mesh.vertex(search.mesh.faces(f, 2));
+    const Vec3 below = a.cwiseMin(b).cwiseMin(c) - search.query,
+               above = search.query - a.cwiseMax(b).cwiseMax(c);
+    const double rounding = 1e-14 / search.scale;
+    return below.cwiseMax(above).cwiseMax(0).squaredNorm() >
+           search.best.squared_distance * (1 + 1e-9) + rounding * rounding;
+}
+
+/// Offers one face; true if it is the best so far.
+bool offer(Search& search, int f) {
     const TriangleMesh& mesh = search.mesh;
+    if (is_beyond(search, f)) return false;
     if (search.normal && !(face_normal(mesh, f).dot(*search.normal) > 0)) return false;
     SurfacePoint point{f, closest_barycentric(search.query, mesh.vertex(mesh.faces(f, 0)),
                                               mesh.vertex(mesh.faces(f, 1)), mesh.vertex(mesh.faces(f, 2)))};
     const double squared = (position(mesh, point) - search.query).squaredNorm();
     ClosestPoint::Hit& best = search.best;
-    if (squared > best.squared_distance || (squared == best.squared_distance && f > best.point.face))
+    if (squared > best.squared_distance || (squared == best.squared_distance && f >= best.point.face))
         return false;
     best = {point, squared};
-    // Slightly too large, so that no face as close as the best one is ever skipped: the result is then the
-    // same for every order in which Embree may visit the boxes.
-    const double radius = std::sqrt(squared) * search.scale * (1 + 1e-5) + search.slack;
-    if (float(radius) >= arguments->query->radius) return false;
-    arguments->query->radius = float(radius);
+    return true;
+}
+
+/// Slightly too large, so that no face as close as the best one is ever skipped: the result is then the same
+/// for every order in which Embree may visit the boxes.
+float radius(const Search& search) {
+    return float(std::sqrt(search.best.squared_distance) * search.scale * (1 + 1e-5) + search.slack);
+}
+
+/// Called by Embree for every face whose box meets the ball of the current radius.
+bool visit(RTCPointQueryFunctionArguments* arguments) {
+    Search& search = *static_cast<Search*>(arguments->userPtr);
+    if (!offer(search, int(arguments->primID)) || radius(search) >= arguments->query->radius) return false;
+    arguments->query->radius = radius(search);
     return true;
 }
 
 }  // namespace
 
-ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* normal) const {
+ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* normal, int guess) const {
     const Vec3 local = (query - centre) * scale;
-    RTCPointQuery ball{float(local[0]), float(local[1]), float(local[2]), 0,
-                       std::numeric_limits<float>::infinity()};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     Search search{mesh, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};
+    if (guess >= 0) offer(search, guess);
+    RTCPointQuery ball{float(local[0]), float(local[1]), float(local[2]), 0, radius(search)};
     rtcPointQuery(scene, &ball, &context, visit, &search);
     return search.best;
 }
@@ -146,8 +168,8 @@ ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<S
 ClosestPoint::~ClosestPoint() = default;
 ClosestPoint::ClosestPoint(ClosestPoint&&) noexcept = default;
 
-ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query) const {
-    return state_->search(query, nullptr);
+ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, int guess) const {
+    return state_->search(query, nullptr, guess);
 }
 
 ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, const Vec3& normal) const {

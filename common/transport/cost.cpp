@@ -47,9 +47,11 @@ struct CollapsedSum {
     }
 };
 
-void pin(const Side& side, const Side& other, RowMatrix& centres) {
+void pull(const Side& side, const Side& other, RowMatrix& centres) {
+    const double W = side.landmark_weight;
     for (size_t k = 0; k < side.partner.size(); ++k)
-        if (side.partner[k] >= 0) centres.row(k) = other.points.row(side.partner[k]);
+        if (side.partner[k] >= 0)
+            centres.row(k) = W * other.points.row(side.partner[k]) + (1 - W) * centres.row(k);
 }
 
 /// Mean images of a side's samples and what their neighbourhoods make of them.
@@ -78,6 +80,17 @@ struct SideImages {
         const Eigen::VectorXd spread = squares - 2 * sums.cwiseProduct(eta).rowwise().sum() +
                                        weights.cwiseProduct(Eigen::VectorXd(eta.rowwise().squaredNorm()));
         return mass.dot(spread);
+    }
+
+    /// What soft landmarks add, once they have moved the centres by W of the way to their partners.
+    double landmark_energy(const Side& side, const Side& other) const {
+        const double W = side.landmark_weight;
+        double distances = 0;
+        for (size_t k = 0; k < side.partner.size(); ++k)
+            if (side.partner[k] >= 0)
+                distances += side.mass[k] * weights[k] *
+                             (sums.row(k) / weights[k] - other.points.row(side.partner[k])).squaredNorm();
+        return W * (1 - W) * distances;
     }
 };
 
@@ -109,9 +122,9 @@ SparseMatrix averaging_operator(const SparseMatrix& weights, const Eigen::Vector
     return P;
 }
 
-void pin_landmarks(const Side& X, const Side& Y, Centres& centres) {
-    pin(X, Y, centres.row);
-    pin(Y, X, centres.column);
+void pull_landmarks(const Side& X, const Side& Y, Centres& centres) {
+    pull(X, Y, centres.row);
+    pull(Y, X, centres.column);
 }
 
 CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed) {
@@ -142,8 +155,9 @@ CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, co
     SideImages rows = images_of_rows(X, Y, plan, relaxed), columns = images_of_columns(X, Y, plan, relaxed);
     CentreStep step;
     step.centres = {rows.centres(), columns.centres()};
-    pin_landmarks(X, Y, step.centres);
-    step.energy = rows.energy(X.mass, step.centres.row) + columns.energy(Y.mass, step.centres.column);
+    pull_landmarks(X, Y, step.centres);
+    step.energy = rows.energy(X.mass, step.centres.row) + columns.energy(Y.mass, step.centres.column) +
+                  rows.landmark_energy(X, Y) + columns.landmark_energy(Y, X);
     step.row_image = std::move(rows.mean);
     step.column_image = std::move(columns.mean);
     return step;

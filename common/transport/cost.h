@@ -15,7 +15,8 @@ struct Side {
     SparseMatrix weights;      ///< row k: W_k(x_i) over its neighbourhood
     SparseMatrix reach;        ///< pattern of the neighbourhoods by which the plan's support grows; holds the diagonal
     SparseMatrix averaging;    ///< P: p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'); rows sum to 1
-    std::vector<int> partner;  ///< per sample: the other side's sample it is pinned to (a landmark), or -1
+    std::vector<int> partner;  ///< per sample: the other side's sample that it belongs to (a landmark), or -1
+    double landmark_weight = 1;  ///< W of pull_landmarks, in (0, 1]
     RowMatrix compared;        ///< samples x F: |f_i - f_j|^2 adds to the cost of an entry (compared_terms.h); may be empty
 };
 
@@ -63,8 +64,8 @@ class CostFactors {
     RowMatrix u_, v_;
 };
 
-/// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m'_i, landmarks pinned;
-/// and the energy C' for the plan and these centres, without what is compared directly.
+/// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m'_i, landmarks pulled;
+/// and the energy C' for the plan and these centres, with what soft landmarks add, without what is compared directly.
 struct CentreStep {
     Centres centres;
     RowMatrix row_image, column_image;  ///< mean images of the samples themselves (pi_X(delta_x), pi_Y(delta_y))
@@ -80,7 +81,11 @@ RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling
 double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
               const RelaxedMasses& relaxed = {});
 
-/// Replaces the centres of landmarks by their partners' points.
-void pin_landmarks(const Side& X, const Side& Y, Centres& centres);
+/// Landmarks: the centre of a sample k with a partner becomes W y + (1 - W) eta_k, where y is the partner's point. W = 1
+/// pins it, as the paper does. A smaller W makes it soft: then the blend is the best centre for an energy in which
+/// each such sample adds to C'
+///   W / (1 - W) s_k m_k |eta_k - y|^2,   s_k = sum_i p_ki rho_i / m'_i (1 where masses are exact),
+/// so that the map may disagree: it pays W times what it would pay for the same images were the landmark pinned.
+void pull_landmarks(const Side& X, const Side& Y, Centres& centres);
 
 }  // namespace varimap

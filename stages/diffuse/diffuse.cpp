@@ -45,7 +45,7 @@ Start coarsest_start(const LevelPair& pair, const PairContext& context, const Di
     Start start = zero_start(pair);
     if (params.start == "wasserstein") {
         start.centres = wasserstein_centres(pair, context, params.alternation);
-        pin_landmarks(pair.A.side, pair.B.side, start.centres);
+        pull_landmarks(pair.A.side, pair.B.side, start.centres);
     }
     return start;
 }
@@ -100,6 +100,7 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     plan.position_B = vertex_positions(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(),
                                        context.A().surface, context.graph_A());
     plan.landmarks = context.landmarks();
+    plan.landmark_weight = context.landmark_weight();
     return plan;
 }
 

@@ -14,8 +14,11 @@ constexpr std::size_t enough_samples = 100;
 std::vector<LevelPair> coarse_levels(const PairContext& context) {
     std::vector<LevelPair> levels;
     while (int(levels.size()) < context.diffusion_levels() &&
-           (levels.empty() || levels.back().A.level.samples.size() < enough_samples))
-        levels.push_back(context.diffusion_level(int(levels.size())));
+           (levels.empty() || levels.back().A.level.samples.size() < enough_samples)) {
+        LevelPair pair = context.diffusion_level(int(levels.size()));
+        pair.A.side.landmark_weight = pair.B.side.landmark_weight = 1;
+        levels.push_back(std::move(pair));
+    }
     return levels;
 }
 

@@ -18,9 +18,9 @@ void report(const std::vector<LandmarkCheck>& checks) {
         const LandmarkCheck& check = checks[i];
         log("landmark {}: the others take it {:.3f} from its partner, in units of sqrt(area); without it the energy "
             "falls by {:.1f}%", i + 1, check.distance, 100 * check.energy_fall);
-        if (check.is_contradicted())
-            warn("landmark {} is contradicted by the others: is it in the right place, on the right side?", i + 1);
     }
+    if (const int i = contradicted_landmark(checks); i >= 0)
+        warn("landmark {} is contradicted by the others: is it in the right place, on the right side?", i + 1);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);
-        const PairContext context(std::move(A), std::move(B), landmarks);
+        const PairContext context(std::move(A), std::move(B), landmarks, params.landmark_weight);
         const auto candidates = read_candidates(stage, inputs, candidates_in);
         const Plan plan = diffuse(context, params, candidates);
         report(plan.landmark_checks);

@@ -80,7 +80,7 @@ Centres centres_of(const LevelPair& pair, const Matching& matching) {
     }
     centres.row = pair.A.side.averaging * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
     centres.column = pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
-    pin_landmarks(pair.A.side, pair.B.side, centres);
+    pull_landmarks(pair.A.side, pair.B.side, centres);
     return centres;
 }
 

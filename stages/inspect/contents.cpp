@@ -116,6 +116,7 @@ void visit(const Plan& plan, ContentsVisitor& visitor) {
     std::vector<int> landmarks_A, landmarks_B;
     for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
     visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
+    visitor.fact("landmark weight", fmt::format("{}", plan.landmark_weight));
     visitor.fact("area bound", fmt::format("{}", plan.area_bound));
     visitor.fact("transported / mass, A", range_of_ratios(plan.transported_A, plan.mass_A));
     visitor.fact("transported / mass, B", range_of_ratios(plan.transported_B, plan.mass_B));

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto diffusion = stage.read<Plan>("diffusion", diffusion_in);
         inputs.require_same(diffusion.header, diffusion_in);
-        const PairContext context(std::move(A), std::move(B), diffusion.value.landmarks);
+        const PairContext context(std::move(A), std::move(B), diffusion.value.landmarks,
+                                  diffusion.value.landmark_weight);
         const Plan plan = refine(context, diffusion.value, params);
         stage.record_number("levels", plan.trace.back().level - diffusion.value.trace.back().level);
         stage.record_number("alternations", double(plan.trace.size() - diffusion.value.trace.size()));

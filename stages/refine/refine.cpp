@@ -66,6 +66,7 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
     plan.position_A = space_part(centres.row);
     plan.position_B = space_part(centres.column);
     plan.landmarks = diffusion.landmarks;
+    plan.landmark_weight = diffusion.landmark_weight;
     plan.landmark_checks = diffusion.landmark_checks;
     plan.candidates = diffusion.candidates;
     plan.candidate = diffusion.candidate;

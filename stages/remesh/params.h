@@ -19,6 +19,10 @@ struct RemeshParams {
         list.add("feature_weight", o.feature_weight,
                  "weight of features (relief of both surfaces) against the isometry in the relaxation", 0,
                  1e3);
+        list.add(
+            "inverse_weight", o.inverse_weight,
+            "weight of both directions' being each other's inverse against the isometry in the relaxation", 0,
+            1e6);
         list.add("fold_sweeps", o.fold_sweeps, "sweeps that remove folds, per patch size", 0, 100'000);
         list.add("replace_parts", o.replace_parts,
                  "maps strained parts (mirrored, twisted, crumpled) anew (Sec. 4.4)");

@@ -102,6 +102,15 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
             {"candidates", list}};
 }
 
+Json to_json(const std::vector<LandmarkCheck>& checks) {
+    Json list = Json::array();
+    for (const LandmarkCheck& check : checks)
+        list.push_back({{"distance", check.distance},
+                        {"energy_fall_percent", 100 * check.energy_fall},
+                        {"contradicted", int(list.size()) == contradicted_landmark(checks)}});
+    return list;
+}
+
 /// Landmarks as pairs of input vertices.
 std::vector<std::pair<int, int>> input_landmarks(const Plan& plan, const Surface& A, const Surface& B) {
     const auto input_of_vertex = [](const Surface& surface) {
@@ -156,10 +165,8 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     quality["mass_ratio"] = {{"source", mass_ratios(plan.transported_A, plan.mass_A)},
                              {"target", mass_ratios(plan.transported_B, plan.mass_B)}};
     quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), B.input);
-    for (const LandmarkCheck& check : plan.landmark_checks)
-        quality["landmark_checks"].push_back({{"distance", check.distance},
-                                              {"energy_fall_percent", 100 * check.energy_fall},
-                                              {"contradicted", check.is_contradicted()}});
+    if (!plan.landmarks.empty()) quality["landmark_weight"] = plan.landmark_weight;
+    if (!plan.landmark_checks.empty()) quality["landmark_checks"] = to_json(plan.landmark_checks);
     if (!plan.candidates.empty()) quality["exploration"] = to_json(plan.candidates, plan.candidate);
     quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
     quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);

@@ -18,7 +18,8 @@ namespace varimap {
 ///   mass_ratio        source, target: min and max of transported mass by mass over the plan's samples; within
 ///                     [1 / sqrt(B), sqrt(B)]
 ///   landmarks         distance of each landmark's image from its partner
-///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions: plan.h)
+///   landmark_weight   W of soft landmarks, 1 where they are pinned (cost.h); absent without landmarks
+///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions: landmark_check.h)
 ///   exploration       without landmarks: which candidate was continued, confident, margin, levels_agree, and the
 ///                     candidates: energies, score, reversed_percent, moved_percent, turn_degrees, mirrored
 ///                     (definitions: candidates.h)

@@ -36,6 +36,7 @@ bool is_coarse(const Surface& surface) {
 PinnedPair pinned_vertices(const Plan& plan, const Surface& A, const Surface& B) {
     PinnedPair pinned{std::vector<char>(std::size_t(A.mesh.vertex_count()), 0),
                       std::vector<char>(std::size_t(B.mesh.vertex_count()), 0)};
+    if (!plan.pins_landmarks()) return pinned;
     for (const auto& [a, b] : plan.landmarks) pinned.A[std::size_t(a)] = pinned.B[std::size_t(b)] = 1;
     return pinned;
 }

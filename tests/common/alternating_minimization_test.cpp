@@ -26,7 +26,7 @@ LevelPair tube_level() {
 Centres zero_centres(const LevelPair& pair) {
     Centres centres{RowMatrix::Zero(pair.A.side.points.rows(), pair.B.side.points.cols()),
                     RowMatrix::Zero(pair.B.side.points.rows(), pair.A.side.points.cols())};
-    pin_landmarks(pair.A.side, pair.B.side, centres);
+    pull_landmarks(pair.A.side, pair.B.side, centres);
     return centres;
 }
 

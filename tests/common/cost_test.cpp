@@ -225,5 +225,29 @@ TEST(Centres, OfLandmarksAreTheirPartners) {
         1e-11);
 }
 
+TEST(Centres, OfSoftLandmarksAreTheBestOnesForThePriceOfDisagreeing) {
+    constexpr double W = .3;
+    Example e = random_example(14);
+    const Centres free = update_centres(e.X, e.Y, e.plan).centres;
+    e.X.partner[5] = 2;
+    e.Y.partner[2] = 5;
+    e.X.landmark_weight = e.Y.landmark_weight = W;
+    const CentreStep step = update_centres(e.X, e.Y, e.plan);
+    EXPECT_LT((step.centres.row.row(5) - (W * e.Y.points.row(2) + (1 - W) * free.row.row(5))).norm(), 1e-12);
+    EXPECT_EQ(step.centres.row.row(4), free.row.row(4));
+    const auto energy_with_landmarks = [&](const Centres& centres) {
+        return energy(e.X, e.Y, e.plan, centres) +
+               W / (1 - W) *
+                   (e.X.mass[5] * (centres.row.row(5) - e.Y.points.row(2)).squaredNorm() +
+                    e.Y.mass[2] * (centres.column.row(2) - e.X.points.row(5)).squaredNorm());
+    };
+    EXPECT_NEAR(step.energy, energy_with_landmarks(step.centres), 1e-11);
+    for (const double change : {-.01, .01}) {
+        Centres changed = step.centres;
+        changed.row.row(5) += change * e.Y.points.row(2);
+        EXPECT_GT(energy_with_landmarks(changed), step.energy);
+    }
+}
+
 }  // namespace
 }  // namespace varimap

@@ -43,28 +43,28 @@ PointMap whole_turn(const TriangleMesh& figure) {
 TEST(PartReplacement, UntwistsALimb) {
     LegTrial trial(half_a_turn);
     EXPECT_GT(trial.error(), 0.1);
-    trial.replacement.continue_surroundings();
+    trial.replacement.continue_surroundings({});
     trial.expect_undone();
 }
 
 /// The foot is where it belongs: only the strain tells, and relaxation finds no way back.
 TEST(PartReplacement, UntwistsALimbByAWholeTurn) {
     LegTrial trial(whole_turn);
-    trial.replacement.continue_surroundings();
+    trial.replacement.continue_surroundings({});
     trial.expect_undone();
 }
 
 TEST(PartReplacement, UnmirrorsALimb) {
     LegTrial trial(shapes::mirrored_leg);
     EXPECT_GT(trial.reversed(), 100);
-    trial.replacement.continue_surroundings();
+    trial.replacement.continue_surroundings({});
     trial.expect_undone();
 }
 
 TEST(PartReplacement, UncrumplesALimb) {
     LegTrial trial(shapes::crumpled_leg);
     EXPECT_GT(trial.reversed(), 100);
-    trial.replacement.continue_surroundings();
+    trial.replacement.continue_surroundings({});
     trial.expect_undone();
 }
 
@@ -119,7 +119,7 @@ TEST(PartReplacement, LeavesAPartTooLargeToHaveSurroundings) {
     PartReplacementOptions options;
     options.contrast = 0;  // strained as it is all over
     PartReplacement replacement(map, fixed, options);
-    replacement.continue_surroundings();
+    replacement.continue_surroundings({});
     EXPECT_GT(replacement.report().tried, 0);
     EXPECT_EQ(replacement.report().replaced, 0);
     expect_same(map.points(), before);
@@ -128,7 +128,7 @@ TEST(PartReplacement, LeavesAPartTooLargeToHaveSurroundings) {
 TEST(PartReplacement, TriesNothingOnAGoodMap) {
     LegTrial trial(shapes::at_vertices);
     const PointMap before = trial.map.points();
-    trial.replacement.continue_surroundings();
+    trial.replacement.continue_surroundings({});
     trial.replacement.adopt_inverse(shapes::crumpled_leg(trial.rest), false);
     EXPECT_EQ(trial.replacement.report().tried, 0);
     expect_same(trial.map.points(), before);
@@ -145,7 +145,7 @@ TEST(PartReplacement, KeepsLandmarks) {
         trial.fixed[v] = 1;
         trial.map.place(int(v), truth[v]);
     }
-    trial.replacement.continue_surroundings();
+    trial.replacement.continue_surroundings({});
     trial.expect_undone();
     for (const std::size_t v : landmarks) {
         EXPECT_EQ(trial.map.points()[v].face, truth[v].face);

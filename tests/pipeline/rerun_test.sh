@@ -44,6 +44,8 @@ jq -e '.area_bound == 1.5 and .mass_ratio.source.max < 1.226 and .mass_ratio.tar
 step "$pair" --area-bound 1.5 --area-energy paper
 step "$pair" --landmarks tips.txt
 step "" --landmarks tips.txt
+step "$pair" --landmarks tips.txt --landmark-weight .2
+jq -e '.landmark_weight == .2' out/quality.json >/dev/null || fail "the weight in quality.json"
 head -n 3 tips.txt >three.txt
 touch -d 2001-01-01 three.txt
 step "$pair" --landmarks three.txt

@@ -83,6 +83,17 @@ TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
         << "the spare vertex keeps its relative place";
 }
 
+TEST_F(Remesh, PinsLandmarksUnlessTheyAreSoft) {
+    plan_.landmarks = {{5, 9}};  // a wrong one
+    SurfaceMap map = read_only();
+    EXPECT_NEAR(Json::parse(map.quality)["landmarks"][0], 0, 1e-12);
+    plan_.landmark_weight = .5;
+    map = read_only();
+    const Json quality = Json::parse(map.quality);
+    EXPECT_EQ(quality["landmark_weight"], .5);
+    EXPECT_GT(quality["landmarks"][0], .01);
+}
+
 void expect_finite_numbers(const Json& json, const std::string& where) {
     if (json.is_structured())
         for (const auto& [key, value] : json.items()) expect_finite_numbers(value, where + "/" + key);
