@@ -130,16 +130,16 @@ void pull_landmarks(const Side& X, const Side& Y, Centres& centres) {
 CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed) {
     const CollapsedSum x(X, centres.row, relaxed.row), y(Y, centres.column, relaxed.column);
     const Eigen::Index DX = X.points.cols(), DY = Y.points.cols();
-    const bool aligned = X.aligned.size() > 0;
-    const Eigen::Index columns = DX + DY + 4 + (aligned ? 5 : 0);
+    const Eigen::Index further = X.compared.size() > 0 ? X.compared.cols() + 2 : 0;
+    const Eigen::Index columns = DX + DY + 4 + further;
     u_.resize(X.points.rows(), columns);
     v_.resize(Y.points.rows(), columns);
     const Eigen::VectorXd one_x = Eigen::VectorXd::Ones(u_.rows()), one_y = Eigen::VectorXd::Ones(v_.rows());
     u_.leftCols(DX + DY + 4) << -2 * x.g, X.points, x.alpha, X.points.rowwise().squaredNorm(), x.c, one_x;
     v_.leftCols(DX + DY + 4) << Y.points, -2 * y.g, Y.points.rowwise().squaredNorm(), y.alpha, one_y, y.c;
-    if (!aligned) return;
-    u_.rightCols(5) << -2 * X.aligned, X.aligned.rowwise().squaredNorm(), one_x;
-    v_.rightCols(5) << Y.aligned, one_y, Y.aligned.rowwise().squaredNorm();
+    if (further == 0) return;
+    u_.rightCols(further) << -2 * X.compared, X.compared.rowwise().squaredNorm(), one_x;
+    v_.rightCols(further) << Y.compared, one_y, Y.compared.rowwise().squaredNorm();
 }
 
 Eigen::VectorXd CostFactors::on(const Support& support) const {

@@ -17,7 +17,7 @@ struct Side {
     SparseMatrix averaging;    ///< P: p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'); rows sum to 1
     std::vector<int> partner;  ///< per sample: the other side's sample that it belongs to (a landmark), or -1
     double landmark_weight = 1;  ///< W of pull_landmarks, in (0, 1]
-    RowMatrix aligned;          ///< samples x 3 positions times sqrt(weight) of the Wasserstein-2 term; may be empty
+    RowMatrix compared;        ///< samples x F: |f_i - f_j|^2 adds to the cost of an entry (compared_terms.h); may be empty
 };
 
 /// P of a side: weights times masses, rows normalised (the measure W_x mu / mass(W_x mu) of Eq. 1).
@@ -65,7 +65,7 @@ class CostFactors {
 };
 
 /// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m'_i, landmarks pulled;
-/// and the energy C' for the plan and these centres, with what soft landmarks add, without the Wasserstein-2 term.
+/// and the energy C' for the plan and these centres, with what soft landmarks add, without what is compared directly.
 struct CentreStep {
     Centres centres;
     RowMatrix row_image, column_image;  ///< mean images of the samples themselves (pi_X(delta_x), pi_Y(delta_y))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/mapping/compared_terms.h"
 #include "common/mapping/solve_level.h"
 #include "common/mapping/vertex_images.h"
 #include "common/stage/error.h"
@@ -16,22 +17,6 @@ namespace {
 
 RowMatrix sample_positions(const Surface& surface, const Level& level) {
     return surface.mesh.vertices(level.samples, Eigen::all);
-}
-
-double variance(const RowMatrix& points, const Eigen::VectorXd& mass) {
-    const Eigen::RowVectorXd mean = mass.transpose() * points;
-    return mass.dot(Eigen::VectorXd((points.rowwise() - mean).rowwise().squaredNorm()));
-}
-
-/// Adds the Wasserstein-2 cost between positions in space, in units in which the surfaces' variances in space and
-/// in the level's embedding agree.
-void add_wasserstein_term(LevelPair& pair, const PairContext& context, double weight) {
-    const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
-    const RowMatrix b = sample_positions(context.B().surface, pair.B.level);
-    const double ratio = (variance(pair.A.side.points, pair.A.side.mass) + variance(pair.B.side.points, pair.B.side.mass)) /
-                         (variance(a, pair.A.side.mass) + variance(b, pair.B.side.mass));
-    pair.A.side.aligned = std::sqrt(weight * ratio) * a;
-    pair.B.side.aligned = std::sqrt(weight * ratio) * b;
 }
 
 /// Centres of the Wasserstein-2 plan between positions in space (Sec. 5, Initialization).
@@ -108,10 +93,12 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params, const std:
     Solved coarse;
     if (candidates) coarse = chosen_candidate(context, *candidates, params.candidate);
     Solution solution;
+    const FeatureTerm features(context, params.feature_weight);
     // At least one level: a candidate on the last one is solved there once more.
     for (int l = std::min(coarse.next, levels - 1); l < levels; ++l) {
         LevelPair pair = context.diffusion_level(l);
         if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
+        features.add_to(pair);
         const Start start = l == 0 && !candidates ? coarsest_start(pair, context, params)
                                                   : hand_down(coarse.plan, coarse.pair.A.level, coarse.pair.B.level, pair,
                                                               params.alternation.support_threshold);

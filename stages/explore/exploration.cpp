@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/mapping/local_shape.h"
 #include "common/mapping/solve_level.h"
 #include "common/mapping/vertex_images.h"
 #include "common/stage/log.h"
 #include "common/stage/parallel.h"
-#include "stages/explore/bending.h"
+#include "stages/explore/bending_agreement.h"
 #include "stages/explore/starts.h"
 
 namespace varimap {
@@ -151,7 +152,8 @@ double Exploration::score(const Trial& trial) const {
 }
 
 void Exploration::measure_finalists() {
-    const Eigen::VectorXd bending_A = bending(context_.A()), bending_B = bending(context_.B());
+    constexpr double time = 4e-3;  // units of area: smooths over about a tenth of sqrt(area)
+    const Eigen::VectorXd bending_A = bending(context_.A(), time), bending_B = bending(context_.B(), time);
     for (Trial& trial : pool_)
         trial.bending_agreement = bending_agreement(level_, bending_A, bending_B, trial.orientation.A_to_B, trial.orientation.B_to_A);
     const LevelPair euclidean = context_.euclidean_level(0, 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/mapping/compared_terms.h"
 #include "common/mapping/solve_level.h"
 #include "common/stage/error.h"
 
@@ -41,10 +42,12 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
     const int first_index = trace.empty() ? 0 : trace.back().level + 1;
 
     LevelPair coarse = diffusion_levels_of(context, diffusion);
+    const FeatureTerm features(context, params.feature_weight);
     Solution solution;
     solution.plan = to_coupling(diffusion.plan);
     for (int l = 0; l < levels; ++l) {
         LevelPair pair = context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
+        features.add_to(pair);
         const Start start =
             hand_down(solution.plan, coarse.A.level, coarse.B.level, pair, params.alternation.support_threshold);
         IroningOptions ironing = params.ironing;

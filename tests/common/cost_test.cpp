@@ -87,16 +87,16 @@ TEST(Cost, CollapsesTheDoubleSum) {
             EXPECT_NEAR(cost[k], coefficient(e, i, e.plan.support.column[k]), 1e-12);
 }
 
-TEST(Cost, AddsTheWassersteinTermOfAlignedSurfaces) {
+TEST(Cost, AddsSquaredDistancesOfWhatIsComparedDirectly) {
     Example e = random_example(3);
     Generator random(4);
-    e.X.aligned = random.points(14, 3);
-    e.Y.aligned = random.points(11, 3);
+    e.X.compared = random.points(14, 5);
+    e.Y.compared = random.points(11, 5);
     const CostFactors factors(e.X, e.Y, e.centres);
     for (int i = 0; i < 14; ++i)
         for (int j = 0; j < 11; ++j)
             EXPECT_NEAR(factors.entry(i, j),
-                        coefficient(e, i, j) + (e.X.aligned.row(i) - e.Y.aligned.row(j)).squaredNorm(),
+                        coefficient(e, i, j) + (e.X.compared.row(i) - e.Y.compared.row(j)).squaredNorm(),
                         1e-12);
 }
 

@@ -1,4 +1,4 @@
-#include "stages/explore/bending.h"
+#include "stages/explore/bending_agreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,15 +28,6 @@ double agreement(const LevelSide& from, const Eigen::VectorXd& here, const Eigen
 }
 
 }  // namespace
-
-Eigen::VectorXd bending(const SurfaceData& data) {
-    constexpr double time = 4e-3;  // units of area: smooths over about a tenth of sqrt(area)
-    const Surface& surface = data.surface;
-    const RowMatrix phi = diffusion_embedding(data.basis, time);  // exp(-lambda t / 2) phi
-    const RowMatrix smoothed = phi * (phi.transpose() * (surface.mass.asDiagonal() * surface.mesh.vertices));
-    const Eigen::VectorXd height = (surface.mesh.vertices - smoothed).cwiseProduct(vertex_normals(surface.mesh)).rowwise().sum();
-    return surface.mirrored ? -height : height;
-}
 
 double bending_agreement(const LevelPair& pair, const Eigen::VectorXd& bending_A, const Eigen::VectorXd& bending_B,
                          const Orientation& A_to_B, const Orientation& B_to_A) {
