@@ -32,10 +32,14 @@ constexpr double large = 20'000;  ///< vertices from which on fewer global steps
 constexpr int least_steps = 2;
 constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
-std::vector<int> free_vertices(const MovingMap& map, const std::vector<char>& fixed) {
+/// Vertices that local sweeps may move: those of a face that holds a landmark would leave it.
+std::vector<int> free_vertices(const MovingMap& map, std::vector<char> fixed,
+                               const std::vector<Attachment>& landmarks) {
+    for (const Attachment& landmark : landmarks)
+        for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(landmark.from.face, k))] = 1;
     std::vector<int> free;
     for (int v = 0; v < int(fixed.size()); ++v)
-        if (!fixed[std::size_t(v)] && map.points()[std::size_t(v)].face >= 0) free.push_back(v);
+        if (!fixed[std::size_t(v)] && map.has_image(v)) free.push_back(v);
     return free;
 }
 
@@ -50,7 +54,7 @@ class Relaxation {
           energy_{options.area_weight, round.regularisation},
           last_inverse_(round.last_inverse),
           robustness_(round.robustness_factor * options.robustness),
-          vertices_(free_vertices(map, fixed)),
+          vertices_(free_vertices(map, fixed, landmarks)),
           global_(map, fixed, features),
           local_(map, 99) {
         // A factorisation takes more than linear time; the first steps are those that matter.

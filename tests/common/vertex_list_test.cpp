@@ -125,6 +125,15 @@ TEST_F(VertexList, SnapsRowsOfCoordinatesToTheSurface) {
     EXPECT_THAT(error_of({write("bad.txt", "2 0 .4\n1 0\n"), targets}), HasSubstr("bad.txt:2: expected the three"));
 }
 
+TEST_F(VertexList, KeepsWherePointsWerePicked) {
+    const Landmarks landmarks = read_landmarks({write("a.txt", "1 0 .2\n"), write("b.txt", "1.7 .3 .37\n")}, mesh_, mesh_);
+    ASSERT_EQ(landmarks.points.size(), 1u);
+    EXPECT_LT((position(mesh_, landmarks.points[0].first) - Vec3(1, 0, .2)).norm(), 1e-12);
+    EXPECT_LT((position(mesh_, landmarks.points[0].second) - Vec3(1.7, .3, .37)).norm(), 1e-12);
+    EXPECT_TRUE(read_landmarks({write("v.txt", "4 7\n")}, mesh_, mesh_).points.empty()) << "vertices";
+    EXPECT_EQ(read_landmarks({write("c.txt", "4\n"), write("d.txt", "2 0 .4\n")}, mesh_, mesh_).points.size(), 1u);
+}
+
 TEST_F(VertexList, MatchesPickedPointsByName) {
     const auto meshlab = write("a.pp", "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData/>\n"
                                        " <point x=\"2\" y=\"0\" z=\".4\" name=\"nose\" active=\"1\"/>\n"

@@ -94,6 +94,17 @@ TEST_F(Remesh, PinsLandmarksUnlessTheyAreSoft) {
     EXPECT_GT(quality["landmarks"][0], .01);
 }
 
+TEST_F(Remesh, MapsLandmarksThatArePointsOntoEachOther) {
+    plan_.landmarks = {{A_.mesh.faces(3, 0), B_.mesh.faces(3, 0)}};
+    plan_.landmark_points = {{{3, Vec3(.5, .3, .2)}, {3, Vec3(.3, .2, .5)}}};
+    const auto residual = [](const SurfaceMap& map) {
+        return Json::parse(map.quality)["landmarks"][0].get<double>();
+    };
+    const double before = residual(read_only());
+    EXPECT_GT(before, .02);
+    EXPECT_LT(residual(remesh(A_, B_, plan_, {})), .3 * before) << "the rest: the triangle lies below the sphere";
+}
+
 void expect_finite_numbers(const Json& json, const std::string& where) {
     if (json.is_structured())
         for (const auto& [key, value] : json.items()) expect_finite_numbers(value, where + "/" + key);
