@@ -15,11 +15,6 @@ constexpr double bound = 2;            ///< of the relief
 constexpr double c2 = 0.25;            ///< c^2 of the robust function
 constexpr double finest_scale = 0.02;  ///< of features, in units of sqrt(area)
 
-/// Mean edge of a mesh of unit area, if its faces were equilateral.
-double mean_edge(const TriangleMesh& mesh) {
-    return std::sqrt(4 / std::sqrt(3.0) / mesh.face_count());
-}
-
 double median(Eigen::VectorXd values) {
     const auto middle = values.begin() + values.size() / 2;
     std::nth_element(values.begin(), middle, values.end());
@@ -49,7 +44,7 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
 
 FeatureAgreement::FeatureAgreement(const MovingMap& map, double weight)
     : map_(map), weight_(weight * voronoi_masses(map.source())) {
-    const double scale = std::max({finest_scale, mean_edge(map.source()), mean_edge(map.target())});
+    const double scale = std::max({finest_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
     source_ = relief(map.source(), scale);
     target_ = relief(map.target(), scale);
 }

@@ -12,6 +12,7 @@
 #include "common/mapping/fold_removal.h"
 #include "common/mapping/global_relaxation.h"
 #include "common/mesh/closest_point.h"
+#include "common/mesh/mass.h"
 
 namespace varimap {
 
@@ -32,6 +33,10 @@ constexpr double hopeless = 4;         ///< times the energy to beat, before fol
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
 constexpr std::array<double, 3> widenings{1.6, 4, 10};
+/// Area of the target that an alternative may leave: the most of so many mean vertices' areas, and the least of
+/// a share of the part's area and a share of the surface's.
+constexpr double lost_vertices = 4, lost_share = 0.1, lost_most = 0.01;
+constexpr double cell_radius = 2;  ///< edges of the source
 constexpr double doubt =
     0.1;  ///< of the other direction, which may be wrong where a part is to be mapped anew
 const FoldEnergy judged_energy{1, 0.1};
@@ -128,8 +133,10 @@ class Trial {
     /// surroundings; attachments: of the whole map; landmarks: those of them that hold while it relaxes.
     /// Leaves the part relaxed: to be followed by a run.
     Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options,
-          const std::vector<Attachment>& attachments, const std::vector<Attachment>& landmarks)
+          const std::vector<Attachment>& attachments, const std::vector<Attachment>& landmarks,
+          const TargetCells& cells)
         : map_(map),
+          cells_(cells),
           options_(options),
           open_(fixed.size(), 1),
           held_(fixed.size(), 1),
@@ -159,6 +166,9 @@ class Trial {
         global_->attach(landmarks);
         for (int i = 0; i < relaxations; ++i) relax();
         energy_to_beat_ = (1 - options.gain) * energy();
+        reached_before_ = cells_.reached(map);
+        const double area = area_of(map, inside);
+        tolerated_loss_ = std::max(lost_vertices / double(fixed.size()), std::min(lost_share * area, lost_most));
     }
 
     const Marks& open() const { return open_; }
@@ -174,7 +184,7 @@ class Trial {
             relax();
         }
         if (energy() < promising * energy_to_beat_) remove_folds();
-        if (energy() < energy_to_beat_) return true;
+        if (energy() < energy_to_beat_ && covers_as_much()) return true;
         for (std::size_t v = 0; v < held_.size(); ++v)
             if ((open_[v] || !held_[v]) && before_[v].face >= 0) map_.place(int(v), before_[v]);
         return false;
@@ -187,6 +197,9 @@ class Trial {
     void remove_folds() {
         const double share = double(std::count(held_.begin(), held_.end(), 0)) / double(held_.size());
         FoldRemoval{fold_sweeps, fold_visits * share}(map_, held_);
+    }
+    bool covers_as_much() const {
+        return cells_.lost_area(reached_before_, cells_.reached(map_)) <= tolerated_loss_;
     }
     double energy() const {
         const RobustExcess robust(judged_energy, options_.robustness);
@@ -201,6 +214,7 @@ class Trial {
     }
 
     MovingMap& map_;
+    const TargetCells& cells_;
     const PartReplacementOptions& options_;
     Marks open_, held_;  ///< vertices that are placed anew; that stay while the part is relaxed
     PointMap before_;
@@ -208,6 +222,8 @@ class Trial {
     std::vector<Attachment> attachments_;  ///< of those faces
     std::unique_ptr<GlobalRelaxation> global_;
     double energy_to_beat_ = 0;
+    Marks reached_before_;  ///< cells of the target
+    double tolerated_loss_ = 0;
 };
 
 }  // namespace
@@ -220,6 +236,7 @@ PartReplacement::PartReplacement(MovingMap& map, const Marks& fixed, const PartR
       edges_(find_edges(map.source())),
       source_graph_(map.source()),
       target_graph_(map.target()),
+      cells_(map, target_graph_, cell_radius * equilateral_edge(map.source())),
       landmarks_(landmarks),
       rejected_(std::size_t(map.source().face_count()), 0) {}
 
@@ -248,7 +265,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
         const Marks inside = widened(map_, edges_, part, widening * area_of(map_, part));
         const double area = area_of(map_, inside);
         if (area > largest_part) return false;
-        Trial trial(map_, inside, fixed_, options_, attachments_, landmarks_);
+        Trial trial(map_, inside, fixed_, options_, attachments_, landmarks_, cells_);
         for (const Proposal& propose : proposals(trial.open())) {
             visits_ += double(std::count(trial.open().begin(), trial.open().end(), 1));
             if (!trial.run(propose)) continue;
@@ -334,7 +351,7 @@ void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
     };
     std::fill(rejected_.begin(), rejected_.end(), 0);
     if (whole &&
-        Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_, landmarks_).run(invert)) {
+        Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_, landmarks_, cells_).run(invert)) {
         ++report_.replaced;
         report_.area_percent += 100;
     }

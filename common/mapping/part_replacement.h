@@ -5,6 +5,7 @@
 
 #include "common/mapping/attachments.h"
 #include "common/mapping/moving_map.h"
+#include "common/mapping/target_cells.h"
 #include "common/mesh/geodesic_graph.h"
 
 namespace varimap {
@@ -32,7 +33,7 @@ struct PartReplacementReport {
 
 /// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained
 /// where such a part meets its surroundings. Each strained part, widened by some of its surroundings and by
-/// what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept.
+/// what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept, unless it leaves a part of the target (target_cells.h).
 class PartReplacement {
   public:
     /// fixed[v]: landmarks, which keep their images; landmarks: those that are points. Keeps references.
@@ -64,6 +65,7 @@ class PartReplacement {
     PartReplacementOptions options_;
     Edges edges_;
     GeodesicGraph source_graph_, target_graph_;
+    TargetCells cells_;
     const std::vector<Attachment> landmarks_;
     std::vector<Attachment> attachments_;  ///< also the landmarks: by which alternatives are judged
     std::vector<char> rejected_;           ///< faces of parts for which nothing better was found

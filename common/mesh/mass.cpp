@@ -1,5 +1,7 @@
 #include "common/mesh/mass.h"
 
+#include <cmath>
+
 #include <algorithm>
 #include <vector>
 
@@ -53,6 +55,10 @@ Vec3 area_centroid(const TriangleMesh& mesh) {
         total += area;
     }
     return reference + moment / total;
+}
+
+double equilateral_edge(const TriangleMesh& mesh) {
+    return std::sqrt(4 / std::sqrt(3.0) / mesh.face_count());
 }
 
 }  // namespace varimap

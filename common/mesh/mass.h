@@ -12,4 +12,7 @@ Eigen::VectorXd voronoi_masses(const TriangleMesh& mesh);
 /// Centre of mass of the surface as a thin shell. The total area must be positive.
 Vec3 area_centroid(const TriangleMesh& mesh);
 
+/// Length of the edges of a mesh of unit area if all its faces were equilateral and equal.
+double equilateral_edge(const TriangleMesh& mesh);
+
 }  // namespace varimap
