@@ -28,8 +28,11 @@ bool is_left(const TriangleMesh& mesh, int a, int b, const Vec3& p, double& doub
 /// +1 or -1 if the ray from `p` along the third axis leaves or enters through the face, else 0.
 int crossing(const TriangleMesh& mesh, int f, const Vec3& p) {
     const int a = mesh.faces(f, 0), b = mesh.faces(f, 1), c = mesh.faces(f, 2);
-    const auto is_before = [&](int v) { return mesh.vertices(v, 0) < p[0]; };
-    if (is_before(a) == is_before(b) && is_before(b) == is_before(c)) return 0;  // most faces
+    // Most faces lie strictly to one side; those that touch the ray's plane are left to the test of their
+    // edges.
+    const auto [least, largest] =
+        std::minmax({mesh.vertices(a, 0), mesh.vertices(b, 0), mesh.vertices(c, 0)});
+    if (least > p[0] || largest < p[0]) return 0;
     double at_a, at_b, at_c;
     const bool left = is_left(mesh, b, c, p, at_a);
     if (is_left(mesh, c, a, p, at_b) != left || is_left(mesh, a, b, p, at_c) != left) return 0;

@@ -33,9 +33,9 @@ constexpr double hopeless = 4;         ///< times the energy to beat, before fol
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
 constexpr std::array<double, 3> widenings{1.6, 4, 10};
-/// Area of the target that an alternative may leave: the most of so many mean vertices' areas, and the least of
-/// a share of the part's area and a share of the surface's.
-constexpr double lost_vertices = 4, lost_share = 0.1, lost_most = 0.01;
+/// Area of the target that an alternative may leave: the most of so many mean vertices' areas, and the least
+/// of a share of the part's area and a share of the surface's.
+constexpr double lost_vertices = 12, lost_share = 0.5, lost_most = 0.035;
 constexpr double cell_radius = 2;  ///< edges of the source
 constexpr double doubt =
     0.1;  ///< of the other direction, which may be wrong where a part is to be mapped anew
@@ -168,7 +168,8 @@ class Trial {
         energy_to_beat_ = (1 - options.gain) * energy();
         reached_before_ = cells_.reached(map);
         const double area = area_of(map, inside);
-        tolerated_loss_ = std::max(lost_vertices / double(fixed.size()), std::min(lost_share * area, lost_most));
+        tolerated_loss_ =
+            std::max(lost_vertices / double(fixed.size()), std::min(lost_share * area, lost_most));
     }
 
     const Marks& open() const { return open_; }
@@ -350,8 +351,8 @@ void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
         }
     };
     std::fill(rejected_.begin(), rejected_.end(), 0);
-    if (whole &&
-        Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_, landmarks_, cells_).run(invert)) {
+    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_, landmarks_, cells_)
+                     .run(invert)) {
         ++report_.replaced;
         report_.area_percent += 100;
     }

@@ -33,7 +33,8 @@ struct PartReplacementReport {
 
 /// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained
 /// where such a part meets its surroundings. Each strained part, widened by some of its surroundings and by
-/// what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept, unless it leaves a part of the target (target_cells.h).
+/// what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy is lower is kept,
+/// unless it leaves a part of the target (target_cells.h).
 class PartReplacement {
   public:
     /// fixed[v]: landmarks, which keep their images; landmarks: those that are points. Keeps references.

@@ -63,6 +63,9 @@ void require_consistent(const Plan& plan) {
             all_in_range({first}, plan.position_A.rows()) && all_in_range({second}, plan.position_B.rows()),
             "landmarks");
     require<Plan>(plan.landmark_points.empty() || plan.landmark_points.size() == plan.landmarks.size(), "landmarks");
+    for (const auto& [first, second] : plan.landmark_points)
+        require<Plan>(first.face >= 0 && second.face >= 0, "landmarks");
+    require<Plan>(plan.landmark_weight > 0 && plan.landmark_weight <= 1, "landmark weight");
     require<Plan>(plan.landmark_checks.empty() || plan.landmark_checks.size() == plan.landmarks.size(),
                   "landmark checks");
     require<Plan>(plan.candidate >= 0 && plan.candidate <= int(plan.candidates.size()), "candidates");

@@ -147,7 +147,7 @@ class Untangling {
     void end_relaxation(const Round& round) {
         if (relaxation_) report_.global_steps += relaxation_->steps();
         relaxation_.reset();
-        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, fixed_);
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, held());
     }
 
     void replace_parts(const PointMap& back) {
@@ -178,11 +178,19 @@ class Untangling {
     }
 
   private:
+    /// The fixed vertices, and those that hold a landmark in place, unless their triangle is reversed.
+    std::vector<char> held() const {
+        std::vector<char> held = fixed_;
+        for (const Attachment& landmark : landmarks_)
+            if (moving_.chord(landmark.from.face).D > 0)
+                for (int k = 0; k < 3; ++k) held[std::size_t(source_.faces(landmark.from.face, k))] = 1;
+        return held;
+    }
     void align_normals() {
         NormalAgreement agreement(moving_);
         const std::vector<int> disagreeing = agreement.disagreeing_faces();
         report_.disagreeing_before = int(disagreeing.size());
-        report_.disagreeing_after = int(agreement.improve(disagreeing, fixed_).size());
+        report_.disagreeing_after = int(agreement.improve(disagreeing, held()).size());
     }
 
     PointMap& map_;

@@ -19,11 +19,12 @@ double closest_on_segment(const Vec3& q, const Vec3& a, const Vec3& b) {
     return t <= 0 || length <= 0 ? 0 : std::min(1.0, t / length);
 }
 
-/// Barycentric coordinates of q's projection onto the plane; all -1 if the triangle has no plane.
+/// Barycentric coordinates of q's projection onto the plane; all -1 if rounding leaves the triangle none.
 Vec3 project_to_plane(const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 normal = (b - a).cross(c - a);
     const double squared = normal.squaredNorm();
-    if (!(squared > 0)) return Vec3::Constant(-1);
+    constexpr double least = 1e-20;  // squared sine of the angle at a
+    if (!(squared > least * (b - a).squaredNorm() * (c - a).squaredNorm())) return Vec3::Constant(-1);
     const double v = (q - a).cross(c - a).dot(normal) / squared;
     const double w = (b - a).cross(q - a).dot(normal) / squared;
     return Vec3(1 - v - w, v, w);
@@ -32,7 +33,7 @@ Vec3 project_to_plane(const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c
 }  // namespace
 
 // A point inside the triangle competes with the closest points of the sides that it does not lie well inside
-// of by the distance that is really reached, so needles and triangles without area need no case of their own.
+// of by the distance that is really reached, so needles need no case of their own.
 Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c) {
     constexpr double well_inside = 1e-3;
     const std::array<Vec3, 3> corner{a, b, c};

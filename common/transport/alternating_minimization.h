@@ -28,7 +28,7 @@ using KeptEntries = std::vector<std::vector<int>>;
 
 /// What one alternation did.
 struct Alternation {
-    double energy;  ///< Eq. (3), or C', after all half-steps
+    double energy;  ///< Eq. (3), or C', after all half-steps; without costs of comparison (Side::compared)
     double gamma;
     SinkhornReport sinkhorn;
     int entries;
@@ -56,7 +56,8 @@ class AlternatingMinimization {
     /// A step with a plan solved for more tightly and at last rounded, so that it keeps the area bound to within 0.1%.
     /// The centres are those of the plan before rounding. Throws ConvergenceError where the bound cannot be kept.
     Alternation tight_step() { return step(true); }
-    /// Steps until the energy of Eq. (3) settles.
+    /// Steps until the energy of Eq. (3) settles: the one that is reported, though costs of comparison have a part
+    /// in what is minimised.
     void run(const std::function<void(const Alternation&)>& observe);
 
     const Solution& solution() const { return solution_; }

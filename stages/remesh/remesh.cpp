@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "common/mesh/closest_point.h"
+#include "common/stage/error.h"
 #include "common/stage/log.h"
 #include "stages/remesh/quality_json.h"
 
@@ -41,6 +45,33 @@ PinnedPair pinned_vertices(const Plan& plan, const Surface& A, const Surface& B)
     return pinned;
 }
 
+/// Landmarks that are points lie between vertices: none of these is where its image has to be.
+PinnedPair with_points(PinnedPair vertices, const PointPairs& points, const Plan& plan) {
+    if (!plan.pins_landmarks() || points.empty()) return vertices;
+    std::fill(vertices.A.begin(), vertices.A.end(), 0);
+    std::fill(vertices.B.begin(), vertices.B.end(), 0);
+    vertices.points = points;
+    return vertices;
+}
+
+/// Points of the inputs as points of the preprocessed meshes.
+PointPairs on_meshes(const PointPairs& points, const Surface& A, const Surface& B) {
+    const ClosestPoint on_A(A.mesh), on_B(B.mesh);
+    const auto moved = [](const Surface& surface, const SurfacePoint& point, const ClosestPoint& closest) {
+        return closest((position(surface.input, point) - surface.centre) * surface.scale).point;
+    };
+    PointPairs result;
+    for (const auto& [a, b] : points) result.emplace_back(moved(A, a, on_A), moved(B, b, on_B));
+    return result;
+}
+
+void require_on_inputs(const Plan& plan, const Surface& A, const Surface& B) {
+    for (const auto& [a, b] : plan.landmark_points)
+        if (a.face >= A.input.face_count() || b.face >= B.input.face_count())
+            throw ArtifactError(
+                "the plan has landmarks on faces that the surfaces lack; rerun varimap-diffuse");
+}
+
 void log_untangling(const char* name, const UntanglingReport& report) {
     log("{}: {} triangles reversed ({:.3f}% of the area) before untangling, {} ({:.3f}%) after {} global "
         "steps and {} sweeps; {} of {} strained parts mapped anew; {} triangles cut through features, {} "
@@ -58,23 +89,21 @@ void log_untangling(const char* name, const UntanglingReport& report) {
 }  // namespace
 
 SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const RemeshParams& params) {
+    require_on_inputs(plan, A, B);
     VertexMaps images = read_out(plan, A, B);
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
     const PinnedPair pinned = pinned_vertices(plan, A, B);
     UntanglingOptions options = params.untangling;
     if (is_coarse(A) || is_coarse(B)) {
-        untangle(maps, A.mesh, B.mesh, pinned, options);
+        const PointPairs points = on_meshes(plan.landmark_points, A, B);
+        untangle(maps, A.mesh, B.mesh, with_points(pinned, points, plan), options);
         options.global_steps = 0;
         options.replace_parts = false;
     }
-    PinnedPair pinned_input{on_input(pinned.A, A), on_input(pinned.B, B)};
-    // Landmarks that are points lie between vertices: none of these is where its image has to be.
-    if (plan.pins_landmarks() && !plan.landmark_points.empty())
-        pinned_input = {std::vector<char>(pinned_input.A.size(), 0), std::vector<char>(pinned_input.B.size(), 0),
-                        plan.landmark_points};
+    const PinnedPair pinned_input =
+        with_points({on_input(pinned.A, A), on_input(pinned.B, B)}, plan.landmark_points, plan);
     MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
-    const UntanglingReports reports =
-        untangle(inputs, A.input, B.input, pinned_input, options);
+    const UntanglingReports reports = untangle(inputs, A.input, B.input, pinned_input, options);
     if (options.enabled) {
         log_untangling("source to target", reports.A_to_B);
         log_untangling("target to source", reports.B_to_A);

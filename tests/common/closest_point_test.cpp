@@ -55,6 +55,15 @@ TEST_F(ClosestPointTest, BarycentricCoordinatesMinimiseTheDistance) {
     }
 }
 
+TEST_F(ClosestPointTest, TrianglesWithoutAPlaneAreTheirSides) {
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = random_vector(), b = random_vector(), q = a + std::abs(random_vector()[0]) * (b - a);
+        const Vec3 c = a + random_vector()[0] * (b - a);  // all four collinear up to rounding
+        const Vec3 best = closest_barycentric(q, a, b, c);
+        EXPECT_LT((best[0] * a + best[1] * b + best[2] * c - q).norm(), 1e-12);
+    }
+}
+
 TEST_F(ClosestPointTest, PointTriangleIsItsPoint) {
     const Vec3 a(1, 2, 3);
     const Vec3 best = closest_barycentric({0, 0, 0}, a, a, a);

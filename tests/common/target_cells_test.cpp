@@ -14,7 +14,8 @@ TEST(TargetCells, TellWhichAreaAMapLeaves) {
     MovingMap map(identity, sphere, sphere);
     const TargetCells cells(map, GeodesicGraph(map.target()), 0.03);
     const std::vector<char> before = cells.reached(map);
-    // The images of the upper cap go to the lower one: a sphere's caps have the area of their share of the height.
+    // The images of the upper cap go to the lower one: a sphere's caps have the area of their share of the
+    // height.
     for (int v = 0; v < sphere.vertex_count(); ++v)
         if (sphere.vertex(v).z() > 0.5) map.place(v, identity[0]);
     EXPECT_NEAR(cells.lost_area(before, cells.reached(map)), 0.25, 0.05);

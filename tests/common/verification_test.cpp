@@ -81,6 +81,17 @@ TEST(Verification, IdentityIsFaultless) {
     }
 }
 
+TEST(Verification, VerticesThatLineUpWithTheAxesDoNotHideTheDegree) {
+    // Both have vertices on the same planes of a grid, through which rays from inside pass.
+    const auto cube = [](const Vec3& p) {
+        return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) - 1;
+    };
+    const TriangleMesh box = shapes::level_set(cube, Vec3::Constant(-1.5), Vec3::Constant(1.5), 0.25);
+    const TriangleMesh image = shapes::shuffled(box, 3);
+    const auto stay = [](const Vec3& p) { return p; };
+    EXPECT_EQ(verify_map(map_by(image, box, stay), image, box).degree.value(), 1);
+}
+
 TEST(Verification, OpenSurfacesHaveNoDegree) {
     for (const TriangleMesh& mesh : {shapes::square(8), shapes::tube(20, 12, false)}) {
         const Verification found = verify_map(at_vertices(mesh), mesh, mesh);
