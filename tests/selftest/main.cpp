@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
+#include <string_view>
 
 #include "common/artifact/artifact.h"
 #include "common/mesh/mesh_file.h"
+#include "common/stage/error.h"
 #include "selftest/body.h"
 
 namespace {
@@ -62,13 +64,33 @@ void write_pair(unsigned seed, const std::string& folder) {
     fmt::print("{}\n", kind);
 }
 
+unsigned seed_from(std::string_view text) {
+    unsigned seed = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, seed);
+    if (error != std::errc() || stop != end)
+        throw UsageError(fmt::format("SEED '{}': give a number, 0 or more", text));
+    return seed;
+}
+
+int report(ExitCode code, const std::string& message) {
+    fmt::print(stderr, "selftest-shapes: error: {}\n", message);
+    return int(code);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc != 3) {
         fmt::print(stderr, "usage: selftest-shapes SEED FOLDER\n");
-        return 2;
+        return int(ExitCode::usage);
     }
-    write_pair(unsigned(std::atoi(argv[1])), argv[2]);
-    return 0;
+    try {
+        write_pair(seed_from(argv[1]), argv[2]);
+        return int(ExitCode::ok);
+    } catch (const Error& error) {
+        return report(error.code(), error.what());
+    } catch (const std::exception& error) {
+        return report(ExitCode::internal, std::string("internal: ") + error.what());
+    }
 }
