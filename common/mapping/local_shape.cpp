@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/mapping/map_degree.h"
 #include "common/mesh/ray_mesh.h"
+#include "common/mesh/topology.h"
 #include "common/stage/parallel.h"
 
 namespace varimap {
@@ -17,10 +17,7 @@ constexpr double largest_feature = 2.5;  ///< in standard deviations
 /// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that of the file.
 bool looks_inward(const Surface& surface) {
     if (!is_closed(surface.mesh)) return surface.mirrored;
-    double volume = 0;
-    for (int f = 0; f < surface.mesh.face_count(); ++f)
-        volume += surface.mesh.vertex(surface.mesh.faces(f, 0)).dot(face_normal(surface.mesh, f));
-    return volume < 0;
+    return signed_volume(surface.mesh) < 0;
 }
 
 Points outward_normals(const Surface& surface) {
