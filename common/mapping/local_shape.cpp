@@ -57,6 +57,19 @@ std::array<Vec3, 4> inward_cone(const Vec3& inward) {
     return rays;
 }
 
+/// Mean length of the rays of the inward cone at a place, each at most `longest`: so long are all where there is no
+/// normal.
+double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, const Vec3& inward, double longest) {
+    if (inward.isZero(0)) return longest;
+    double sum = 0;
+    for (const Vec3& direction : inward_cone(inward)) {
+        const SurfacePoint hit = rays.first_hit(origin, direction);
+        const double length = hit.face < 0 ? longest : (position(mesh, hit) - origin).norm();
+        sum += std::min(length, longest);
+    }
+    return sum / 4;
+}
+
 }  // namespace
 
 Eigen::VectorXd bending(const SurfaceData& data, double time) {
@@ -74,13 +87,7 @@ Eigen::VectorXd thickness(const Surface& surface) {
     parallel_for_each_index(normals.rows(), Eigen::Index(64), [&](Eigen::Index v) {
         const Vec3 inward = -normals.row(v).transpose();
         const Vec3 origin = surface.mesh.vertex(int(v)) + lift * inward;
-        double sum = 0;
-        for (const Vec3& direction : inward_cone(inward)) {
-            const SurfacePoint hit = rays.first_hit(origin, direction);
-            const double length = hit.face < 0 ? longest : (position(surface.mesh, hit) - origin).norm();
-            sum += std::min(length, longest);
-        }
-        result[v] = lift + sum / 4;
+        result[v] = lift + depth(rays, surface.mesh, origin, inward, longest);
     });
     return result;
 }

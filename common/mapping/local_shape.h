@@ -12,7 +12,7 @@ namespace varimap {
 Eigen::VectorXd bending(const SurfaceData& data, double time);
 
 /// How far it is through the shape from each vertex, along the inward normal and around it, units of sqrt(area).
-/// Rays that leave through a hole count as long ones.
+/// Rays that leave through a hole count as long ones, as do those of vertices without a normal.
 Eigen::VectorXd thickness(const Surface& surface);
 
 /// vertices x F features that tell parts of a surface apart by their shape, not by where they are: bending at

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/known_pair.h"
+#include "common/mesh/topology.h"
 #include "common/surface_data.h"
 
 namespace varimap {
@@ -33,6 +34,17 @@ TEST(Thickness, IsTheLengthOfChordsOfASphere) {
 
 TEST(Thickness, IsThatOfTheLongestRayWhereNothingLiesOpposite) {
     EXPECT_NEAR(thickness(shapes::unit_surface(shapes::square(8))).minCoeff(), .6, 1e-3);
+}
+
+TEST(Thickness, IsThatOfTheLongestRayWhereThereIsNoNormal) {
+    Surface surface = sphere().surface;
+    TriangleMesh& mesh = surface.mesh;
+    const Adjacency neighbours = vertex_neighbours(mesh);
+    for (const int v : neighbours[0]) mesh.vertices.row(v) = mesh.vertices.row(0).eval();
+    const Eigen::VectorXd through = thickness(surface);
+    EXPECT_TRUE(through.allFinite());
+    EXPECT_NEAR(through[0], .6, 1e-3);
+    EXPECT_LT(through[neighbours[0][0]], .6);  // has other faces
 }
 
 TEST(LocalShape, IsNearlyZeroWhereAllPlacesAreAlike) {
