@@ -8,10 +8,6 @@ namespace varimap {
 
 namespace {
 
-RowMatrix sample_positions(const Surface& surface, const Level& level) {
-    return surface.mesh.vertices(level.samples, Eigen::all);
-}
-
 double variance(const RowMatrix& points, const Eigen::VectorXd& mass) {
     const Eigen::RowVectorXd mean = mass.transpose() * points;
     return mass.dot(Eigen::VectorXd((points.rowwise() - mean).rowwise().squaredNorm()));

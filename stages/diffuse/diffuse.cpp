@@ -15,10 +15,6 @@ namespace varimap {
 
 namespace {
 
-RowMatrix sample_positions(const Surface& surface, const Level& level) {
-    return surface.mesh.vertices(level.samples, Eigen::all);
-}
-
 /// Centres of the Wasserstein-2 plan between positions in space (Sec. 5, Initialization).
 Centres wasserstein_centres(const LevelPair& pair, const PairContext& context, const AlternationOptions& options) {
     const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
