@@ -9,7 +9,7 @@
 #include "common/mapping/solve_level.h"
 #include "common/mapping/vertex_images.h"
 #include "common/stage/error.h"
-#include "stages/diffuse/landmark_check.h"
+#include "stages/diffuse/check_landmarks.h"
 
 namespace varimap {
 

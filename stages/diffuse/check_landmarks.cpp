@@ -1,4 +1,4 @@
-#include "stages/diffuse/landmark_check.h"
+#include "stages/diffuse/check_landmarks.h"
 
 #include <algorithm>
 
