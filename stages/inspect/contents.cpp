@@ -105,6 +105,16 @@ void visit(const Candidates& candidates, ContentsVisitor& visitor) {
     visitor.array("mass_B", view(candidates.mass_B));
     for (std::size_t k = 0; k < candidates.plans.size(); ++k)
         visitor.sparse(fmt::format("plan_{:02}", k + 1), candidates.plans[k]);
+    visitor.fact("previews", fmt::format("{}", candidates.previews.size()));
+    for (std::size_t k = 0; k < candidates.previews.size(); ++k)
+        visit_points(fmt::format("preview_{:02}", k + 1), candidates.previews[k], visitor);
+}
+
+void visit_landmark_points(const PointPairs& pairs, ContentsVisitor& visitor) {
+    PointMap on_A, on_B;
+    for (const auto& [a, b] : pairs) on_A.push_back(a), on_B.push_back(b);
+    visit_points("landmark_points_A", on_A, visitor);
+    visit_points("landmark_points_B", on_B, visitor);
 }
 
 std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
@@ -116,6 +126,7 @@ void visit(const Plan& plan, ContentsVisitor& visitor) {
     std::vector<int> landmarks_A, landmarks_B;
     for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
     visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
+    visitor.fact("landmarks given as points", fmt::format("{}", plan.landmark_points.size()));
     visitor.fact("landmark weight", fmt::format("{}", plan.landmark_weight));
     visitor.fact("area bound", fmt::format("{}", plan.area_bound));
     visitor.fact("transported / mass, A", range_of_ratios(plan.transported_A, plan.mass_A));
@@ -134,6 +145,7 @@ void visit(const Plan& plan, ContentsVisitor& visitor) {
     visitor.array("position_B", view(plan.position_B));
     visitor.array("landmarks_A", view(landmarks_A));
     visitor.array("landmarks_B", view(landmarks_B));
+    visit_landmark_points(plan.landmark_points, visitor);
     visitor.text("trace.csv", trace_csv(plan.trace));
 }
 
