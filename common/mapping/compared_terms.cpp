@@ -38,8 +38,9 @@ RowMatrix cell_means(const LevelSide& side, const RowMatrix& features) {
 void add_wasserstein_term(LevelPair& pair, const PairContext& context, double weight) {
     const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
     const RowMatrix b = sample_positions(context.B().surface, pair.B.level);
-    const double ratio = (variance(pair.A.side.points, pair.A.side.mass) + variance(pair.B.side.points, pair.B.side.mass)) /
-                         (variance(a, pair.A.side.mass) + variance(b, pair.B.side.mass));
+    const double ratio =
+        (variance(pair.A.side.points, pair.A.side.mass) + variance(pair.B.side.points, pair.B.side.mass)) /
+        (variance(a, pair.A.side.mass) + variance(b, pair.B.side.mass));
     append(pair.A.side, std::sqrt(weight * ratio) * a);
     append(pair.B.side, std::sqrt(weight * ratio) * b);
 }

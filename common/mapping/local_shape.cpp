@@ -14,7 +14,8 @@ namespace {
 
 constexpr double largest_feature = 2.5;  ///< in standard deviations
 
-/// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that of the file.
+/// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that
+/// of the file.
 bool looks_inward(const Surface& surface) {
     if (!is_closed(surface.mesh)) return surface.mirrored;
     return signed_volume(surface.mesh) < 0;
@@ -57,9 +58,10 @@ std::array<Vec3, 4> inward_cone(const Vec3& inward) {
     return rays;
 }
 
-/// Mean length of the rays of the inward cone at a place, each at most `longest`: so long are all where there is no
-/// normal.
-double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, const Vec3& inward, double longest) {
+/// Mean length of the rays of the inward cone at a place, each at most `longest`: so long are all where there
+/// is no normal.
+double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, const Vec3& inward,
+             double longest) {
     if (inward.isZero(0)) return longest;
     double sum = 0;
     for (const Vec3& direction : inward_cone(inward)) {

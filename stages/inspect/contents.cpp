@@ -78,11 +78,12 @@ std::string trace_csv(const std::vector<TraceRow>& trace) {
 }
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
-    std::string text = "candidate,diffusion_energy,euclidean_energy,bending_agreement,score,reversed_mass,moved_mass,turn\n";
+    std::string text =
+        "candidate,diffusion_energy,euclidean_energy,bending_agreement,score,reversed_mass,moved_mass,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy, c.bending_agreement, c.score,
-                            c.reversed_mass, c.moved_mass, c.turn);
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy,
+                            c.bending_agreement, c.score, c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;
 }
@@ -92,8 +93,9 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
     const Confidence confidence = confidence_of(candidates);
     for (std::size_t k = 0; k < candidates.size(); ++k)
         visitor.fact(fmt::format("candidate {}", k + 1), relation(candidates[k]));
-    visitor.fact("confidence", fmt::format("{}: margin {:.2f}%, levels {}", confidence.confident ? "sure" : "not sure",
-                                           100 * confidence.margin, confidence.levels_agree ? "agree" : "disagree"));
+    visitor.fact("confidence",
+                 fmt::format("{}: margin {:.2f}%, levels {}", confidence.confident ? "sure" : "not sure",
+                             100 * confidence.margin, confidence.levels_agree ? "agree" : "disagree"));
     visitor.text("candidates.csv", candidates_csv(candidates));
 }
 
@@ -119,7 +121,8 @@ void visit_landmark_points(const PointPairs& pairs, ContentsVisitor& visitor) {
 
 std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
     const Eigen::ArrayXd ratio = transported.array() / mass.array();
-    return ratio.size() > 0 ? fmt::format("from {:.6g} to {:.6g}", ratio.minCoeff(), ratio.maxCoeff()) : "none";
+    return ratio.size() > 0 ? fmt::format("from {:.6g} to {:.6g}", ratio.minCoeff(), ratio.maxCoeff())
+                            : "none";
 }
 
 void visit(const Plan& plan, ContentsVisitor& visitor) {
@@ -183,8 +186,9 @@ std::pair<const std::string, Kind> kind_of() {
 }
 
 const std::map<std::string, Kind>& kinds() {
-    static const std::map<std::string, Kind> table{kind_of<Surface>(), kind_of<Basis>(), kind_of<Hierarchy>(),
-                                                   kind_of<Candidates>(), kind_of<Plan>(), kind_of<SurfaceMap>()};
+    static const std::map<std::string, Kind> table{kind_of<Surface>(),   kind_of<Basis>(),
+                                                   kind_of<Hierarchy>(), kind_of<Candidates>(),
+                                                   kind_of<Plan>(),      kind_of<SurfaceMap>()};
     return table;
 }
 

@@ -9,9 +9,13 @@
 namespace varimap {
 namespace {
 
-SurfaceData sphere() { return shapes::surface_data(shapes::unit_surface(shapes::ellipsoid(4)), 60); }
+SurfaceData sphere() {
+    return shapes::surface_data(shapes::unit_surface(shapes::ellipsoid(4)), 60);
+}
 
-SurfaceData figure() { return shapes::figure_pair(1, false).A; }
+SurfaceData figure() {
+    return shapes::figure_pair(1, false).A;
+}
 
 TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
     SurfaceData data = figure();
@@ -25,7 +29,8 @@ TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
 }
 
 TEST(Thickness, IsTheLengthOfChordsOfASphere) {
-    // The cone's rays hit a sphere of radius r at 2 r cos(angle from the normal): tan = 0.5, so cos = 2 / sqrt(5).
+    // The cone's rays hit a sphere of radius r at 2 r cos(angle from the normal): tan = 0.5, so cos = 2 /
+    // sqrt(5).
     const Eigen::VectorXd through = thickness(sphere().surface);
     const double diameter = 1 / std::sqrt(M_PI), expected = diameter * (1 + 3 * 2 / std::sqrt(5)) / 4;
     EXPECT_NEAR(through.mean(), expected, .01 * expected);

@@ -1,7 +1,7 @@
 // Writes a generated shape and a bent, scaled, turned, renumbered and differently tessellated copy of it:
 //   selftest-shapes SEED FOLDER
-// leaves FOLDER/source.ply, target.ply, and their true map as two lists of vertices, source.txt and target.txt;
-// prints what kind of shape it is.
+// leaves FOLDER/source.ply, target.ply, and their true map as two lists of vertices, source.txt and
+// target.txt; prints what kind of shape it is.
 
 #include <fmt/format.h>
 
@@ -18,8 +18,8 @@ namespace {
 
 using namespace varimap;
 
-/// Source vertices and the target vertices at their true images; only the fifth of the source's vertices whose
-/// images are nearest to a vertex, so that the target's tessellation hardly counts as an error.
+/// Source vertices and the target vertices at their true images; only the fifth of the source's vertices
+/// whose images are nearest to a vertex, so that the target's tessellation hardly counts as an error.
 void write_truth(const std::string& folder, const Points& images, const TriangleMesh& target) {
     struct Row {
         double distance;
@@ -28,7 +28,8 @@ void write_truth(const std::string& folder, const Points& images, const Triangle
     std::vector<Row> rows(static_cast<size_t>(images.rows()));
     for (int v = 0; v < int(rows.size()); ++v) {
         int nearest;
-        const double squared = (target.vertices.rowwise() - images.row(v)).rowwise().squaredNorm().minCoeff(&nearest);
+        const double squared =
+            (target.vertices.rowwise() - images.row(v)).rowwise().squaredNorm().minCoeff(&nearest);
         rows[size_t(v)] = {squared, v, nearest};
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.distance < b.distance; });
@@ -43,7 +44,8 @@ void write_truth(const std::string& folder, const Points& images, const Triangle
 }
 
 TriangleMesh posed(const shapes::Body& body, TriangleMesh mesh) {
-    for (int v = 0; v < mesh.vertex_count(); ++v) mesh.vertices.row(v) = body.posed(mesh.vertex(v)).transpose();
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        mesh.vertices.row(v) = body.posed(mesh.vertex(v)).transpose();
     return mesh;
 }
 
@@ -56,7 +58,9 @@ void write_pair(unsigned seed, const std::string& folder) {
     };
     const TriangleMesh source = mesh(), other = mesh();
     const double scale = random.between(0.1, 10), angle = random.between(0, 3);
-    const auto placed = [&](const TriangleMesh& rest) { return shapes::moved(posed(body, rest), scale, angle, {1, -2, 3}); };
+    const auto placed = [&](const TriangleMesh& rest) {
+        return shapes::moved(posed(body, rest), scale, angle, {1, -2, 3});
+    };
     const TriangleMesh target = shapes::shuffled(placed(other), seed);
     write_truth(folder, placed(source).vertices, target);
     write_file_atomically(folder + "/source.ply", to_ply(source));

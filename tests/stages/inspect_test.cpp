@@ -148,7 +148,8 @@ TEST(Inspect, ExportWritesThePreviewsOfCandidates) {
     write_sample(folder / "AB.candidates", candidates);
     EXPECT_THAT(summarise(folder / "AB.candidates"), HasSubstr("previews"));
     export_contents(folder / "AB.candidates", folder / "out");
-    EXPECT_EQ(npy_doubles(read_file(folder / "out/preview_01_barycentric.npy")), (std::vector<double>{.25, .75, 0}));
+    EXPECT_EQ(npy_doubles(read_file(folder / "out/preview_01_barycentric.npy")),
+              (std::vector<double>{.25, .75, 0}));
 }
 
 }  // namespace
