@@ -30,8 +30,8 @@ Confidence confidence_of(const std::vector<Candidate>& candidates) {
 std::string relation(const Candidate& candidate) {
     if (is_mirrored(candidate)) return "mirrored";
     if (candidate.moved_mass == 0) return "the best";
-    return fmt::format("{:.0f}% of the surface elsewhere, turned by {:.0f} degrees", 100 * candidate.moved_mass,
-                       candidate.turn);
+    return fmt::format("{:.0f}% of the surface elsewhere, turned by {:.0f} degrees",
+                       100 * candidate.moved_mass, candidate.turn);
 }
 
 }  // namespace varimap

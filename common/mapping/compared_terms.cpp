@@ -8,10 +8,6 @@ namespace varimap {
 
 namespace {
 
-RowMatrix sample_positions(const Surface& surface, const Level& level) {
-    return surface.mesh.vertices(level.samples, Eigen::all);
-}
-
 double variance(const RowMatrix& points, const Eigen::VectorXd& mass) {
     const Eigen::RowVectorXd mean = mass.transpose() * points;
     return mass.dot(Eigen::VectorXd((points.rowwise() - mean).rowwise().squaredNorm()));
@@ -42,8 +38,9 @@ RowMatrix cell_means(const LevelSide& side, const RowMatrix& features) {
 void add_wasserstein_term(LevelPair& pair, const PairContext& context, double weight) {
     const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
     const RowMatrix b = sample_positions(context.B().surface, pair.B.level);
-    const double ratio = (variance(pair.A.side.points, pair.A.side.mass) + variance(pair.B.side.points, pair.B.side.mass)) /
-                         (variance(a, pair.A.side.mass) + variance(b, pair.B.side.mass));
+    const double ratio =
+        (variance(pair.A.side.points, pair.A.side.mass) + variance(pair.B.side.points, pair.B.side.mass)) /
+        (variance(a, pair.A.side.mass) + variance(b, pair.B.side.mass));
     append(pair.A.side, std::sqrt(weight * ratio) * a);
     append(pair.B.side, std::sqrt(weight * ratio) * b);
 }

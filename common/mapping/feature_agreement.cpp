@@ -44,7 +44,8 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
 
 FeatureAgreement::FeatureAgreement(const MovingMap& map, double weight)
     : map_(map), weight_(weight * voronoi_masses(map.source())) {
-    const double scale = std::max({finest_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
+    const double scale =
+        std::max({finest_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
     source_ = relief(map.source(), scale);
     target_ = relief(map.target(), scale);
 }

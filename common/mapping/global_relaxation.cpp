@@ -218,20 +218,17 @@ double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {
     const double before = s.total(energy, robust);
     // Curved targets make full steps overshoot: the share is halved for as long as that helps.
     double best = before;
-    PointMap best_images;
+    PointMap best_images = s.start;
     for (double share = 1; share >= least_share; share /= 2) {
         s.walk(share);
         const double after = s.total(energy, robust);
-        if (after >= best && !best_images.empty()) break;
+        if (after >= best && best < before) break;
         if (after < best) {
             best = after;
             best_images = s.images();
         }
     }
-    if (best_images.empty())
-        s.walk(0);
-    else
-        s.place(best_images);
+    s.place(best_images);
     return before > 0 ? 1 - best / before : 0;
 }
 

@@ -26,8 +26,8 @@ class GlobalRelaxation {
     /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
     /// stays as it is.
     /// Robust: what is summed is area * r log(1 + x / r) with the excess x of a face's energy (per area) over
-    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; r = 0: area *
-    /// x.
+    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; for r = 0 that
+    /// is area * x.
     double step(const FoldEnergy& energy, double robustness);
 
   private:

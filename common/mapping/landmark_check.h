@@ -6,7 +6,7 @@ namespace varimap {
 
 /// What the other landmarks, pinned, say of a landmark.
 struct LandmarkCheck {
-    double distance = 0;  ///< along B, units of sqrt(area): from where they take it to where it was put
+    double distance = 0;     ///< along B, units of sqrt(area): from where they take it to where it was put
     double energy_fall = 0;  ///< by which share Eq. (3) falls without it, coarsely; negative: it rises
 };
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/mapping/map_degree.h"
 #include "common/mesh/ray_mesh.h"
+#include "common/mesh/topology.h"
 #include "common/stage/parallel.h"
 
 namespace varimap {
@@ -14,13 +14,11 @@ namespace {
 
 constexpr double largest_feature = 2.5;  ///< in standard deviations
 
-/// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that of the file.
+/// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that
+/// of the file.
 bool looks_inward(const Surface& surface) {
     if (!is_closed(surface.mesh)) return surface.mirrored;
-    double volume = 0;
-    for (int f = 0; f < surface.mesh.face_count(); ++f)
-        volume += surface.mesh.vertex(surface.mesh.faces(f, 0)).dot(face_normal(surface.mesh, f));
-    return volume < 0;
+    return signed_volume(surface.mesh) < 0;
 }
 
 Points outward_normals(const Surface& surface) {
@@ -60,6 +58,20 @@ std::array<Vec3, 4> inward_cone(const Vec3& inward) {
     return rays;
 }
 
+/// Mean length of the rays of the inward cone at a place, each at most `longest`: so long are all where there
+/// is no normal.
+double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, const Vec3& inward,
+             double longest) {
+    if (inward.isZero(0)) return longest;
+    double sum = 0;
+    for (const Vec3& direction : inward_cone(inward)) {
+        const SurfacePoint hit = rays.first_hit(origin, direction);
+        const double length = hit.face < 0 ? longest : (position(mesh, hit) - origin).norm();
+        sum += std::min(length, longest);
+    }
+    return sum / 4;
+}
+
 }  // namespace
 
 Eigen::VectorXd bending(const SurfaceData& data, double time) {
@@ -77,13 +89,7 @@ Eigen::VectorXd thickness(const Surface& surface) {
     parallel_for_each_index(normals.rows(), Eigen::Index(64), [&](Eigen::Index v) {
         const Vec3 inward = -normals.row(v).transpose();
         const Vec3 origin = surface.mesh.vertex(int(v)) + lift * inward;
-        double sum = 0;
-        for (const Vec3& direction : inward_cone(inward)) {
-            const SurfacePoint hit = rays.first_hit(origin, direction);
-            const double length = hit.face < 0 ? longest : (position(surface.mesh, hit) - origin).norm();
-            sum += std::min(length, longest);
-        }
-        result[v] = lift + sum / 4;
+        result[v] = lift + depth(rays, surface.mesh, origin, inward, longest);
     });
     return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/mesh/closest_point.h"
+#include "common/mesh/topology.h"
 #include "common/stage/parallel.h"
 
 namespace varimap {
@@ -44,13 +45,6 @@ int crossing(const TriangleMesh& mesh, int f, const Vec3& p) {
 int winding_number(const TriangleMesh& mesh, const Vec3& p) {
     int sum = 0;
     for (int f = 0; f < mesh.face_count(); ++f) sum += crossing(mesh, f, p);
-    return sum;
-}
-
-double signed_volume(const TriangleMesh& mesh, const Vec3& origin) {
-    double sum = 0;
-    for (int f = 0; f < mesh.face_count(); ++f)
-        sum += (mesh.vertex(mesh.faces(f, 0)) - origin).dot(face_normal(mesh, f)) / 6;
     return sum;
 }
 
@@ -101,19 +95,6 @@ Ball shrink_ball(const ClosestPoint& closest, const TriangleMesh& mesh, const Ve
 }
 
 }  // namespace
-
-bool is_closed(const TriangleMesh& mesh) {
-    std::vector<std::array<int, 2>> sides, opposite;
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = mesh.faces(f, k), b = mesh.faces(f, (k + 1) % 3);
-            sides.push_back({a, b});
-            opposite.push_back({b, a});
-        }
-    std::sort(sides.begin(), sides.end());
-    std::sort(opposite.begin(), opposite.end());
-    return sides == opposite && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
-}
 
 std::optional<double> map_degree(const TriangleMesh& image, const TriangleMesh& target) {
     const Vec3 low = target.vertices.colwise().minCoeff(), high = target.vertices.colwise().maxCoeff();

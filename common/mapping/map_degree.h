@@ -6,9 +6,6 @@
 
 namespace varimap {
 
-/// Whether every edge has one face on either side, of the same orientation.
-bool is_closed(const TriangleMesh& mesh);
-
 /// How often `image`, whose vertices lie on `target`, covers it, both closed: the mean over points inside the
 /// target, spread evenly under its surface, of the image's winding number by the target's own. Each is an
 /// integer; if the image follows the surface, all are the degree of the map, and they differ where it cuts

@@ -67,6 +67,10 @@ LevelSide diffusion_side(const SurfaceData& data, const GeodesicGraph& graph, in
 
 }  // namespace
 
+RowMatrix sample_positions(const Surface& surface, const Level& level) {
+    return surface.mesh.vertices(level.samples, Eigen::all);
+}
+
 PairContext::PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks,
                          double landmark_weight)
     : A_(std::move(A)),

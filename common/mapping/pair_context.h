@@ -15,6 +15,9 @@ struct SurfaceData {
     Hierarchy hierarchy;
 };
 
+/// samples x 3: where a level's samples lie in space.
+RowMatrix sample_positions(const Surface& surface, const Level& level);
+
 /// Two surfaces with their landmarks and these' weight (cost.h): builds the level pairs that the solving stages work
 /// on.
 class PairContext {

@@ -37,8 +37,8 @@ constexpr std::array<double, 3> widenings{1.6, 4, 10};
 /// of a share of the part's area and a share of the surface's.
 constexpr double lost_vertices = 12, lost_share = 0.5, lost_most = 0.035;
 constexpr double cell_radius = 2;  ///< edges of the source
-constexpr double doubt =
-    0.1;  ///< of the other direction, which may be wrong where a part is to be mapped anew
+/// Of the other direction, which may be wrong where a part is to be mapped anew.
+constexpr double doubt = 0.1;
 const FoldEnergy judged_energy{1, 0.1};
 
 double excess(const MovingMap& map, int f) {

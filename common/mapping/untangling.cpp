@@ -30,7 +30,7 @@ constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150
 constexpr int reconciliations = 2;
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
-constexpr double converged = 1e-5;  ///< share of the energy that a step must win to be followed by another
+constexpr double least_gain = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
 /// Vertices that local sweeps may move: those of a face that holds a landmark would leave it.
 std::vector<int> free_vertices(const MovingMap& map, std::vector<char> fixed,
@@ -73,7 +73,7 @@ class Relaxation {
         const double gain = global_.step(energy_, robustness_);
         local_.sweep(vertices_, energy_, false);
         ++steps_;
-        converged_ = gain < converged && steps_ > 3;
+        converged_ = gain < least_gain && steps_ > 3;
     }
     bool done() const { return converged_ || steps_ >= most_; }
     int steps() const { return steps_; }

@@ -7,6 +7,7 @@
 
 #include "common/mapping/map_degree.h"
 #include "common/mesh/closest_point.h"
+#include "common/mesh/topology.h"
 #include "common/stage/parallel.h"
 
 namespace varimap {

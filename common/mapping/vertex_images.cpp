@@ -40,7 +40,8 @@ std::vector<int> vertex_images(const LevelSide& from, const LevelSide& to, const
             centre += from.side.mass[it.col()] * std::max(w, 0.0) * sample_image.row(it.col());
         }
         const int start = to.level.samples[best[k]];
-        images[v] = total > 0 ? nearest_by_descent(start, centre / total, to.vertex_points, target_graph) : start;
+        images[v] =
+            total > 0 ? nearest_by_descent(start, centre / total, to.vertex_points, target_graph) : start;
     });
     return images;
 }

@@ -31,7 +31,7 @@ struct Row {
 /// A vertex that a line of a file names.
 struct Named {
     int line, vertex;
-    std::string name = {};  ///< by which it is matched; empty: by its row
+    std::string name = {};                   ///< by which it is matched; empty: by its row
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
 
@@ -75,7 +75,8 @@ void require_count(const std::vector<Row>& rows, const std::string& path, size_t
                    const char* expected) {
     for (const Row& row : rows)
         if (row.numbers.size() != count && row.numbers.size() != other_count)
-            fail(path, row.line, fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
+            fail(path, row.line,
+                 fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
 }
 
 /// Lines that each have one of the two counts of numbers.
@@ -161,14 +162,16 @@ bool is_vts(const std::string& path) {
 }
 
 /// Picked points as the vertices nearest to where they lie on the surface.
-std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path, const TriangleMesh& mesh) {
+std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path,
+                                const TriangleMesh& mesh) {
     constexpr double far = .02;  // units of sqrt(area); an edge of a mesh with 2500 vertices
     const Snapped snapped = snap(picked, mesh);
     std::vector<Named> list;
     for (size_t i = 0; i < picked.size(); ++i) {
         const double distance = snapped.distances[i];
         const std::string what = fmt::format("{}:{}: landmark {}", path, picked[i].line, picked[i].name);
-        log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, distance, snapped.vertices[i]);
+        log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, distance,
+            snapped.vertices[i]);
         if (distance > far) warn("{} lies far from the surface: is the list that of this mesh?", what);
         list.push_back({picked[i].line, snapped.vertices[i], picked[i].name, snapped.points[i]});
     }
@@ -198,7 +201,8 @@ std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh) 
 /// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
 std::vector<Named> read_pair_side(const std::string& path, size_t column, const TriangleMesh& mesh) {
     const auto rows = is_picked_points(path) ? std::vector<Row>{} : read_rows(path);
-    if (rows.empty()) throw UsageError(path + ": holds the points of one surface; give one such file for each");
+    if (rows.empty())
+        throw UsageError(path + ": holds the points of one surface; give one such file for each");
     if (rows[0].numbers.size() != 6) return read_column(path, column, &mesh);
     require_count(rows, path, 6, 6, "two points, x y z x y z, as in the first row");
     return snapped_list(points_of_rows(rows, 3 * column), path, mesh);
@@ -221,9 +225,11 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
         for (const Named& named : lists[0])
             if (const auto found = target.find(named.name); found != target.end())
                 pairs.emplace_back(named, found->second);
-        if (pairs.empty()) throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
+        if (pairs.empty())
+            throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
         if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
-            warn("{} landmarks are in both {} and {}; the others are left out", pairs.size(), files[0], files[1]);
+            warn("{} landmarks are in both {} and {}; the others are left out", pairs.size(), files[0],
+                 files[1]);
         return pairs;
     }
     if (lists[0].size() != lists[1].size())
@@ -283,7 +289,8 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
     std::vector<Named> lists[2];
     for (size_t side : {0, 1}) {
         const std::string& path = files[files.size() == 1 ? 0 : side];
-        lists[side] = files.size() == 1 ? read_pair_side(path, side, *meshes[side]) : read_side(path, *meshes[side]);
+        lists[side] =
+            files.size() == 1 ? read_pair_side(path, side, *meshes[side]) : read_side(path, *meshes[side]);
         require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
     }
     Landmarks landmarks;

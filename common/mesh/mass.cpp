@@ -1,8 +1,7 @@
 #include "common/mesh/mass.h"
 
-#include <cmath>
-
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace varimap {

@@ -151,4 +151,24 @@ TopologySummary summarise_topology(const TriangleMesh& mesh) {
     return summary;
 }
 
+bool is_closed(const TriangleMesh& mesh) {
+    std::vector<std::array<int, 2>> sides, opposite;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = mesh.faces(f, k), b = mesh.faces(f, (k + 1) % 3);
+            sides.push_back({a, b});
+            opposite.push_back({b, a});
+        }
+    std::sort(sides.begin(), sides.end());
+    std::sort(opposite.begin(), opposite.end());
+    return sides == opposite && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
+double signed_volume(const TriangleMesh& mesh, const Vec3& origin) {
+    double sum = 0;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        sum += (mesh.vertex(mesh.faces(f, 0)) - origin).dot(face_normal(mesh, f)) / 6;
+    return sum;
+}
+
 }  // namespace varimap

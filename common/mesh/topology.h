@@ -53,4 +53,10 @@ struct TopologySummary {
 };
 TopologySummary summarise_topology(const TriangleMesh& mesh);
 
+/// Whether every edge has one face on either side, of the same orientation.
+bool is_closed(const TriangleMesh& mesh);
+
+/// The volume that a closed mesh encloses, negative if its faces look inward. `origin`: best near it.
+double signed_volume(const TriangleMesh& mesh, const Vec3& origin = Vec3::Zero());
+
 }  // namespace varimap

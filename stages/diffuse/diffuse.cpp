@@ -9,15 +9,11 @@
 #include "common/mapping/solve_level.h"
 #include "common/mapping/vertex_images.h"
 #include "common/stage/error.h"
-#include "stages/diffuse/landmark_check.h"
+#include "stages/diffuse/check_landmarks.h"
 
 namespace varimap {
 
 namespace {
-
-RowMatrix sample_positions(const Surface& surface, const Level& level) {
-    return surface.mesh.vertices(level.samples, Eigen::all);
-}
 
 /// Centres of the Wasserstein-2 plan between positions in space (Sec. 5, Initialization).
 Centres wasserstein_centres(const LevelPair& pair, const PairContext& context, const AlternationOptions& options) {

@@ -13,14 +13,15 @@ namespace varimap {
 /// Finding a map without landmarks. The coarsest levels have so few samples that solving them costs
 /// milliseconds: many starts are solved there, and the better ones are promoted from level to level
 /// (successive halving), with duplicates removed and the images of extremities exchanged on the way. The last
-/// few are ranked by their energies on the last diffusion level and on the first Euclidean level together, and
-/// by how well bending agrees, which tells near-symmetries that energy only just does: a person turned about.
+/// few are ranked by their energies on the last diffusion level and on the first Euclidean level together,
+/// and by how well bending agrees, which tells near-symmetries that energy only just does: a person turned
+/// about.
 struct ExplorationOptions {
-    int random_starts = 16;           ///< at each of the three coarsest levels worth it
+    int random_starts = 16;  ///< at each of the three coarsest levels worth it
     int seed = 1;
-    int candidates = 3;               ///< maps that reach the last level
-    double distinct = 0.05;           ///< maps closer than this are duplicates: squared distance of centres / variance
-    double euclidean_exponent = 0.3;  ///< of the Euclidean energy in the ranking, beside 1 of the diffusion energy
+    int candidates = 3;      ///< maps that reach the last level
+    double distinct = 0.05;  ///< maps closer than this are duplicates: squared distance of centres / variance
+    double euclidean_exponent = 0.3;  ///< of the Euclidean energy in the ranking; 1 of the diffusion energy
     double bending_weight = 0.1;      ///< of the agreement of bending in the ranking
 };
 
@@ -28,16 +29,16 @@ struct ExplorationOptions {
 struct Trial {
     Solution solution;
     double euclidean_energy = 0;
-    double bending_agreement = 0;  ///< bending.h
-    PairOrientation orientation;  ///< from ironing's first level on
+    double bending_agreement = 0;  ///< bending_agreement.h
+    PairOrientation orientation;   ///< from ironing's first level on
     double energy() const { return solution.step.energy; }
 };
 
 /// One exploration of a pair. Deterministic for a seed, for any number of threads.
 class Exploration {
   public:
-    Exploration(const PairContext& context, const ExplorationOptions& options, const AlternationOptions& alternation,
-                const IroningOptions& ironing);
+    Exploration(const PairContext& context, const ExplorationOptions& options,
+                const AlternationOptions& alternation, const IroningOptions& ironing);
 
     /// Distinct maps at the last diffusion level, the best first, mirrored ones last.
     std::vector<Trial> run();

@@ -78,11 +78,12 @@ std::string trace_csv(const std::vector<TraceRow>& trace) {
 }
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
-    std::string text = "candidate,diffusion_energy,euclidean_energy,bending_agreement,score,reversed_mass,moved_mass,turn\n";
+    std::string text =
+        "candidate,diffusion_energy,euclidean_energy,bending_agreement,score,reversed_mass,moved_mass,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy, c.bending_agreement, c.score,
-                            c.reversed_mass, c.moved_mass, c.turn);
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy,
+                            c.bending_agreement, c.score, c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;
 }
@@ -92,8 +93,9 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
     const Confidence confidence = confidence_of(candidates);
     for (std::size_t k = 0; k < candidates.size(); ++k)
         visitor.fact(fmt::format("candidate {}", k + 1), relation(candidates[k]));
-    visitor.fact("confidence", fmt::format("{}: margin {:.2f}%, levels {}", confidence.confident ? "sure" : "not sure",
-                                           100 * confidence.margin, confidence.levels_agree ? "agree" : "disagree"));
+    visitor.fact("confidence",
+                 fmt::format("{}: margin {:.2f}%, levels {}", confidence.confident ? "sure" : "not sure",
+                             100 * confidence.margin, confidence.levels_agree ? "agree" : "disagree"));
     visitor.text("candidates.csv", candidates_csv(candidates));
 }
 
@@ -105,17 +107,29 @@ void visit(const Candidates& candidates, ContentsVisitor& visitor) {
     visitor.array("mass_B", view(candidates.mass_B));
     for (std::size_t k = 0; k < candidates.plans.size(); ++k)
         visitor.sparse(fmt::format("plan_{:02}", k + 1), candidates.plans[k]);
+    visitor.fact("previews", fmt::format("{}", candidates.previews.size()));
+    for (std::size_t k = 0; k < candidates.previews.size(); ++k)
+        visit_points(fmt::format("preview_{:02}", k + 1), candidates.previews[k], visitor);
+}
+
+void visit_landmark_points(const PointPairs& pairs, ContentsVisitor& visitor) {
+    PointMap on_A, on_B;
+    for (const auto& [a, b] : pairs) on_A.push_back(a), on_B.push_back(b);
+    visit_points("landmark_points_A", on_A, visitor);
+    visit_points("landmark_points_B", on_B, visitor);
 }
 
 std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
     const Eigen::ArrayXd ratio = transported.array() / mass.array();
-    return ratio.size() > 0 ? fmt::format("from {:.6g} to {:.6g}", ratio.minCoeff(), ratio.maxCoeff()) : "none";
+    return ratio.size() > 0 ? fmt::format("from {:.6g} to {:.6g}", ratio.minCoeff(), ratio.maxCoeff())
+                            : "none";
 }
 
 void visit(const Plan& plan, ContentsVisitor& visitor) {
     std::vector<int> landmarks_A, landmarks_B;
     for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
     visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
+    visitor.fact("landmarks given as points", fmt::format("{}", plan.landmark_points.size()));
     visitor.fact("landmark weight", fmt::format("{}", plan.landmark_weight));
     visitor.fact("area bound", fmt::format("{}", plan.area_bound));
     visitor.fact("transported / mass, A", range_of_ratios(plan.transported_A, plan.mass_A));
@@ -134,6 +148,7 @@ void visit(const Plan& plan, ContentsVisitor& visitor) {
     visitor.array("position_B", view(plan.position_B));
     visitor.array("landmarks_A", view(landmarks_A));
     visitor.array("landmarks_B", view(landmarks_B));
+    visit_landmark_points(plan.landmark_points, visitor);
     visitor.text("trace.csv", trace_csv(plan.trace));
 }
 
@@ -171,8 +186,9 @@ std::pair<const std::string, Kind> kind_of() {
 }
 
 const std::map<std::string, Kind>& kinds() {
-    static const std::map<std::string, Kind> table{kind_of<Surface>(), kind_of<Basis>(), kind_of<Hierarchy>(),
-                                                   kind_of<Candidates>(), kind_of<Plan>(), kind_of<SurfaceMap>()};
+    static const std::map<std::string, Kind> table{kind_of<Surface>(),   kind_of<Basis>(),
+                                                   kind_of<Hierarchy>(), kind_of<Candidates>(),
+                                                   kind_of<Plan>(),      kind_of<SurfaceMap>()};
     return table;
 }
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/mapping/quality.h"
-#include "common/mesh/topology.h"
 #include "common/mapping/verification.h"
+#include "common/mesh/topology.h"
 
 namespace varimap {
 
@@ -104,11 +104,12 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
 }
 
 Json to_json(const std::vector<LandmarkCheck>& checks) {
+    const int contradicted = contradicted_landmark(checks);
     Json list = Json::array();
     for (const LandmarkCheck& check : checks)
         list.push_back({{"distance", check.distance},
                         {"energy_fall_percent", 100 * check.energy_fall},
-                        {"contradicted", int(list.size()) == contradicted_landmark(checks)}});
+                        {"contradicted", int(list.size()) == contradicted}});
     return list;
 }
 

@@ -12,7 +12,9 @@ const PairContext& figures() {
     return context;
 }
 
-double mean_square(const RowMatrix& rows, const Eigen::VectorXd& mass) { return mass.dot(rows.rowwise().squaredNorm()); }
+double mean_square(const RowMatrix& rows, const Eigen::VectorXd& mass) {
+    return mass.dot(rows.rowwise().squaredNorm());
+}
 
 TEST(FeatureTerm, AddsNothingAtWeightZero) {
     LevelPair pair = figures().diffusion_level(3);
@@ -53,8 +55,8 @@ TEST(FeatureTerm, AgreesBetweenPosesOfOneShape) {
     const Side &A = level.A.side, &B = level.B.side;
     RowMatrix there(A.compared.rows(), A.compared.cols());
     for (Eigen::Index k = 0; k < there.rows(); ++k) {
-        const int image =
-            shapes::nearest_vertex(context.B().surface.mesh, pair.A_on_B.row(level.A.level.samples[k]).transpose());
+        const int image = shapes::nearest_vertex(context.B().surface.mesh,
+                                                 pair.A_on_B.row(level.A.level.samples[k]).transpose());
         there.row(k) = B.compared.row(level.B.level.cell[image]);
     }
     const RowMatrix turned = there.colwise().reverse();

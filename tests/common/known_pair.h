@@ -17,7 +17,9 @@ struct KnownPair {
     Points A_on_B, B_on_A;
     std::vector<std::pair<int, int>> landmarks;  ///< vertices of the meshes
 
-    PairContext context(double landmark_weight = 1) const { return PairContext(A, B, landmarks, landmark_weight); }
+    PairContext context(double landmark_weight = 1) const {
+        return PairContext(A, B, landmarks, landmark_weight);
+    }
 };
 
 /// `rest` and `pose(other)`, where `other` is another tessellation of the surface `rest`; preprocessed, at

@@ -3,14 +3,19 @@
 #include <gtest/gtest.h>
 
 #include "common/known_pair.h"
+#include "common/mesh/topology.h"
 #include "common/surface_data.h"
 
 namespace varimap {
 namespace {
 
-SurfaceData sphere() { return shapes::surface_data(shapes::unit_surface(shapes::ellipsoid(4)), 60); }
+SurfaceData sphere() {
+    return shapes::surface_data(shapes::unit_surface(shapes::ellipsoid(4)), 60);
+}
 
-SurfaceData figure() { return shapes::figure_pair(1, false).A; }
+SurfaceData figure() {
+    return shapes::figure_pair(1, false).A;
+}
 
 TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
     SurfaceData data = figure();
@@ -24,7 +29,8 @@ TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
 }
 
 TEST(Thickness, IsTheLengthOfChordsOfASphere) {
-    // The cone's rays hit a sphere of radius r at 2 r cos(angle from the normal): tan = 0.5, so cos = 2 / sqrt(5).
+    // The cone's rays hit a sphere of radius r at 2 r cos(angle from the normal): tan = 0.5, so cos = 2 /
+    // sqrt(5).
     const Eigen::VectorXd through = thickness(sphere().surface);
     const double diameter = 1 / std::sqrt(M_PI), expected = diameter * (1 + 3 * 2 / std::sqrt(5)) / 4;
     EXPECT_NEAR(through.mean(), expected, .01 * expected);
@@ -33,6 +39,17 @@ TEST(Thickness, IsTheLengthOfChordsOfASphere) {
 
 TEST(Thickness, IsThatOfTheLongestRayWhereNothingLiesOpposite) {
     EXPECT_NEAR(thickness(shapes::unit_surface(shapes::square(8))).minCoeff(), .6, 1e-3);
+}
+
+TEST(Thickness, IsThatOfTheLongestRayWhereThereIsNoNormal) {
+    Surface surface = sphere().surface;
+    TriangleMesh& mesh = surface.mesh;
+    const Adjacency neighbours = vertex_neighbours(mesh);
+    for (const int v : neighbours[0]) mesh.vertices.row(v) = mesh.vertices.row(0).eval();
+    const Eigen::VectorXd through = thickness(surface);
+    EXPECT_TRUE(through.allFinite());
+    EXPECT_NEAR(through[0], .6, 1e-3);
+    EXPECT_LT(through[neighbours[0][0]], .6);  // has other faces
 }
 
 TEST(LocalShape, IsNearlyZeroWhereAllPlacesAreAlike) {

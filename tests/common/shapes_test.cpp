@@ -9,13 +9,6 @@
 namespace varimap {
 namespace {
 
-double signed_volume(const TriangleMesh& mesh) {
-    double volume = 0;
-    for (int f = 0; f < mesh.face_count(); ++f)
-        volume += face_normal(mesh, f).dot(mesh.vertex(mesh.faces(f, 0))) / 6;
-    return volume;
-}
-
 /// Largest distance of the vertices of one mesh from the other.
 double distance(const TriangleMesh& from, const TriangleMesh& to) {
     const ClosestPoint closest(to);

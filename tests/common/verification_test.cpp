@@ -8,6 +8,7 @@
 #include "common/map_shapes.h"
 #include "common/mapping/map_degree.h"
 #include "common/mesh/closest_point.h"
+#include "common/mesh/topology.h"
 #include "common/shapes.h"
 
 namespace varimap {

@@ -26,6 +26,8 @@ refuse 2 a.off b.off -o out --set eigne.count=10
 refuse 2 a.off b.off -o out --set eigen.count=10 --set refine.threads=1
 refuse 2 a.off b.off -o out --area-bound
 refuse 2 a.off b.off -o out --landmark-weight
+refuse 2 a.off b.off -o out --landmark-weight 0.2
+grep -Fq -- '--landmark-weight needs --landmarks' log || fail "the reason is not given"
 refuse 6 a.off absent.off -o out
 refuse 6 a.off . -o out
 refuse 6 a.off b.off -o out --landmarks absent.txt
@@ -35,12 +37,13 @@ VARIMAP_BIN=$PWD refuse 6 a.off b.off -o out
 [[ ! -e out ]] || fail "a refused command line left files"
 
 # What only the stages can tell.
+printf '1 1\n' >one.txt
 refuse 2 a.off b.off -o out --set eigen.colour=1
 refuse 2 a.off b.off -o out --set eigen.count=many
 refuse 2 a.off b.off -o out --area-bound 0.5
-refuse 2 a.off b.off -o out --landmark-weight 0
-refuse 2 a.off b.off -o out --landmark-weight 1.5
-refuse 2 a.off b.off -o out --landmark-weight firm
+refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight 0
+refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight 1.5
+refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight firm
 refuse 2 a.off b.off -o out --area-energy other
 map a.off b.off -o out >/dev/null 2>log || fail "a good pair"
 cp out/artifacts/a--b.map good.map

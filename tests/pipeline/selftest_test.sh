@@ -14,3 +14,10 @@ code=0
 ((code == 1)) || fail "exit $code for a wrong map"
 grep -Eq ' (wrong|mirrored)$' out.txt || fail "no row says that the map is wrong"
 expect_exit 2 "$selftest" --count x
+expect_exit 2 "$VARIMAP_BIN/selftest-shapes" two out
+expect_exit 2 "$VARIMAP_BIN/selftest-shapes" -1 out
+expect_exit 6 "$VARIMAP_BIN/selftest-shapes" 2 absent
+
+# Leading zeros do not make a number octal.
+"$selftest" -o zeros --first 08 --count 1 "${small_picture[@]}" >out.txt 2>log || (($? == 1)) || fail "--first 08"
+[[ $(awk -F, 'NR > 1 { print $1 }' zeros/selftest.csv) == 8 ]] || fail "--first 08 is not shape 8"

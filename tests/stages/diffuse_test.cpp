@@ -8,7 +8,7 @@
 #include "common/known_pair.h"
 #include "common/stage/error.h"
 #include "common/surface_data.h"
-#include "stages/diffuse/landmark_check.h"
+#include "stages/diffuse/check_landmarks.h"
 
 namespace varimap {
 namespace {

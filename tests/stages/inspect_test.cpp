@@ -31,6 +31,7 @@ Plan small_plan() {
     plan.plan.makeCompressed();
     plan.position_A = plan.position_B = Points::Random(3, 3);
     plan.landmarks = {{0, 0}};
+    plan.landmark_points = {{SurfacePoint{0, Vec3(1, 0, 0)}, SurfacePoint{4, Vec3(.25, .25, .5)}}};
     plan.trace = {TraceRow{}};
     return plan;
 }
@@ -129,8 +130,26 @@ TEST(Inspect, ExportWritesWhatTheArtifactHolds) {
     write_sample(folder / "AB.plan", plan);
     export_contents(folder / "AB.plan", folder / "deep/out");
     EXPECT_EQ(npy_doubles(read_file(folder / "deep/out/mass_A.npy")), (std::vector<double>{0.25, 0.75}));
+    EXPECT_EQ(npy_doubles(read_file(folder / "deep/out/landmark_points_B_barycentric.npy")),
+              (std::vector<double>{.25, .25, .5}));
     EXPECT_EQ(read_file(folder / "deep/out/plan.mtx"), to_matrix_market(plan.plan));
     EXPECT_TRUE(read_file(folder / "deep/out/trace.csv").starts_with("level,euclidean,iteration,"));
+}
+
+TEST(Inspect, ExportWritesThePreviewsOfCandidates) {
+    const TemporaryFolder folder;
+    Candidates candidates;
+    candidates.samples_A = candidates.samples_B = {0};
+    candidates.mass_A = candidates.mass_B = Eigen::VectorXd::Ones(1);
+    candidates.list.resize(1);
+    candidates.plans.resize(1, SparseMatrix(1, 1));
+    candidates.plans[0].insert(0, 0) = 1;
+    candidates.previews = {{SurfacePoint{0, Vec3(.25, .75, 0)}}};
+    write_sample(folder / "AB.candidates", candidates);
+    EXPECT_THAT(summarise(folder / "AB.candidates"), HasSubstr("previews"));
+    export_contents(folder / "AB.candidates", folder / "out");
+    EXPECT_EQ(npy_doubles(read_file(folder / "out/preview_01_barycentric.npy")),
+              (std::vector<double>{.25, .75, 0}));
 }
 
 }  // namespace

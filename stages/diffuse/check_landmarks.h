@@ -9,8 +9,8 @@ namespace varimap {
 
 /// Per landmark: the coarse levels, up to the first with 100 samples, are solved once more with all other
 /// landmarks, and what becomes of this one is compared with the map that has them all. A landmark that the
-/// others contradict is carried far away, and the energy falls. Here landmarks are pinned, also where they are soft
-/// in the map: what a wrong one costs shows best so.
+/// others contradict is carried far away, and the energy falls. Here landmarks are pinned, also where they
+/// are soft in the map: what a wrong one costs shows best so.
 std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const AlternationOptions& options);
 
 }  // namespace varimap

@@ -1,4 +1,4 @@
-#include "stages/diffuse/landmark_check.h"
+#include "stages/diffuse/check_landmarks.h"
 
 #include <algorithm>
 
@@ -27,8 +27,8 @@ Solution solve(const std::vector<LevelPair>& levels, const AlternationOptions& o
     for (std::size_t l = 0; l < levels.size(); ++l) {
         const LevelPair& pair = levels[l];
         const Start start = l == 0 ? zero_start(pair)
-                                   : hand_down(solution.plan, levels[l - 1].A.level, levels[l - 1].B.level, pair,
-                                               options.support_threshold);
+                                   : hand_down(solution.plan, levels[l - 1].A.level, levels[l - 1].B.level,
+                                               pair, options.support_threshold);
         AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
         minimization.start(start.centres, start.kept);
         minimization.run([](const Alternation&) {});
@@ -60,7 +60,8 @@ int image(const LevelPair& pair, const Solution& solution, int sample, const Pai
     const auto centre = solution.step.centres.row.row(sample);
     Eigen::Index nearest;
     (pair.B.side.points.rowwise() - centre).rowwise().squaredNorm().minCoeff(&nearest);
-    return nearest_by_descent(pair.B.level.samples[std::size_t(nearest)], centre, pair.B.vertex_points, context.graph_B());
+    return nearest_by_descent(pair.B.level.samples[std::size_t(nearest)], centre, pair.B.vertex_points,
+                              context.graph_B());
 }
 
 }  // namespace
@@ -75,7 +76,8 @@ std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const Alt
         const Solution without = solve(levels, options);
         const LevelPair& last = levels.back();
         const int there = image(last, without, last.A.level.cell[std::size_t(landmark.first)], context);
-        checks.push_back({geodesic_distance(landmark.second, there, context.graph_B()), 1 - without.step.energy / energy});
+        checks.push_back(
+            {geodesic_distance(landmark.second, there, context.graph_B()), 1 - without.step.energy / energy});
         set_pinned(levels, landmark, true);
     }
     return checks;
