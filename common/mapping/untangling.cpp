@@ -79,8 +79,9 @@ class Relaxation {
     int steps() const { return steps_; }
 
   private:
+    /// Where few steps are taken the directions cannot follow each other as far.
     double inverse_share() const {
-        const double progress = (steps_ + 1.0) / most_;
+        const double progress = (steps_ + 1.0) / options_.global_steps;
         return first_inverse + (last_inverse_ - first_inverse) * progress * progress;
     }
 

@@ -11,7 +11,7 @@ struct DiffuseParams {
     IroningOptions ironing;
     std::string start = "zero";    ///< first centres: zero, or those of the Wasserstein-2 plan (aligned surfaces)
     double wasserstein_weight = 0; ///< share of the Wasserstein-2 cost added to Eq. (3), for aligned surfaces
-    double feature_weight = 0.5;   ///< of the features of FeatureTerm beside Eq. (3)
+    double feature_weight = 0.25;   ///< of the features of FeatureTerm beside Eq. (3)
     int candidate = 1;             ///< which of the candidates of varimap-explore is continued
     double landmark_weight = 1;    ///< W of pull_landmarks (cost.h); 1: pinned
     bool check_landmarks = true;   ///< compares the map with one that lacks each landmark in turn

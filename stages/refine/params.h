@@ -9,7 +9,7 @@ struct RefineParams {
     IroningOptions ironing;
     double metric_weight = 1;       ///< mu of the mixed metric on all but the last level
     double last_metric_weight = 0;  ///< mu on the last level
-    double feature_weight = 0.5;    ///< of the features of FeatureTerm beside Eq. (3)
+    double feature_weight = 0.25;    ///< of the features of FeatureTerm beside Eq. (3)
     int levels = 0;                 ///< stop after this many Euclidean levels; 0: all
 
     RefineParams() {
