@@ -15,12 +15,6 @@ constexpr double bound = 2;            ///< of the relief
 constexpr double c2 = 0.25;            ///< c^2 of the robust function
 constexpr double finest_scale = 0.02;  ///< of features, in units of sqrt(area)
 
-double median(Eigen::VectorXd values) {
-    const auto middle = values.begin() + values.size() / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 Eigen::VectorXd normalised(Eigen::VectorXd values) {
     values.array() -= median(values);
     const double deviation = 1.5 * median(values.cwiseAbs());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/mesh/mass.h"
 #include "common/mesh/ray_mesh.h"
 #include "common/mesh/topology.h"
 #include "common/stage/parallel.h"
@@ -24,12 +25,6 @@ bool looks_inward(const Surface& surface) {
 Points outward_normals(const Surface& surface) {
     const Points normals = vertex_normals(surface.mesh);
     return looks_inward(surface) ? Points(-normals) : normals;
-}
-
-double median(Eigen::VectorXd values) {
-    const auto middle = values.begin() + values.size() / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Compresses heights of either sign, relative to the typical one. Flat surfaces have none.

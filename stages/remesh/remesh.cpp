@@ -56,6 +56,7 @@ PinnedPair with_points(PinnedPair vertices, const PointPairs& points, const Plan
 
 /// Points of the inputs as points of the preprocessed meshes.
 PointPairs on_meshes(const PointPairs& points, const Surface& A, const Surface& B) {
+    if (points.empty()) return {};
     const ClosestPoint on_A(A.mesh), on_B(B.mesh);
     const auto moved = [](const Surface& surface, const SurfacePoint& point, const ClosestPoint& closest) {
         return closest((position(surface.input, point) - surface.centre) * surface.scale).point;

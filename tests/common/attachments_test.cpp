@@ -7,23 +7,14 @@
 #include "common/map_shapes.h"
 #include "common/mapping/global_relaxation.h"
 #include "common/mapping/untangling.h"
-#include "common/mesh/closest_point.h"
 #include "common/shapes.h"
 
 namespace varimap {
 namespace {
 
-PointMap turned_identity(const TriangleMesh& mesh, double angle) {
-    const ClosestPoint closest(mesh);
-    const Eigen::AngleAxisd turn(angle, Vec3(1, 2, 3).normalized());
-    PointMap map;
-    for (int v = 0; v < mesh.vertex_count(); ++v) map.push_back(closest(turn * mesh.vertex(v)).point);
-    return map;
-}
-
 TEST(Attachment, HasTheDerivativesOfItsValue) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    MovingMap map(turned_identity(sphere, 0.1), sphere, sphere);
+    MovingMap map(shapes::turned_identity(sphere, 0.1), sphere, sphere);
     const double step = 1e-6;
     for (int f = 0; f < sphere.face_count(); f += 17) {
         const Attachment attachment{{f, Vec3(0.2, 0.5, 0.3)}, map.target().vertex(f / 3), 2, 0.2};
@@ -49,7 +40,7 @@ TEST(Attachment, HasTheDerivativesOfItsValue) {
 
 TEST(Attachment, DrawsAPointWithinAFaceToItsPlace) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    MovingMap map(turned_identity(sphere, 0), sphere, sphere);
+    MovingMap map(shapes::turned_identity(sphere, 0), sphere, sphere);
     const std::vector<char> fixed(std::size_t(sphere.vertex_count()), 0);
     GlobalRelaxation relaxation(map, fixed);
     const SurfacePoint from{10, Vec3(0.2, 0.5, 0.3)};
@@ -78,7 +69,7 @@ double round_trip(const MapPair& maps, const TriangleMesh& mesh) {
 
 TEST(InverseAttachments, MakeTwoMapsInverseToEachOther) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    const MapPair start{turned_identity(sphere, 0.1), turned_identity(sphere, 0.1)};
+    const MapPair start{shapes::turned_identity(sphere, 0.1), shapes::turned_identity(sphere, 0.1)};
     const std::vector<char> pinned(std::size_t(sphere.vertex_count()), 0);
     UntanglingOptions options;
     options.feature_weight = 0;

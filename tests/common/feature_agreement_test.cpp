@@ -6,7 +6,6 @@
 
 #include "common/map_shapes.h"
 #include "common/mapping/untangling.h"
-#include "common/mesh/closest_point.h"
 #include "common/shapes.h"
 
 namespace varimap {
@@ -21,14 +20,6 @@ TriangleMesh bumpy_sphere() {
             1 + 0.03 * std::sin(6 * p.x() + 1) * std::sin(5 * p.y()) * std::cos(4 * p.z());
     }
     return mesh;
-}
-
-PointMap turned_identity(const TriangleMesh& mesh, double angle) {
-    const ClosestPoint closest(mesh);
-    const Eigen::AngleAxisd turn(angle, Vec3(1, 2, 3).normalized());
-    PointMap map;
-    for (int v = 0; v < mesh.vertex_count(); ++v) map.push_back(closest(turn * mesh.vertex(v)).point);
-    return map;
 }
 
 double mean_error(const PointMap& map, const TriangleMesh& mesh) {
@@ -51,7 +42,7 @@ TEST(Relief, IsHighOnBumpsAndLowInDents) {
 
 TEST(FeatureAgreement, HasTheDerivativesOfItsValue) {
     const TriangleMesh mesh = bumpy_sphere();
-    MovingMap map(turned_identity(mesh, 0.1), mesh, mesh);
+    MovingMap map(shapes::turned_identity(mesh, 0.1), mesh, mesh);
     const FeatureAgreement features(map, 3);
     const double step = 1e-6;
     double largest = 0;
@@ -76,7 +67,7 @@ TEST(FeatureAgreement, HasTheDerivativesOfItsValue) {
 
 TEST(FeatureAgreement, TurnsAMapBackToWhereItsFeaturesAre) {
     const TriangleMesh mesh = bumpy_sphere();
-    const PointMap start = turned_identity(mesh, 0.1);
+    const PointMap start = shapes::turned_identity(mesh, 0.1);
     UntanglingOptions options;
     options.global_steps = 6;
     PointMap with = start, without = start;
