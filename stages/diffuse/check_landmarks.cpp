@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/mapping/orientation.h"
-#include "common/mapping/solve_level.h"
+#include "varimap/multilevel/orientation.h"
+#include "varimap/multilevel/solve_level.h"
 
 namespace varimap {
 

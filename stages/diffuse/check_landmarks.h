@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "common/mapping/pair_context.h"
-#include "common/mapping/plan.h"
+#include "varimap/multilevel/pair_context.h"
+#include "varimap/results/plan.h"
 
 namespace varimap {
 

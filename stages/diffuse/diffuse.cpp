@@ -5,25 +5,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/mapping/compared_terms.h"
-#include "common/mapping/solve_level.h"
-#include "common/mapping/vertex_images.h"
-#include "common/stage/error.h"
 #include "stages/diffuse/check_landmarks.h"
+#include "varimap/core/error.h"
+#include "varimap/multilevel/compared_terms.h"
+#include "varimap/multilevel/solve_level.h"
+#include "varimap/multilevel/vertex_images.h"
 
 namespace varimap {
 
 namespace {
 
 /// Centres of the Wasserstein-2 plan between positions in space (Sec. 5, Initialization).
-Centres wasserstein_centres(const LevelPair& pair, const PairContext& context, const AlternationOptions& options) {
+Centres wasserstein_centres(const LevelPair& pair, const PairContext& context,
+                            const AlternationOptions& options) {
     const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
     const RowMatrix b = sample_positions(context.B().surface, pair.B.level);
     Coupling plan;
     plan.support = Support::dense(int(a.rows()), int(b.rows()));
     Eigen::VectorXd cost(plan.support.entries());
     for (Eigen::Index i = 0; i < a.rows(); ++i)
-        for (Eigen::Index j = 0; j < b.rows(); ++j) cost[i * b.rows() + j] = (a.row(i) - b.row(j)).squaredNorm();
+        for (Eigen::Index j = 0; j < b.rows(); ++j)
+            cost[i * b.rows() + j] = (a.row(i) - b.row(j)).squaredNorm();
     Potentials potentials = Potentials::zero(int(a.rows()), int(b.rows()));
     const TransportProblem problem{plan.support,
                                    cost,
@@ -57,7 +59,8 @@ Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext&
     plan.position_A = context.B().surface.mesh.vertices(
         vertex_images(pair.A, pair.B, solution.step.row_image, plan.plan, context.graph_B()), Eigen::all);
     plan.position_B = context.A().surface.mesh.vertices(
-        vertex_images(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(), context.graph_A()), Eigen::all);
+        vertex_images(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(), context.graph_A()),
+        Eigen::all);
     plan.landmarks = context.landmarks();
     plan.landmark_weight = context.landmark_weight();
     return plan;
@@ -72,19 +75,23 @@ struct Solved {
 
 Solved chosen_candidate(const PairContext& context, const Candidates& candidates, int number) {
     if (number > int(candidates.plans.size()))
-        throw UsageError(fmt::format("candidate {}: varimap-explore found {}", number, candidates.plans.size()));
+        throw UsageError(
+            fmt::format("candidate {}: varimap-explore found {}", number, candidates.plans.size()));
     for (int l = 0; l < context.diffusion_levels(); ++l) {
         LevelPair pair = context.diffusion_level(l);
         if (pair.A.level.samples == candidates.samples_A && pair.B.level.samples == candidates.samples_B)
             return {std::move(pair), to_coupling(candidates.plans[number - 1]), l + 1};
     }
-    throw ArtifactError("the candidates' samples are not those of a level of these hierarchies; rerun varimap-explore");
+    throw ArtifactError(
+        "the candidates' samples are not those of a level of these hierarchies; rerun varimap-explore");
 }
 
 }  // namespace
 
-Plan diffuse(const PairContext& context, const DiffuseParams& params, const std::optional<Candidates>& candidates) {
-    const int levels = params.levels > 0 ? std::min(params.levels, context.diffusion_levels()) : context.diffusion_levels();
+Plan diffuse(const PairContext& context, const DiffuseParams& params,
+             const std::optional<Candidates>& candidates) {
+    const int levels =
+        params.levels > 0 ? std::min(params.levels, context.diffusion_levels()) : context.diffusion_levels();
     std::vector<TraceRow> trace;
     Solved coarse;
     if (candidates) coarse = chosen_candidate(context, *candidates, params.candidate);
@@ -95,10 +102,12 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params, const std:
         LevelPair pair = context.diffusion_level(l);
         if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
         features.add_to(pair);
-        const Start start = l == 0 && !candidates ? coarsest_start(pair, context, params)
-                                                  : hand_down(coarse.plan, coarse.pair.A.level, coarse.pair.B.level, pair,
-                                                              params.alternation.support_threshold);
-        solution = solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
+        const Start start = l == 0 && !candidates
+                                ? coarsest_start(pair, context, params)
+                                : hand_down(coarse.plan, coarse.pair.A.level, coarse.pair.B.level, pair,
+                                            params.alternation.support_threshold);
+        solution =
+            solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
         coarse = {std::move(pair), solution.plan, l + 1};
     }
     Plan plan = to_plan(coarse.pair, solution, context);

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "common/mapping/candidates.h"
-#include "common/mapping/pair_context.h"
-#include "common/mapping/plan.h"
 #include "stages/diffuse/params.h"
+#include "varimap/multilevel/pair_context.h"
+#include "varimap/results/candidates.h"
+#include "varimap/results/plan.h"
 
 namespace varimap {
 

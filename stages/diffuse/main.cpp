@@ -1,6 +1,6 @@
-#include "common/mapping/pair_inputs.h"
-#include "common/stage/stage_main.h"
 #include "stages/diffuse/diffuse.h"
+#include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/stage/stage_main.h"
 
 using namespace varimap;
 
@@ -16,11 +16,14 @@ std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs
 void report(const std::vector<LandmarkCheck>& checks) {
     for (size_t i = 0; i < checks.size(); ++i) {
         const LandmarkCheck& check = checks[i];
-        log("landmark {}: the others take it {:.3f} from its partner, in units of sqrt(area); without it the energy "
-            "falls by {:.1f}%", i + 1, check.distance, 100 * check.energy_fall);
+        log("landmark {}: the others take it {:.3f} from its partner, in units of sqrt(area); without it the "
+            "energy "
+            "falls by {:.1f}%",
+            i + 1, check.distance, 100 * check.energy_fall);
     }
     if (const int i = contradicted_landmark(checks); i >= 0)
-        warn("landmark {} is contradicted by the others: is it in the right place, on the right side?", i + 1);
+        warn("landmark {} is contradicted by the others: is it in the right place, on the right side?",
+             i + 1);
 }
 
 }  // namespace
@@ -30,10 +33,13 @@ int main(int argc, char** argv) {
     Stage stage("diffuse", "Transport plan through the diffusion levels (Alg. 1 and 5)");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     PairInputs inputs(stage);
-    const std::string& out = stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "plan to write");
+    const std::string& out =
+        stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "plan to write");
     const auto& landmark_files = stage.list_option(
-        "landmarks", "one file of vertex pairs, or a source list and a target list; numbers of INPUT vertices", 1, 2);
-    const std::string& candidates_in = stage.option("candidates", "maps of varimap-explore, to continue one of them");
+        "landmarks",
+        "one file of vertex pairs, or a source list and a target list; numbers of INPUT vertices", 1, 2);
+    const std::string& candidates_in =
+        stage.option("candidates", "maps of varimap-explore, to continue one of them");
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "common/mapping/evaluation.h"
-#include "common/mapping/surface_map.h"
-#include "common/mapping/vertex_list.h"
-#include "common/mesh/mesh_file.h"
-#include "common/stage/stage_main.h"
+#include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/stage/stage_main.h"
+#include "varimap/verification/evaluation.h"
 
 namespace {
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/mapping/local_shape.h"
-#include "common/mapping/solve_level.h"
-#include "common/mapping/vertex_images.h"
-#include "common/stage/log.h"
-#include "common/stage/parallel.h"
 #include "stages/explore/bending_agreement.h"
 #include "stages/explore/starts.h"
+#include "varimap/core/log.h"
+#include "varimap/core/parallel.h"
+#include "varimap/multilevel/solve_level.h"
+#include "varimap/multilevel/vertex_images.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -25,7 +25,8 @@ struct SwapRule {
 };
 constexpr SwapRule swap_rules[] = {{18, 4}, {45, 3}, {100, 2}};
 
-/// Distinct maps that go on from a level with that many samples. Wrong ones stand out from about 250 samples on.
+/// Distinct maps that go on from a level with that many samples. Wrong ones stand out from about 250 samples
+/// on.
 int promoted(int samples, int last) {
     if (samples < 18) return 1000;
     if (samples < 100) return std::max(last, 10);
@@ -34,8 +35,8 @@ int promoted(int samples, int last) {
     return last;
 }
 
-/// Exact marginals, because relaxed energies of different maps do not compare; but solved no more precisely than
-/// telling maps apart takes.
+/// Exact marginals, because relaxed energies of different maps do not compare; but solved no more precisely
+/// than telling maps apart takes.
 AlternationOptions for_comparison(AlternationOptions options) {
     options.area_bound = 1;
     options.area_energy = "transported";
@@ -60,7 +61,9 @@ double relative_distance(const Trial& a, const Trial& b, const LevelPair& pair) 
            mean_square(p.column - q.column, pair.B.side.mass) / variance(pair.A.side) / 2;
 }
 
-bool is_mirrored(const Trial& trial) { return is_mirrored(Candidate{.reversed_mass = trial.orientation.reversed_mass()}); }
+bool is_mirrored(const Trial& trial) {
+    return is_mirrored(Candidate{.reversed_mass = trial.orientation.reversed_mass()});
+}
 
 void ignore(const Alternation&) {}
 
@@ -74,7 +77,9 @@ Exploration::Exploration(const PairContext& context, const ExplorationOptions& o
       ironing_(ironing),
       random_(unsigned(options.seed)) {}
 
-int Exploration::samples() const { return int(std::min(level_.A.level.samples.size(), level_.B.level.samples.size())); }
+int Exploration::samples() const {
+    return int(std::min(level_.A.level.samples.size(), level_.B.level.samples.size()));
+}
 
 Solution Exploration::solve(const Start& start) const {
     AlternatingMinimization minimization(level_.A.side, level_.B.side, alternation_);
@@ -97,7 +102,8 @@ Trial Exploration::tried(const Start& start, bool ironed) const {
 void Exploration::try_all(const std::vector<Start>& starts, bool ironed) {
     const size_t before = pool_.size();
     pool_.resize(before + starts.size());
-    parallel_for_each_index(starts.size(), size_t(1), [&](size_t n) { pool_[before + n] = tried(starts[n], ironed); });
+    parallel_for_each_index(starts.size(), size_t(1),
+                            [&](size_t n) { pool_[before + n] = tried(starts[n], ironed); });
 }
 
 void Exploration::enter(int level) {
@@ -114,7 +120,8 @@ void Exploration::enter(int level) {
 void Exploration::add_starts() {
     const int rows = int(level_.A.level.samples.size()), columns = int(level_.B.level.samples.size());
     std::vector<Start> starts{zero_start(level_)};
-    for (const Matching& m : spectral_matchings(context_, level_)) starts.push_back({centres_of(level_, m), {}});
+    for (const Matching& m : spectral_matchings(context_, level_))
+        starts.push_back({centres_of(level_, m), {}});
     for (const Matching& m : random_matchings(rows, columns, options_.random_starts, random_))
         starts.push_back({centres_of(level_, m), {}});
     try_all(starts);
@@ -155,7 +162,8 @@ void Exploration::measure_finalists() {
     constexpr double time = 4e-3;  // units of area: smooths over about a tenth of sqrt(area)
     const Eigen::VectorXd bending_A = bending(context_.A(), time), bending_B = bending(context_.B(), time);
     for (Trial& trial : pool_)
-        trial.bending_agreement = bending_agreement(level_, bending_A, bending_B, trial.orientation.A_to_B, trial.orientation.B_to_A);
+        trial.bending_agreement = bending_agreement(level_, bending_A, bending_B, trial.orientation.A_to_B,
+                                                    trial.orientation.B_to_A);
     const LevelPair euclidean = context_.euclidean_level(0, 1);
     const LevelSwitch step(level_.A.level, level_.B.level, euclidean);
     parallel_for_each_index(pool_.size(), size_t(1), [&](size_t n) {
@@ -175,7 +183,8 @@ std::vector<Trial> Exploration::run() {
         if (started < start_levels && samples() >= 5 * started) add_starts(), ++started;
         if (samples() < swap_rules[0].samples) extremities_ = level_;
         prune(promoted(samples(), options_.candidates));
-        if (swap != std::end(swap_rules) && samples() >= swap->samples && !extremities_.A.level.samples.empty()) {
+        if (swap != std::end(swap_rules) && samples() >= swap->samples &&
+            !extremities_.A.level.samples.empty()) {
             add_swaps(swap->best);
             prune(promoted(samples(), options_.candidates));
             ++swap;
@@ -194,16 +203,20 @@ namespace {
 
 /// Degrees of the rotation R that minimises sum m |R (x - mean x) - (y - mean y)|^2 (Kabsch).
 double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) {
-    const Eigen::RowVector3d mean_x = mass.transpose() * x / mass.sum(), mean_y = mass.transpose() * y / mass.sum();
-    const Eigen::Matrix3d products = (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
+    const Eigen::RowVector3d mean_x = mass.transpose() * x / mass.sum(),
+                             mean_y = mass.transpose() * y / mass.sum();
+    const Eigen::Matrix3d products =
+        (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    const Eigen::Matrix3d R = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    const Eigen::Matrix3d R =
+        svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
     return Eigen::AngleAxisd(R).angle() * 180 / M_PI;
 }
 
 /// Compares a map with the best one: where the latter's inverse takes the images of the samples of A.
-void compare(const Trial& best, const Trial& other, const LevelPair& pair, const PairContext& context, Candidate& candidate) {
+void compare(const Trial& best, const Trial& other, const LevelPair& pair, const PairContext& context,
+             Candidate& candidate) {
     constexpr double elsewhere = 0.1;  // units of sqrt(area)
     const std::vector<int>& samples = pair.A.level.samples;
     const TriangleMesh& mesh = context.A().surface.mesh;
@@ -230,7 +243,8 @@ std::vector<Candidate> describe(const Exploration& exploration, const std::vecto
                             .bending_agreement = trial.bending_agreement,
                             .score = exploration.score(trial),
                             .reversed_mass = trial.orientation.reversed_mass()};
-        if (&trial != &trials.front()) compare(trials.front(), trial, exploration.last_level(), context, candidate);
+        if (&trial != &trials.front())
+            compare(trials.front(), trial, exploration.last_level(), context, candidate);
         list.push_back(candidate);
     }
     return list;
@@ -261,8 +275,13 @@ Candidates explore(const PairContext& context, const ExplorationOptions& options
     LevelPair coarse = context.diffusion_level(0);
     while (coarse.A.level.samples.size() < coarse_samples && level + 1 < context.diffusion_levels())
         coarse = context.diffusion_level(++level);
-    Candidates found{coarse.A.level.samples, coarse.B.level.samples, coarse.A.side.mass, coarse.B.side.mass,
-                     describe(exploration, trials, context), {}, {}};
+    Candidates found{coarse.A.level.samples,
+                     coarse.B.level.samples,
+                     coarse.A.side.mass,
+                     coarse.B.side.mass,
+                     describe(exploration, trials, context),
+                     {},
+                     {}};
     for (const Trial& trial : trials)
         found.plans.push_back(to_matrix(coarsened(trial.solution.plan, exploration.last_level(), coarse),
                                         found.mass_A, found.mass_B));

@@ -3,10 +3,10 @@
 #include <random>
 #include <vector>
 
-#include "common/mapping/candidates.h"
-#include "common/mapping/ironing.h"
-#include "common/mapping/level_transfer.h"
-#include "common/mapping/pair_context.h"
+#include "varimap/multilevel/ironing.h"
+#include "varimap/multilevel/level_transfer.h"
+#include "varimap/multilevel/pair_context.h"
+#include "varimap/results/candidates.h"
 
 namespace varimap {
 

@@ -46,8 +46,8 @@ Coupling swap_rows(const Coupling& plan, int first, int second) {
 }  // namespace
 
 std::vector<Matching> spectral_matchings(const PairContext& context, const LevelPair& pair) {
-    const Eigen::Index functions =
-        std::min<Eigen::Index>({4, context.A().basis.functions.cols() - 1, context.B().basis.functions.cols() - 1});
+    const Eigen::Index functions = std::min<Eigen::Index>(
+        {4, context.A().basis.functions.cols() - 1, context.B().basis.functions.cols() - 1});
     const RowMatrix a = low_functions(context.A(), pair.A.level, functions);
     const RowMatrix b = low_functions(context.B(), pair.B.level, functions);
     std::vector<Matching> matchings;
@@ -62,8 +62,10 @@ std::vector<Matching> spectral_matchings(const PairContext& context, const Level
 std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random) {
     std::vector<Matching> matchings(count);
     for (Matching& matching : matchings) {
-        const std::vector<int> row = random_permutation(rows, random), column = random_permutation(columns, random);
-        for (int n = 0; n < std::max(rows, columns); ++n) matching.emplace_back(row[n % rows], column[n % columns]);
+        const std::vector<int> row = random_permutation(rows, random),
+                               column = random_permutation(columns, random);
+        for (int n = 0; n < std::max(rows, columns); ++n)
+            matching.emplace_back(row[n % rows], column[n % columns]);
     }
     return matchings;
 }
@@ -71,7 +73,8 @@ std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt
 Centres centres_of(const LevelPair& pair, const Matching& matching) {
     const RowMatrix &a = pair.A.side.points, &b = pair.B.side.points;
     Centres centres{RowMatrix::Zero(a.rows(), b.cols()), RowMatrix::Zero(b.rows(), a.cols())};
-    Eigen::VectorXd row_count = Eigen::VectorXd::Zero(a.rows()), column_count = Eigen::VectorXd::Zero(b.rows());
+    Eigen::VectorXd row_count = Eigen::VectorXd::Zero(a.rows()),
+                    column_count = Eigen::VectorXd::Zero(b.rows());
     for (const auto& [i, j] : matching) {
         centres.row.row(i) += b.row(j);
         centres.column.row(j) += a.row(i);
@@ -79,7 +82,8 @@ Centres centres_of(const LevelPair& pair, const Matching& matching) {
         ++column_count[j];
     }
     centres.row = pair.A.side.averaging * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
-    centres.column = pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
+    centres.column =
+        pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
     pull_landmarks(pair.A.side, pair.B.side, centres);
     return centres;
 }
@@ -99,7 +103,8 @@ std::vector<Coupling> with_swapped_rows(const Coupling& plan, int count) {
     count = std::min(count, plan.support.rows());
     std::vector<Coupling> swapped;
     for (int first = 0; first < count; ++first)
-        for (int second = first + 1; second < count; ++second) swapped.push_back(swap_rows(plan, first, second));
+        for (int second = first + 1; second < count; ++second)
+            swapped.push_back(swap_rows(plan, first, second));
     return swapped;
 }
 

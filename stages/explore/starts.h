@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/mapping/level_transfer.h"
-#include "common/mapping/pair_context.h"
+#include "varimap/multilevel/level_transfer.h"
+#include "varimap/multilevel/pair_context.h"
 
 namespace varimap {
 

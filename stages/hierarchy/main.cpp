@@ -1,5 +1,5 @@
-#include "common/stage/stage_main.h"
 #include "stages/hierarchy/params.h"
+#include "varimap/stage/stage_main.h"
 
 using namespace varimap;
 

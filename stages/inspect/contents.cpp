@@ -4,12 +4,12 @@
 
 #include <map>
 
-#include "common/mapping/plan.h"
-#include "common/mapping/surface_map.h"
-#include "common/mesh/surface.h"
-#include "common/spectral/eigenbasis.h"
-#include "common/spectral/hierarchy.h"
-#include "common/stage/error.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/results/plan.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/spectral/eigenbasis.h"
+#include "varimap/spectral/hierarchy.h"
 
 namespace varimap {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/mesh/triangle_mesh.h"
+#include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 
@@ -33,7 +33,6 @@ ArrayView view(const std::vector<Scalar>& values) {
 /// Receives what an artifact holds, piece by piece; names are unique within an artifact and fit file names.
 class ContentsVisitor {
   public:
-    using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
     virtual ~ContentsVisitor() = default;
     virtual void fact(const std::string& name, const std::string& value) = 0;
     virtual void array(const std::string& name, const ArrayView& array) = 0;

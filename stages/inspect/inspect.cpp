@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "common/artifact/artifact.h"
-#include "common/mesh/mesh_file.h"
 #include "stages/inspect/contents.h"
 #include "stages/inspect/formats.h"
 #include "stages/inspect/lineage.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/mesh/io/mesh_file.h"
 
 namespace varimap {
 namespace {

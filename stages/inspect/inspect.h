@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "common/stage/error.h"
+#include "varimap/core/error.h"
 
 namespace varimap {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "common/artifact/artifact.h"
-#include "common/stage/error.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
 
 namespace varimap {
 namespace {

@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "common/stage/stage_main.h"
 #include "stages/inspect/inspect.h"
+#include "varimap/stage/stage_main.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
-#include "common/mesh/mesh_file.h"
-#include "common/mesh/surface.h"
-#include "common/stage/stage_main.h"
 #include "stages/preprocess/preprocess.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/stage/stage_main.h"
 
 int main(int argc, char** argv) {
     using namespace varimap;

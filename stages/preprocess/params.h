@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/stage/parameters.h"
+#include "varimap/stage/parameters.h"
 
 namespace varimap {
 
@@ -15,7 +15,8 @@ struct PreprocessParams {
                  "triangulation with the mesh's vertices, or with 2500 where it has fewer",
                  0, 10);
         list.add("max_vertices", max_vertices, "refuse to bisect beyond this many vertices", 3, 100'000'000);
-        list.add("mirror", mirror, "reverse the surface's orientation, to map it onto one of opposite handedness");
+        list.add("mirror", mirror,
+                 "reverse the surface's orientation, to map it onto one of opposite handedness");
     }
 };
 

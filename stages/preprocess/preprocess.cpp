@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/mesh/bisection.h"
-#include "common/mesh/mass.h"
-#include "common/mesh/topology.h"
-#include "common/stage/log.h"
+#include "varimap/core/log.h"
+#include "varimap/mesh/bisection.h"
+#include "varimap/mesh/mass.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {

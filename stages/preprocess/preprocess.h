@@ -1,14 +1,14 @@
 #pragma once
 
-#include "common/mesh/surface.h"
 #include "stages/preprocess/params.h"
+#include "varimap/mesh/surface.h"
 
 namespace varimap {
 
 /// Unit area, area centroid at the origin, edges no longer than the target (Sec. 5, Limitations), and Voronoi
 /// masses. `input` must have passed require_manifold. Vertices that no face uses are left out of the result's
-/// mesh. Mirroring reverses the orientation of the result's meshes. A moved, turned or uniformly scaled input gives the same connectivity. Throws InputError if
-/// bisection would exceed max_vertices.
+/// mesh. Mirroring reverses the orientation of the result's meshes. A moved, turned or uniformly scaled input
+/// gives the same connectivity. Throws InputError if bisection would exceed max_vertices.
 Surface preprocess(const TriangleMesh& input, const PreprocessParams& params);
 
 /// The target edge length in units of sqrt(area): the parameter, or the automatic choice

@@ -1,6 +1,6 @@
-#include "common/mapping/pair_inputs.h"
-#include "common/stage/stage_main.h"
 #include "stages/refine/refine.h"
+#include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/stage/stage_main.h"
 
 using namespace varimap;
 
@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     PairInputs inputs(stage);
     const std::string& diffusion_in = stage.input("diffusion", "plan of varimap-diffuse");
-    const std::string& out = stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "plan to write");
+    const std::string& out =
+        stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "plan to write");
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto diffusion = stage.read<Plan>("diffusion", diffusion_in);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/mapping/alternation_params.h"
+#include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {
 
@@ -9,7 +9,7 @@ struct RefineParams {
     IroningOptions ironing;
     double metric_weight = 1;       ///< mu of the mixed metric on all but the last level
     double last_metric_weight = 0;  ///< mu on the last level
-    double feature_weight = 0.25;    ///< of the features of FeatureTerm beside Eq. (3)
+    double feature_weight = 0.25;   ///< of the features of FeatureTerm beside Eq. (3)
     int levels = 0;                 ///< stop after this many Euclidean levels; 0: all
 
     RefineParams() {
@@ -25,7 +25,8 @@ struct RefineParams {
                  "weight of diffusion coordinates beside positions in space (0: space alone)", 0.0, 100.0);
         list.add("last_metric_weight", last_metric_weight, "the same on the last level", 0.0, 100.0);
         list.add("feature_weight", feature_weight,
-                 "how strongly places of like bending and thickness attract each other (0: not at all)", 0.0, 100.0);
+                 "how strongly places of like bending and thickness attract each other (0: not at all)", 0.0,
+                 100.0);
         list.add("levels", levels, "stop after this many Euclidean levels (0: all)", 0, 1000);
     }
 };

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "common/mapping/compared_terms.h"
-#include "common/mapping/solve_level.h"
-#include "common/stage/error.h"
+#include "varimap/core/error.h"
+#include "varimap/multilevel/compared_terms.h"
+#include "varimap/multilevel/solve_level.h"
 
 namespace varimap {
 
@@ -14,12 +14,16 @@ namespace {
 LevelPair diffusion_levels_of(const PairContext& context, const Plan& diffusion) {
     for (int l = context.diffusion_levels() - 1; l >= 0; --l) {
         LevelPair pair = context.diffusion_level(l);
-        if (pair.A.level.samples == diffusion.samples_A && pair.B.level.samples == diffusion.samples_B) return pair;
+        if (pair.A.level.samples == diffusion.samples_A && pair.B.level.samples == diffusion.samples_B)
+            return pair;
     }
-    throw ArtifactError("the diffusion plan's samples are not those of a level of these hierarchies; rerun varimap-diffuse");
+    throw ArtifactError(
+        "the diffusion plan's samples are not those of a level of these hierarchies; rerun varimap-diffuse");
 }
 
-Points space_part(const RowMatrix& centres) { return centres.leftCols<3>(); }
+Points space_part(const RowMatrix& centres) {
+    return centres.leftCols<3>();
+}
 
 Plan to_plan(const LevelPair& pair, const Solution& solution) {
     Plan plan;
@@ -46,13 +50,15 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
     Solution solution;
     solution.plan = to_coupling(diffusion.plan);
     for (int l = 0; l < levels; ++l) {
-        LevelPair pair = context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
+        LevelPair pair =
+            context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
         features.add_to(pair);
-        const Start start =
-            hand_down(solution.plan, coarse.A.level, coarse.B.level, pair, params.alternation.support_threshold);
+        const Start start = hand_down(solution.plan, coarse.A.level, coarse.B.level, pair,
+                                      params.alternation.support_threshold);
         IroningOptions ironing = params.ironing;
         ironing.enabled &= l + 1 < all;  // neighbourhoods of the last level are too small to move a patch
-        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing, l + 1 == levels, trace);
+        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing,
+                               l + 1 == levels, trace);
         coarse = std::move(pair);
     }
     Plan plan = to_plan(coarse, solution);

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "common/mapping/pair_context.h"
-#include "common/mapping/plan.h"
 #include "stages/refine/params.h"
+#include "varimap/multilevel/pair_context.h"
+#include "varimap/results/plan.h"
 
 namespace varimap {
 
-/// Euclidean levels of Alg. 5 (Sec. 4.5), from the plan of the last diffusion level down to every vertex of the
-/// preprocessed surfaces. Neighbourhoods are measured along the surface and costs in a mixed metric, because
-/// balls and averages in R^3 bridge nearby limbs.
+/// Euclidean levels of Alg. 5 (Sec. 4.5), from the plan of the last diffusion level down to every vertex of
+/// the preprocessed surfaces. Neighbourhoods are measured along the surface and costs in a mixed metric,
+/// because balls and averages in R^3 bridge nearby limbs.
 Plan refine(const PairContext& context, const Plan& diffusion, const RefineParams& params);
 
 }  // namespace varimap

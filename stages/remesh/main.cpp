@@ -1,9 +1,9 @@
 #include <filesystem>
 
-#include "common/mesh/mesh_file.h"
-#include "common/stage/stage_main.h"
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/remesh.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/stage/stage_main.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/mapping/untangling.h"
-#include "common/stage/parameters.h"
+#include "varimap/relaxation/untangling.h"
+#include "varimap/stage/parameters.h"
 
 namespace varimap {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "common/mapping/quality.h"
-#include "common/mapping/verification.h"
-#include "common/mesh/topology.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/quality/quality.h"
+#include "varimap/verification/verification.h"
 
 namespace varimap {
 

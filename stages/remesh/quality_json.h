@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "common/mapping/plan.h"
-#include "common/mapping/surface_map.h"
-#include "common/mapping/untangling.h"
-#include "common/mesh/surface.h"
-#include "common/stage/stage_main.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/relaxation/untangling.h"
+#include "varimap/results/plan.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/stage/stage_main.h"
 
 namespace varimap {
 
@@ -15,12 +15,14 @@ namespace varimap {
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
 ///   energy            Eq. (3) at the end; absent if the plan has no trace
 ///   area_bound        the bound B the plan was solved with
-///   mass_ratio        source, target: min and max of transported mass by mass over the plan's samples; within
+///   mass_ratio        source, target: min and max of transported mass by mass over the plan's samples;
+///   within
 ///                     [1 / sqrt(B), sqrt(B)]
 ///   landmarks         distance of each landmark's image from its partner
 ///   landmark_weight   W of soft landmarks, 1 where they are pinned (cost.h); absent without landmarks
-///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions: landmark_check.h)
-///   exploration       without landmarks: which candidate was continued, confident, margin, levels_agree, and the
+///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions:
+///   landmark_check.h) exploration       without landmarks: which candidate was continued, confident, margin,
+///   levels_agree, and the
 ///                     candidates: energies, score, reversed_percent, moved_percent, turn_degrees, mirrored
 ///                     (definitions: candidates.h)
 ///   source_to_target, target_to_source

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "common/mesh/closest_point.h"
-#include "common/stage/error.h"
-#include "common/stage/log.h"
 #include "stages/remesh/quality_json.h"
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/mesh/closest_point.h"
 
 namespace varimap {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "common/mesh/triangle_mesh.h"
+#include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 

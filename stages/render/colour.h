@@ -1,13 +1,13 @@
 #pragma once
 
-#include "common/mesh/triangle_mesh.h"
+#include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 
 using Colour = Vec3;  ///< linear red, green, blue, from 0 to 1
 
-/// Colours the points of the source: hue runs along its longest axis, with lightness and chroma along the others,
-/// modulated by a checkerboard in space.
+/// Colours the points of the source: hue runs along its longest axis, with lightness and chroma along the
+/// others, modulated by a checkerboard in space.
 class SourceColour {
   public:
     /// `cell` is the edge of the checkerboard's cells, in the mesh's unit.

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "common/mapping/quality.h"
 #include "stages/render/render.h"
 #include "stages/render/view.h"
+#include "varimap/quality/quality.h"
 
 namespace varimap {
 

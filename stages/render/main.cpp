@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "common/artifact/artifact.h"
-#include "common/mapping/candidates.h"
-#include "common/mapping/surface_map.h"
-#include "common/mesh/mesh_file.h"
-#include "common/stage/stage_main.h"
 #include "stages/render/render.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/results/candidates.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/stage/stage_main.h"
 
 int main(int argc, char** argv) {
     using namespace varimap;
@@ -22,8 +22,9 @@ int main(int argc, char** argv) {
                           "source_masses.csv and target_masses.csv of varimap-remesh: shows changes "
                           "of mass, area and angle instead of colours",
                           2, 2);
-    const auto& candidates_in = stage.option(
-        "candidates", "of varimap-explore: where its choice was not sure, the first three also go to candidates.png beside the picture");
+    const auto& candidates_in = stage.option("candidates",
+                                             "of varimap-explore: where its choice was not sure, the first "
+                                             "three also go to candidates.png beside the picture");
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
         const TriangleMesh A = read_mesh(source), B = read_mesh(target);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/stage/parallel.h"
+#include "varimap/core/parallel.h"
 
 namespace varimap {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "common/mesh/ray_mesh.h"
+#include "varimap/mesh/ray_mesh.h"
 
 namespace varimap {
 

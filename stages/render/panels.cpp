@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/stage/parallel.h"
 #include "stages/render/bounds.h"
 #include "stages/render/lettering.h"
+#include "varimap/core/parallel.h"
 
 namespace varimap {
 
 namespace {
 
-/// Places the panels (each figure, then its back) below a strip of height `top`; returns the height of the picture.
+/// Places the panels (each figure, then its back) below a strip of height `top`; returns the height of the
+/// picture.
 int lay_out(std::vector<Panel>& panels, int picture_width, int top) {
     double sum = 0, height = 0;
     std::vector<double> widths;
@@ -40,7 +41,8 @@ int lay_out(std::vector<Panel>& panels, int picture_width, int top) {
 }
 
 /// Writes each label above the middle of its panel.
-void write_labels(const std::vector<Exhibit>& exhibits, const std::vector<Panel>& panels, int size, Image& image) {
+void write_labels(const std::vector<Exhibit>& exhibits, const std::vector<Panel>& panels, int size,
+                  Image& image) {
     for (size_t i = 0; i < exhibits.size(); ++i) {
         const Panel& p = panels[2 * i];
         const int left = p.x + (p.width - size * text_width(exhibits[i].label)) / 2;
@@ -142,7 +144,8 @@ Image draw_panels(const std::vector<Exhibit>& exhibits, const RenderParams& para
     for (const Exhibit& e : exhibits)
         for (const double turn : {0., 180.})
             panels.emplace_back(*e.figure, moved(e.view, params.azimuth + turn, params.elevation));
-    const bool labelled = std::any_of(exhibits.begin(), exhibits.end(), [](const Exhibit& e) { return !e.label.empty(); });
+    const bool labelled =
+        std::any_of(exhibits.begin(), exhibits.end(), [](const Exhibit& e) { return !e.label.empty(); });
     const int letter = std::max(1, params.width / 600), top = labelled ? 2 * letter * letter_height : 0;
     Image image{params.width, lay_out(panels, params.width, top), {}};
     image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);

@@ -37,8 +37,8 @@ struct Exhibit {
     std::string label;
 };
 
-/// Lays out and traces the figures side by side, each from its view (moved as the parameters say) and from the
-/// opposite one.
+/// Lays out and traces the figures side by side, each from its view (moved as the parameters say) and from
+/// the opposite one.
 Image draw_panels(const std::vector<Exhibit>& exhibits, const RenderParams& params);
 
 }  // namespace varimap

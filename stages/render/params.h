@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/stage/parameters.h"
+#include "varimap/stage/parameters.h"
 
 namespace varimap {
 
@@ -24,10 +24,13 @@ struct RenderParams {
         list.add("azimuth", azimuth, "turns the camera to the right around the surfaces, degrees", -360, 360);
         list.add("elevation", elevation, "raises the camera, degrees", -89, 89);
         list.add("up", up, "axis of the source that points up; auto guesses", {"auto", "x", "y", "z"});
-        list.add("ratio_range", ratio_range, "distortion: end of the scale of mass and area ratios", 1.01, 1e6);
-        list.add("conformal_range", conformal_range, "distortion: end of the scale of conformal distortion", 1.01, 1e6);
+        list.add("ratio_range", ratio_range, "distortion: end of the scale of mass and area ratios", 1.01,
+                 1e6);
+        list.add("conformal_range", conformal_range, "distortion: end of the scale of conformal distortion",
+                 1.01, 1e6);
         list.add("flips", flips, "shows triangles in magenta whose image is reversed");
-        list.add("mirror", mirror, "the map reverses orientation on purpose; flips are triangles where it does not");
+        list.add("mirror", mirror,
+                 "the map reverses orientation on purpose; flips are triangles where it does not");
     }
 };
 

@@ -1,7 +1,7 @@
 #include <png.h>
 
-#include "common/stage/error.h"
 #include "stages/render/render.h"
+#include "varimap/core/error.h"
 
 namespace varimap {
 

@@ -7,14 +7,14 @@
 #include <memory>
 #include <sstream>
 
-#include "common/artifact/artifact.h"
-#include "common/mapping/chord_mesh.h"
-#include "common/mesh/closest_point.h"
-#include "common/stage/error.h"
 #include "stages/render/distortion.h"
 #include "stages/render/figure.h"
 #include "stages/render/panels.h"
 #include "stages/render/view.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/quality/chord_mesh.h"
 
 namespace varimap {
 
@@ -61,7 +61,8 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     const SourceColour colour(there.source, params.checker);
     const ClosestPoint closest(there.source);
     const auto flags = [&](const ChordMesh& chords) {
-        return params.flips ? reversed_faces(chords, params.mirror) : std::vector<bool>(size_t(chords.source.face_count()));
+        return params.flips ? reversed_faces(chords, params.mirror)
+                            : std::vector<bool>(size_t(chords.source.face_count()));
     };
     const Figure source_figure(
         there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, flags(there));
@@ -84,14 +85,18 @@ Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
     };
     const View source_view = natural_view(source, params.up);
     std::vector<std::unique_ptr<Figure>> figures;
-    figures.push_back(figure(at_unit_area, [&](const SurfacePoint& p) { return colour(position(at_unit_area, p)); }));
+    figures.push_back(
+        figure(at_unit_area, [&](const SurfacePoint& p) { return colour(position(at_unit_area, p)); }));
     std::vector<Exhibit> exhibits{{figures[0].get(), source_view, "source"}};
     for (const PointMap& map : target_to_source) {
         require_fit(map, target, source, "a candidate", "target", "source");
         const auto back = std::make_shared<ChordMesh>(map, target, source);
-        figures.push_back(figure(back->source, [&, back](const SurfacePoint& p) { return carried_colour(*back, closest, colour, p); }));
+        figures.push_back(figure(back->source, [&, back](const SurfacePoint& p) {
+            return carried_colour(*back, closest, colour, p);
+        }));
         const View view = exhibits.size() > 1 ? exhibits[1].view  // the same for all, for comparison
-                                              : matching_view(back->source, back->image.vertices, have_image(map), source_view);
+                                              : matching_view(back->source, back->image.vertices,
+                                                              have_image(map), source_view);
         exhibits.push_back({figures.back().get(), view, fmt::format("candidate {}", exhibits.size())});
     }
     return draw_panels(exhibits, params);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "common/mesh/triangle_mesh.h"
 #include "stages/render/params.h"
+#include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 
@@ -23,8 +23,8 @@ struct Image {
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params);
 
-/// Several maps beside each other, with labels: the source, then the target with the source's colours carried by each
-/// of them, all from the same two views. Throws InputError where a map does not fit the meshes.
+/// Several maps beside each other, with labels: the source, then the target with the source's colours carried
+/// by each of them, all from the same two views. Throws InputError where a map does not fit the meshes.
 Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
                         const std::vector<PointMap>& target_to_source, const RenderParams& params);
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/mesh/triangle_mesh.h"
+#include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 

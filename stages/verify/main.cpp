@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "common/stage/stage_main.h"
 #include "stages/verify/verify.h"
+#include "varimap/stage/stage_main.h"
 
 int main(int argc, char** argv) {
     using namespace varimap;
@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
     const auto& source = stage.input("source-mesh", "mesh the map starts from");
     const auto& target = stage.input("target-mesh", "mesh the map leads to");
     const auto& map = stage.input("map", "CSV of varimap-remesh, one row per source vertex");
-    const auto& mirror = stage.flag("mirror", "the map reverses orientation on purpose (varimap map --mirror)");
+    const auto& mirror =
+        stage.flag("mirror", "the map reverses orientation on purpose (varimap map --mirror)");
     const auto& json = stage.flag("json", "print a JSON object, with the faces and vertices found (0-based)");
     return stage.main(argc, argv, [&] {
         const Verification found = verify_files(source, target, map, mirror);

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/mapping/surface_map.h"
-#include "common/mesh/mesh_file.h"
-#include "common/stage/error.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/results/surface_map.h"
 
 namespace varimap {
 

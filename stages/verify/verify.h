@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "common/mapping/verification.h"
+#include "varimap/verification/verification.h"
 
 namespace varimap {
 
-/// Reads two meshes and a map between them and judges the map; `mirror`: it reverses orientation on purpose, and
-/// triangles that keep it are the reversed ones. Throws InputError (a mesh that is not one
-/// manifold surface, a map that does not fit the meshes), IoError.
+/// Reads two meshes and a map between them and judges the map; `mirror`: it reverses orientation on purpose,
+/// and triangles that keep it are the reversed ones. Throws InputError (a mesh that is not one manifold
+/// surface, a map that does not fit the meshes), IoError.
 Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
                           const std::string& map, bool mirror = false);
 

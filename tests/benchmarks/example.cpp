@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "common/shapes.h"
-#include "common/surface_data.h"
+#include "fixtures/shapes.h"
+#include "fixtures/surface_data.h"
 
 namespace varimap::benchmarks {
 

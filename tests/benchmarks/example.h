@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/mapping/level_transfer.h"
+#include "varimap/multilevel/level_transfer.h"
 
 namespace varimap::benchmarks {
 

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/example.h"
-#include "common/mesh/closest_point.h"
-#include "common/spectral/sampling.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/spectral/sampling.h"
 
 namespace varimap::benchmarks {
 namespace {

@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/example.h"
-#include "common/transport/sinkhorn.h"
+#include "varimap/transport/sinkhorn.h"
 
 namespace varimap::benchmarks {
 namespace {

@@ -30,8 +30,12 @@ Part unbent(std::vector<Limb> limbs) {
     return {std::move(limbs), {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 0, 1, 0}};
 }
 
-Vec3 reflected(const Vec3& p) { return {p[0], -p[1], p[2]}; }
-Limb reflected(const Limb& limb) { return {reflected(limb.a), reflected(limb.b), limb.ra, limb.rb}; }
+Vec3 reflected(const Vec3& p) {
+    return {p[0], -p[1], p[2]};
+}
+Limb reflected(const Limb& limb) {
+    return {reflected(limb.a), reflected(limb.b), limb.ra, limb.rb};
+}
 
 /// The limb with its end moved, to `factor` times the length.
 Limb scaled(const Limb& limb, double factor) {
@@ -68,7 +72,8 @@ Body creature(Random& random) {
     for (const Vec3& d : separated_directions(limbs, 0.8, random)) {
         const Vec3 root(half * d[0], 0, 0);
         const double width = random.between(0.12, 0.18);
-        body.parts.push_back(bent_limb({root, root + (radius + length) * d, width, 0.8 * width}, radius, random));
+        body.parts.push_back(
+            bent_limb({root, root + (radius + length) * d, width, 0.8 * width}, radius, random));
         length += random.between(0.1, 0.2);
     }
     return body;
@@ -78,7 +83,9 @@ Body ring(Random& random) {
     constexpr int pieces = 14;
     const double thin = random.between(0.15, 0.2), thick = random.between(0.26, 0.34);
     const auto at = [](double turn) { return Vec3(std::cos(2 * pi * turn), std::sin(2 * pi * turn), 0); };
-    const auto radius = [&](double turn) { return thin + (thick - thin) * (1 + std::cos(2 * pi * turn)) / 2; };
+    const auto radius = [&](double turn) {
+        return thin + (thick - thin) * (1 + std::cos(2 * pi * turn)) / 2;
+    };
     std::vector<Limb> tube;
     for (int i = 0; i < pieces; ++i) {
         const double begin = double(i) / pieces, end = double(i + 1) / pieces;
@@ -97,7 +104,8 @@ Body ring(Random& random) {
 
 /// x forward, y left, z up; its left and right sides are alike.
 Body animal(Random& random) {
-    const double half = random.between(0.7, 1), fore = random.between(0.9, 1.2), hind = random.between(0.8, 1.2);
+    const double half = random.between(0.7, 1), fore = random.between(0.9, 1.2),
+                 hind = random.between(0.8, 1.2);
     Body body{{unbent({{{-half, 0, 0}, {half, 0, 0.05}, 0.38, 0.42}})},
               bend_of(-Vec3::UnitX(), Vec3::UnitX(), 0.6, 0.8, Vec3::UnitY(), random.between(0.2, 0.4))};
     for (const Limb& leg : {Limb{{0.9 * half, 0.22, -0.2}, {0.9 * half, 0.3, -0.2 - fore}, 0.18, 0.12},
@@ -109,7 +117,8 @@ Body animal(Random& random) {
     const Limb ear{crown + Vec3(-0.05, 0.12, 0.1), crown + Vec3(-0.1, 0.3, 0.45), 0.11, 0.1};
     body.parts.push_back(bent_limb({{half, 0, 0.15}, crown, 0.24, 0.2}, 0.3, random,
                                    {{crown, crown + Vec3(0.4, 0, -0.1), 0.24, 0.14}, ear, reflected(ear)}));
-    body.parts.push_back(bent_limb({{-half, 0, 0.1}, {-half - random.between(0.7, 1.2), 0, 0.4}, 0.15, 0.11}, 0.35, random));
+    body.parts.push_back(
+        bent_limb({{-half, 0, 0.1}, {-half - random.between(0.7, 1.2), 0, 0.4}, 0.15, 0.11}, 0.35, random));
     return body;
 }
 
@@ -121,7 +130,8 @@ struct Cues {
 
 /// x forward, y left, z up.
 Body person(const Cues& cues, Random& random) {
-    const double arm = random.between(0.8, 1), leg = random.between(1, 1.25), shoulder = random.between(0.8, 0.9);
+    const double arm = random.between(0.8, 1), leg = random.between(1, 1.25),
+                 shoulder = random.between(0.8, 0.9);
     std::vector<Limb> head{{{0, 0, 1.35}, {0.03, 0, 1.5}, 0.2, 0.22}};
     if (cues.face) head.push_back({{0.2, 0, 1.42}, {0.36, 0, 1.38}, 0.09, 0.06});
     Body body{{unbent({{{0, 0, 0}, {0, 0, shoulder}, 0.25, 0.3}}),
@@ -133,7 +143,9 @@ Body person(const Cues& cues, Random& random) {
         const Limb lower = scaled({{0, 0.14, 0}, {0, 0.24, -leg}, 0.16, 0.11}, longer);
         std::vector<Limb> foot;
         if (cues.feet) foot.push_back({lower.b, lower.b + Vec3(0.3, 0.04, -0.03), 0.11, 0.08});
-        if (!left) std::transform(foot.begin(), foot.end(), foot.begin(), [](const Limb& l) { return reflected(l); });
+        if (!left)
+            std::transform(foot.begin(), foot.end(), foot.begin(),
+                           [](const Limb& l) { return reflected(l); });
         body.parts.push_back(bent_limb(left ? upper : reflected(upper), 0.3, random));
         body.parts.push_back(bent_limb(left ? lower : reflected(lower), 0.35, random, foot));
     }
@@ -180,7 +192,8 @@ TriangleMesh Body::mesh(int vertices, const Eigen::Matrix3d& turn) const {
     const auto distance = [&](const Vec3& p) { return smooth_distance(all, turn.transpose() * p); };
     constexpr double coarse = 0.1;
     const int coarse_vertices = level_set(distance, box.min(), box.max(), coarse).vertex_count();
-    TriangleMesh mesh = level_set(distance, box.min(), box.max(), coarse * std::sqrt(double(coarse_vertices) / vertices));
+    TriangleMesh mesh =
+        level_set(distance, box.min(), box.max(), coarse * std::sqrt(double(coarse_vertices) / vertices));
     mesh.vertices *= turn;  // rows: by the inverse
     return mesh;
 }

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "common/limbs.h"
-#include "common/shapes.h"
+#include "fixtures/limbs.h"
+#include "fixtures/shapes.h"
 
 namespace varimap::shapes {
 

@@ -9,10 +9,10 @@
 #include <charconv>
 #include <string_view>
 
-#include "common/artifact/artifact.h"
-#include "common/mesh/mesh_file.h"
-#include "common/stage/error.h"
 #include "selftest/body.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
 
 namespace {
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "common/known_pair.h"
-#include "common/stage/error.h"
-#include "common/surface_data.h"
+#include "fixtures/known_pair.h"
+#include "fixtures/surface_data.h"
 #include "stages/diffuse/check_landmarks.h"
+#include "varimap/core/error.h"
 
 namespace varimap {
 namespace {
@@ -131,7 +131,8 @@ TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
 /// The landmark at the left hind foot, put beside the left forefoot.
 void move_landmark(KnownPair& pair) {
     const TriangleMesh& B = pair.B.surface.mesh;
-    pair.landmarks[2].second = shapes::nearest_vertex(B, B.vertex(pair.landmarks[0].second) + Vec3(.05, 0, 0));
+    pair.landmarks[2].second =
+        shapes::nearest_vertex(B, B.vertex(pair.landmarks[0].second) + Vec3(.05, 0, 0));
     ASSERT_NE(pair.landmarks[2].second, pair.landmarks[0].second);
 }
 
@@ -168,8 +169,13 @@ TEST(Diffuse, ContinuesTheCandidateAskedFor) {
     const KnownPair pair = ellipsoids_with_landmarks();
     const PairContext context = pair.context();
     const LevelPair coarse = context.diffusion_level(3);
-    Candidates candidates{coarse.A.level.samples, coarse.B.level.samples, coarse.A.level.mass, coarse.B.level.mass,
-                          {Candidate{.score = 1}, Candidate{.score = 2}}, {}, {}};
+    Candidates candidates{coarse.A.level.samples,
+                          coarse.B.level.samples,
+                          coarse.A.level.mass,
+                          coarse.B.level.mass,
+                          {Candidate{.score = 1}, Candidate{.score = 2}},
+                          {},
+                          {}};
     DiffuseParams params;
     params.levels = 4;
     const SparseMatrix right = diffuse(context, params).plan;

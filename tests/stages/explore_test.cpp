@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <set>
 
-#include "common/known_pair.h"
-#include "common/mapping/local_shape.h"
+#include "fixtures/known_pair.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/bending_agreement.h"
 #include "stages/explore/params.h"
 #include "stages/explore/starts.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 namespace {
@@ -112,7 +112,9 @@ TEST(Starts, SpectralMatchingsHoldTheTrueOne) {
     const LevelPair level = context.diffusion_level(2);
     const auto matchings = spectral_matchings(context, level);
     EXPECT_EQ(matchings.size(), 16u);
-    const auto is_identity = [](const Matching& m) { return std::all_of(m.begin(), m.end(), [](auto p) { return p.first == p.second; }); };
+    const auto is_identity = [](const Matching& m) {
+        return std::all_of(m.begin(), m.end(), [](auto p) { return p.first == p.second; });
+    };
     EXPECT_EQ(std::count_if(matchings.begin(), matchings.end(), is_identity), 1);
 }
 
@@ -128,21 +130,26 @@ TEST(Starts, RandomMatchingsUseEverySampleAndRepeatForASeed) {
 }
 
 TEST(Starts, SwapsExchangeRowsPairwise) {
-    const Coupling plan{Support::dense(3, 2), Eigen::VectorXd::LinSpaced(6, 0, 5), Eigen::VectorXd::Zero(3), Eigen::VectorXd::Zero(2)};
+    const Coupling plan{Support::dense(3, 2), Eigen::VectorXd::LinSpaced(6, 0, 5), Eigen::VectorXd::Zero(3),
+                        Eigen::VectorXd::Zero(2)};
     const auto swapped = with_swapped_rows(plan, 8);
     ASSERT_EQ(swapped.size(), 3u);
     EXPECT_EQ(swapped[1].value, (Eigen::VectorXd(6) << 4, 5, 2, 3, 0, 1).finished());
 }
 
 TEST(Confidence, NeedsAMarginAndLevelsThatAgree) {
-    Candidate best{.diffusion_energy = 1, .euclidean_energy = 1, .score = 0}, other{.diffusion_energy = 2, .euclidean_energy = 2, .score = .02};
+    Candidate best{.diffusion_energy = 1, .euclidean_energy = 1, .score = 0},
+        other{.diffusion_energy = 2, .euclidean_energy = 2, .score = .02};
     EXPECT_TRUE(confidence_of({best, other}).confident);
     EXPECT_NEAR(confidence_of({best, other}).margin, .02, 1e-15);
     other.score = .005;
     EXPECT_FALSE(confidence_of({best, other}).confident);
     other.reversed_mass = .9;  // a mirrored map is no rival
     EXPECT_TRUE(confidence_of({best, other}).confident);
-    other = {.diffusion_energy = .9, .euclidean_energy = 2, .score = .001, .moved_mass = .03};  // nor is the same map
+    other = {.diffusion_energy = .9,
+             .euclidean_energy = 2,
+             .score = .001,
+             .moved_mass = .03};  // nor is the same map
     EXPECT_TRUE(confidence_of({best, other}).confident);
     other = {.diffusion_energy = .9, .euclidean_energy = 2, .score = .02};
     EXPECT_FALSE(confidence_of({best, other}).confident);

@@ -5,12 +5,12 @@
 
 #include <cstring>
 
-#include "common/artifact/artifact.h"
-#include "common/mapping/plan.h"
-#include "common/mapping/surface_map.h"
-#include "common/spectral/hierarchy.h"
-#include "common/temporary_folder.h"
+#include "fixtures/temporary_folder.h"
 #include "stages/inspect/formats.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/results/plan.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/spectral/hierarchy.h"
 
 namespace varimap {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "common/mesh/mass.h"
-#include "common/mesh/topology.h"
-#include "common/shapes.h"
-#include "common/stage/error.h"
+#include "fixtures/shapes.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/mass.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {
@@ -87,7 +87,9 @@ TEST(Preprocess, MirrorsBothMeshesAndKeepsEveryPointWhereItIs) {
     for (int f = 0; f < plain.mesh.face_count(); ++f)
         EXPECT_LT(face_normal(mirrored.mesh, f).dot(face_normal(plain.mesh, f)), 0);
     for (std::size_t v = 0; v < plain.on_input.size(); ++v)
-        EXPECT_LT((position(mirrored.input, mirrored.on_input[v]) - position(input, plain.on_input[v])).norm(), 1e-12);
+        EXPECT_LT(
+            (position(mirrored.input, mirrored.on_input[v]) - position(input, plain.on_input[v])).norm(),
+            1e-12);
 }
 
 }  // namespace

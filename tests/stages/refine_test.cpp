@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "common/known_pair.h"
-#include "common/stage/error.h"
+#include "fixtures/known_pair.h"
 #include "stages/diffuse/diffuse.h"
+#include "varimap/core/error.h"
 
 namespace varimap {
 namespace {
@@ -70,8 +70,8 @@ TEST(Refine, GoesOnWithTheTrace) {
 
 TEST(Refine, KeepsTheAreaBoundInBothStages) {
     // Equal ellipsoids but for their proportions: every bound is used.
-    const KnownPair pair = known_pair(shapes::ellipsoid(3, {1, 1.5, 2.2}), shapes::ellipsoid(3, {1, 1, 3}), {}, 60,
-                                      {{0, 0, 2.2}, {0, 1.5, 0}, {1, 0, 0}});
+    const KnownPair pair = known_pair(shapes::ellipsoid(3, {1, 1.5, 2.2}), shapes::ellipsoid(3, {1, 1, 3}),
+                                      {}, 60, {{0, 0, 2.2}, {0, 1.5, 0}, {1, 0, 0}});
     const PairContext context = pair.context();
     for (const char* energy : {"transported", "paper"})
         for (const double bound : {1., 1.2}) {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "common/map_shapes.h"
-#include "common/shapes.h"
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
 #include "stages/remesh/quality_json.h"
 
 namespace varimap {
@@ -102,7 +102,8 @@ TEST_F(Remesh, MapsLandmarksThatArePointsOntoEachOther) {
     };
     const double before = residual(read_only());
     EXPECT_GT(before, .02);
-    EXPECT_LT(residual(remesh(A_, B_, plan_, {})), .3 * before) << "the rest: the triangle lies below the sphere";
+    EXPECT_LT(residual(remesh(A_, B_, plan_, {})), .3 * before)
+        << "the rest: the triangle lies below the sphere";
 }
 
 void expect_finite_numbers(const Json& json, const std::string& where) {
@@ -237,7 +238,8 @@ TEST_F(Remesh, GivesPointsOnTheFacesOfTheFilesOfMirroredSurfaces) {
     for (int v = 1; v < B_.input.vertex_count(); ++v)
         EXPECT_LT((position(file, map.B_to_A[std::size_t(v)]) - file.vertex(v)).norm(), 1e-6);
     const TriangleMesh back = cross_remesh(map.B_to_A, B_, A_);
-    for (int v = 1; v < B_.input.vertex_count(); ++v) EXPECT_LT((back.vertex(v) - file.vertex(v)).norm(), 1e-6);
+    for (int v = 1; v < B_.input.vertex_count(); ++v)
+        EXPECT_LT((back.vertex(v) - file.vertex(v)).norm(), 1e-6);
 }
 
 }  // namespace

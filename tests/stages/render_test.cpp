@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/artifact/artifact.h"
-#include "common/stage/error.h"
-#include "common/temporary_folder.h"
+#include "fixtures/temporary_folder.h"
 #include "stages/render/colour.h"
 #include "stages/render/view.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
 
 namespace varimap {
 namespace {

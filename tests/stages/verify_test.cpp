@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/map_shapes.h"
-#include "common/mapping/surface_map.h"
-#include "common/mesh/mesh_file.h"
-#include "common/shapes.h"
-#include "common/stage/error.h"
-#include "common/temporary_folder.h"
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "fixtures/temporary_folder.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/results/surface_map.h"
 
 namespace varimap {
 namespace {

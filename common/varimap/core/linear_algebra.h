@@ -1,0 +1,12 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace varimap {
+
+/// Row-major, so that the row of a sample or vertex is contiguous and one row's entries can be walked.
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+}  // namespace varimap

@@ -1,0 +1,307 @@
+#include "varimap/landmarks/vertex_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/landmarks/landmark_points.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+
+namespace {
+
+/// A coordinate in a list may be rounded by this much, relative to the mesh's bounding box diagonal.
+constexpr double coordinate_tolerance = 1e-4;
+
+struct Row {
+    int line;
+    std::vector<double> numbers;
+};
+
+/// A vertex that a line of a file names.
+struct Named {
+    int line, vertex;
+    std::string name = {};                   ///< by which it is matched; empty: by its row
+    std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
+};
+
+[[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
+    throw InputError(fmt::format("{}:{}: {}", path, line, message));
+}
+
+std::vector<double> parse_numbers(std::string_view text, const std::string& path, int line) {
+    constexpr std::string_view blank = " \t\r\v\f";
+    std::vector<double> numbers;
+    text = text.substr(0, text.find('#'));
+    while (true) {
+        text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
+        if (text.empty()) return numbers;
+        const std::string_view token = text.substr(0, text.find_first_of(blank));
+        double number = 0;
+        const auto [end, status] = std::from_chars(token.data(), token.data() + token.size(), number);
+        if (status != std::errc() || end != token.data() + token.size() || !std::isfinite(number))
+            fail(path, line, fmt::format("'{}' is not a number", token.substr(0, 40)));
+        numbers.push_back(number);
+        text.remove_prefix(token.size());
+    }
+}
+
+/// The lines that hold something.
+std::vector<Row> read_rows(const std::string& path) {
+    const std::string bytes = read_file(path);
+    std::string_view text = bytes;
+    std::vector<Row> rows;
+    for (int line = 1; !text.empty(); ++line) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        auto numbers = parse_numbers(text.substr(0, end), path, line);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (!numbers.empty()) rows.push_back({line, std::move(numbers)});
+    }
+    if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
+    return rows;
+}
+
+void require_count(const std::vector<Row>& rows, const std::string& path, size_t count, size_t other_count,
+                   const char* expected) {
+    for (const Row& row : rows)
+        if (row.numbers.size() != count && row.numbers.size() != other_count)
+            fail(path, row.line,
+                 fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
+}
+
+/// Lines that each have one of the two counts of numbers.
+std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_count, const char* expected) {
+    auto rows = read_rows(path);
+    require_count(rows, path, count, other_count, expected);
+    return rows;
+}
+
+int to_vertex(const Row& row, size_t column, int first, const std::string& path, const TriangleMesh* mesh) {
+    const double number = row.numbers[column];
+    if (number != std::floor(number) || std::abs(number) > 2e9)
+        fail(path, row.line, fmt::format("{} is not a vertex number", number));
+    const int vertex = int(number) - first;
+    if (vertex < 0)
+        fail(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
+    if (mesh && vertex >= mesh->vertex_count())
+        fail(path, row.line,
+             fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
+                         number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
+                         first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
+    return vertex;
+}
+
+/// Which first number makes more rows' coordinates those of the mesh's vertices; nothing if neither makes
+/// half of them.
+std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const TriangleMesh& mesh) {
+    const Vec3 extent = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+    size_t matches[2] = {0, 0};
+    for (const Row& row : rows) {
+        if (row.numbers.size() < 4) continue;
+        const Vec3 point(row.numbers[1], row.numbers[2], row.numbers[3]);
+        for (int base : {0, 1}) {
+            const double v = row.numbers[0] - base;
+            if (v < 0 || v >= mesh.vertex_count()) continue;
+            const double distance = (mesh.vertex(int(v)) - point).norm();
+            matches[base] += distance <= coordinate_tolerance * extent.norm();
+        }
+    }
+    if (2 * std::max(matches[0], matches[1]) < rows.size()) return {};
+    return matches[1] > matches[0] ? 1 : 0;
+}
+
+/// Coordinates that are all the same (some programs write zeros) say nothing.
+bool carries_coordinates(const std::vector<Row>& rows) {
+    for (const Row& row : rows)
+        if (row.numbers.size() == 4 && rows[0].numbers.size() == 4 &&
+            !std::equal(row.numbers.begin() + 1, row.numbers.end(), rows[0].numbers.begin() + 1))
+            return true;
+    return false;
+}
+
+int first_number(const std::vector<Row>& rows, IndexBase base, const TriangleMesh* mesh,
+                 const std::string& path) {
+    if (base != IndexBase::automatic) return base == IndexBase::one ? 1 : 0;
+    const auto found = mesh ? base_from_coordinates(rows, *mesh) : std::nullopt;
+    if (found) return *found;
+    if (carries_coordinates(rows))
+        warn("{}: {}; taking its vertex numbers to start at 0", path,
+             mesh ? "the coordinates are not those of the mesh's vertices"
+                  : "there is no mesh to compare its coordinates with");
+    return 0;
+}
+
+std::vector<Named> read_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
+    const auto rows = read_rows(path, 1, 4, "a vertex number, alone or followed by x y z");
+    const int first = first_number(rows, base, mesh, path);
+    std::vector<Named> list;
+    for (const Row& row : rows) list.push_back({row.line, to_vertex(row, 0, first, path, mesh)});
+    return list;
+}
+
+/// One column (0 source, 1 target) of a file of pairs of vertices.
+std::vector<Named> read_column(const std::string& path, size_t column, const TriangleMesh* mesh) {
+    std::vector<Named> list;
+    for (const Row& row : read_rows(path, 2, 2, "two vertex numbers, of the source and of the target"))
+        list.push_back({row.line, to_vertex(row, column, 0, path, mesh)});
+    return list;
+}
+
+bool is_vts(const std::string& path) {
+    return path.size() >= 4 && path.substr(path.size() - 4) == ".vts";
+}
+
+/// Picked points as the vertices nearest to where they lie on the surface.
+std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path,
+                                const TriangleMesh& mesh) {
+    constexpr double far = .02;  // units of sqrt(area); an edge of a mesh with 2500 vertices
+    const Snapped snapped = snap(picked, mesh);
+    std::vector<Named> list;
+    for (size_t i = 0; i < picked.size(); ++i) {
+        const double distance = snapped.distances[i];
+        const std::string what = fmt::format("{}:{}: landmark {}", path, picked[i].line, picked[i].name);
+        log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, distance,
+            snapped.vertices[i]);
+        if (distance > far) warn("{} lies far from the surface: is the list that of this mesh?", what);
+        list.push_back({picked[i].line, snapped.vertices[i], picked[i].name, snapped.points[i]});
+    }
+    return list;
+}
+
+std::vector<PickedPoint> points_of_rows(const std::vector<Row>& rows, size_t first_number) {
+    std::vector<PickedPoint> points;
+    for (const Row& row : rows) {
+        const double* x = row.numbers.data() + first_number;
+        points.push_back({row.line, "", {x[0], x[1], x[2]}});
+    }
+    return points;
+}
+
+/// The list of one side: picked points, rows of coordinates, or vertex numbers.
+std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh) {
+    if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh);
+    const auto rows = read_rows(path);
+    if (rows[0].numbers.size() == 3) {
+        require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
+        return snapped_list(points_of_rows(rows, 0), path, mesh);
+    }
+    return read_list(path, is_vts(path) ? IndexBase::automatic : IndexBase::zero, &mesh);
+}
+
+/// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
+std::vector<Named> read_pair_side(const std::string& path, size_t column, const TriangleMesh& mesh) {
+    const auto rows = is_picked_points(path) ? std::vector<Row>{} : read_rows(path);
+    if (rows.empty())
+        throw UsageError(path + ": holds the points of one surface; give one such file for each");
+    if (rows[0].numbers.size() != 6) return read_column(path, column, &mesh);
+    require_count(rows, path, 6, 6, "two points, x y z x y z, as in the first row");
+    return snapped_list(points_of_rows(rows, 3 * column), path, mesh);
+}
+
+bool have_distinct_names(const std::vector<Named>& list) {
+    std::set<std::string> names;
+    for (const Named& named : list)
+        if (named.name.empty() || !names.insert(named.name).second) return false;
+    return true;
+}
+
+/// Row by row, or by name where all have one; names that only one list has are left out.
+std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
+                                             const std::vector<std::string>& files) {
+    std::vector<std::pair<Named, Named>> pairs;
+    if (have_distinct_names(lists[0]) && have_distinct_names(lists[1])) {
+        std::map<std::string, Named> target;
+        for (const Named& named : lists[1]) target[named.name] = named;
+        for (const Named& named : lists[0])
+            if (const auto found = target.find(named.name); found != target.end())
+                pairs.emplace_back(named, found->second);
+        if (pairs.empty())
+            throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
+        if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
+            warn("{} landmarks are in both {} and {}; the others are left out", pairs.size(), files[0],
+                 files[1]);
+        return pairs;
+    }
+    if (lists[0].size() != lists[1].size())
+        throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
+                                     files[0], lists[0].size(), files[1], lists[1].size()));
+    for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
+    return pairs;
+}
+
+SurfacePoint place_of(const Named& named, const TriangleMesh& mesh) {
+    return named.point ? *named.point : point_at_vertex(mesh, named.vertex);
+}
+
+void require_distinct_used(const std::vector<Named>& list, const std::string& path, const char* role,
+                           const TriangleMesh& mesh) {
+    std::vector<bool> used(size_t(mesh.vertex_count()), false);
+    for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
+    std::map<int, int> lines;
+    for (const auto& [line, vertex, name, point] : list) {
+        const auto [it, added] = lines.try_emplace(vertex, line);
+        if (!added)
+            fail(path, line,
+                 fmt::format("{} vertex {} is already the landmark of line {}", role, vertex, it->second));
+        if (!used[size_t(vertex)])
+            fail(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
+    }
+}
+
+}  // namespace
+
+IndexBase index_base_from(const std::string& text) {
+    if (text == "0") return IndexBase::zero;
+    if (text == "1") return IndexBase::one;
+    if (text == "auto") return IndexBase::automatic;
+    throw UsageError("index base '" + text + "': use 0, 1 or auto");
+}
+
+std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
+    std::vector<int> vertices;
+    for (const Named& named : read_list(path, base, mesh)) vertices.push_back(named.vertex);
+    return vertices;
+}
+
+std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path) {
+    const auto sources = read_column(path, 0, nullptr), targets = read_column(path, 1, nullptr);
+    std::vector<std::pair<int, int>> pairs;
+    for (size_t i = 0; i < sources.size(); ++i) pairs.emplace_back(sources[i].vertex, targets[i].vertex);
+    return pairs;
+}
+
+Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
+                         const TriangleMesh& target_input) {
+    if (files.size() != 1 && files.size() != 2)
+        throw UsageError(
+            "landmarks: give one file of pairs, or a list for the source and one for the target");
+    const TriangleMesh* meshes[] = {&source_input, &target_input};
+    std::vector<Named> lists[2];
+    for (size_t side : {0, 1}) {
+        const std::string& path = files[files.size() == 1 ? 0 : side];
+        lists[side] =
+            files.size() == 1 ? read_pair_side(path, side, *meshes[side]) : read_side(path, *meshes[side]);
+        require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
+    }
+    Landmarks landmarks;
+    bool picked = false;
+    for (const auto& [source, target] : matched(lists, files)) {
+        landmarks.vertices.emplace_back(source.vertex, target.vertex);
+        landmarks.points.emplace_back(place_of(source, source_input), place_of(target, target_input));
+        picked = picked || source.point || target.point;
+    }
+    if (!picked) landmarks.points.clear();
+    return landmarks;
+}
+
+}  // namespace varimap

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Number of a file's first vertex. automatic: where the lines carry coordinates, those of the mesh decide;
+/// else 0.
+enum class IndexBase { zero, one, automatic };
+/// From "0", "1" or "auto". Throws UsageError.
+IndexBase index_base_from(const std::string& text);
+
+/// Reads a list of vertices (.vts, .pinned, plain): a line is a vertex number, which x y z may follow; `#`
+/// starts a comment. Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where
+/// it is given. Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
+std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
+
+/// Reads lines of two 0-based vertex numbers (source, target); `#` starts a comment. Errors as above.
+std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path);
+
+/// Landmarks of the source and the target, row by row.
+struct Landmarks {
+    std::vector<std::pair<int, int>> vertices;  ///< they are, or are nearest to the points
+    PointPairs points;                          ///< where they are, if a file holds points; else empty
+};
+
+/// Landmarks from one file of pairs, or from two lists matched row by row (in
+/// a .vts, coordinates decide whether numbers start at 0; in any other list they do). Instead of vertices a
+/// file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of picked
+/// points (landmark_points.h; matched by name where all have distinct ones). A point stands for the vertex
+/// nearest to where it lies on the surface where vertices are needed; its distance is logged. Throws
+/// InputError also for a different number of rows, a vertex that two rows name or that no face uses;
+/// UsageError for any other number of files.
+Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
+                         const TriangleMesh& target_input);
+
+}  // namespace varimap

@@ -1,0 +1,181 @@
+#include "varimap/mesh/closest_point.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "varimap/core/error.h"
+
+namespace varimap {
+namespace {
+
+/// Coordinate along ab of the point closest to q, in [0, 1].
+double closest_on_segment(const Vec3& q, const Vec3& a, const Vec3& b) {
+    const Vec3 ab = b - a;
+    const double length = ab.squaredNorm(), t = (q - a).dot(ab);
+    return t <= 0 || length <= 0 ? 0 : std::min(1.0, t / length);
+}
+
+/// Barycentric coordinates of q's projection onto the plane; all -1 if rounding leaves the triangle none.
+Vec3 project_to_plane(const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 normal = (b - a).cross(c - a);
+    const double squared = normal.squaredNorm();
+    constexpr double least = 1e-20;  // squared sine of the angle at a
+    if (!(squared > least * (b - a).squaredNorm() * (c - a).squaredNorm())) return Vec3::Constant(-1);
+    const double v = (q - a).cross(c - a).dot(normal) / squared;
+    const double w = (b - a).cross(q - a).dot(normal) / squared;
+    return Vec3(1 - v - w, v, w);
+}
+
+}  // namespace
+
+// A point inside the triangle competes with the closest points of the sides that it does not lie well inside
+// of by the distance that is really reached, so needles need no case of their own.
+Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double well_inside = 1e-3;
+    const std::array<Vec3, 3> corner{a, b, c};
+    Vec3 best = Vec3::UnitX();
+    double least = std::numeric_limits<double>::infinity();
+    const auto offer = [&](const Vec3& candidate) {
+        const double d = (candidate[0] * a + candidate[1] * b + candidate[2] * c - query).squaredNorm();
+        if (d < least) {
+            least = d;
+            best = candidate;
+        }
+    };
+    const Vec3 inside = project_to_plane(query, a, b, c);
+    if (inside.minCoeff() >= 0) offer(inside);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        if (inside[(i + 2) % 3] > well_inside) continue;  // that side does not face the query
+        Vec3 on_side = Vec3::Zero();
+        on_side[j] = closest_on_segment(query, corner[i], corner[j]);
+        on_side[i] = 1 - on_side[j];
+        offer(on_side);
+    }
+    return best;
+}
+
+struct ClosestPoint::State {
+    TriangleMesh mesh;
+    Vec3 centre = Vec3::Zero();
+    double scale = 1;  ///< Embree sees (x - centre) * scale, within the unit cube, in single precision
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    explicit State(const TriangleMesh& m) : mesh(m) {}
+    ~State() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+    void build();
+    Hit search(const Vec3& query, const Vec3* normal, int guess = -1) const;
+};
+
+void ClosestPoint::State::build() {
+    const Vec3 low = mesh.vertices.colwise().minCoeff(), high = mesh.vertices.colwise().maxCoeff();
+    centre = 0.5 * (low + high);
+    const double extent = (high - low).maxCoeff();
+    if (extent > 0) scale = 1 / extent;
+    device = rtcNewDevice(nullptr);
+    if (!device) throw Error(ExitCode::internal, "Embree cannot start on this processor");
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertex_count()));
+    auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.face_count()));
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        for (int i = 0; i < 3; ++i) vertices[3 * v + i] = float((mesh.vertices(v, i) - centre[i]) * scale);
+    std::copy(mesh.faces.data(), mesh.faces.data() + mesh.faces.size(), faces);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+}
+
+namespace {
+
+struct Search {
+    const TriangleMesh& mesh;
+    const Vec3& query;
+    const Vec3* normal;
+    double scale;
+    double slack;  ///< bounds the error of Embree's single precision, in its units
+    ClosestPoint::Hit best{{}, std::numeric_limits<double>::infinity()};
+};
+
+/// Whether the face's box is farther than the best point, beyond doubt.
+bool is_beyond(const Search& search, int f) {
+    const Vec3 a = search.mesh.vertex(search.mesh.faces(f, 0)),
+               b = search.mesh.vertex(search.mesh.faces(f, 1)),
+               c = search.mesh.vertex(search.mesh.faces(f, 2));
+    const Vec3 below = a.cwiseMin(b).cwiseMin(c) - search.query,
+               above = search.query - a.cwiseMax(b).cwiseMax(c);
+    const double rounding = 1e-14 / search.scale;
+    return below.cwiseMax(above).cwiseMax(0).squaredNorm() >
+           search.best.squared_distance * (1 + 1e-9) + rounding * rounding;
+}
+
+/// Offers one face; true if it is the best so far.
+bool offer(Search& search, int f) {
+    const TriangleMesh& mesh = search.mesh;
+    if (is_beyond(search, f)) return false;
+    if (search.normal && !(face_normal(mesh, f).dot(*search.normal) > 0)) return false;
+    SurfacePoint point{f, closest_barycentric(search.query, mesh.vertex(mesh.faces(f, 0)),
+                                              mesh.vertex(mesh.faces(f, 1)), mesh.vertex(mesh.faces(f, 2)))};
+    const double squared = (position(mesh, point) - search.query).squaredNorm();
+    ClosestPoint::Hit& best = search.best;
+    if (squared > best.squared_distance || (squared == best.squared_distance && f >= best.point.face))
+        return false;
+    best = {point, squared};
+    return true;
+}
+
+/// Slightly too large, so that no face as close as the best one is ever skipped: the result is then the same
+/// for every order in which Embree may visit the boxes.
+float radius(const Search& search) {
+    return float(std::sqrt(search.best.squared_distance) * search.scale * (1 + 1e-5) + search.slack);
+}
+
+/// Called by Embree for every face whose box meets the ball of the current radius.
+bool visit(RTCPointQueryFunctionArguments* arguments) {
+    Search& search = *static_cast<Search*>(arguments->userPtr);
+    if (!offer(search, int(arguments->primID)) || radius(search) >= arguments->query->radius) return false;
+    arguments->query->radius = radius(search);
+    return true;
+}
+
+}  // namespace
+
+ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* normal, int guess) const {
+    const Vec3 local = (query - centre) * scale;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    Search search{mesh, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};
+    if (guess >= 0) offer(search, guess);
+    RTCPointQuery ball{float(local[0]), float(local[1]), float(local[2]), 0, radius(search)};
+    rtcPointQuery(scene, &ball, &context, visit, &search);
+    return search.best;
+}
+
+ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<State>(mesh)) {
+    state_->build();
+}
+ClosestPoint::~ClosestPoint() = default;
+ClosestPoint::ClosestPoint(ClosestPoint&&) noexcept = default;
+
+ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, int guess) const {
+    return state_->search(query, nullptr, guess);
+}
+
+ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, const Vec3& normal) const {
+    const Hit hit = state_->search(query, &normal);
+    return hit.point.face >= 0 ? hit : state_->search(query, nullptr);
+}
+
+}  // namespace varimap

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Closest points on a mesh (Embree bounding volume hierarchy, distances in double precision).
+/// Thread-safe once built; holds a copy of what it needs.
+class ClosestPoint {
+  public:
+    explicit ClosestPoint(const TriangleMesh& mesh);
+    ~ClosestPoint();
+    ClosestPoint(ClosestPoint&&) noexcept;
+
+    struct Hit {
+        SurfacePoint point;
+        double squared_distance;
+    };
+    /// The closest point; among equals, the lowest face. `guess`: a face that may be near, which saves time.
+    Hit operator()(const Vec3& query, int guess = -1) const;
+    /// The closest point whose unit face normal has a positive product with `normal`, so that the other side
+    /// of a thin part does not attract; where no such face exists, the closest point of all.
+    Hit operator()(const Vec3& query, const Vec3& normal) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Closest point of one triangle as barycentric coordinates.
+Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace varimap

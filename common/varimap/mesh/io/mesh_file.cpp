@@ -1,0 +1,96 @@
+#include "varimap/mesh/io/mesh_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/polygon_soup.h"
+
+namespace varimap {
+namespace {
+
+std::string lower_case_ending(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return ending;
+}
+
+PolygonSoup parse(const std::string& bytes, const std::string& path) {
+    const std::string ending = lower_case_ending(path);
+    if (ending == ".obj") return parse_obj(bytes, path);
+    if (ending == ".off") return parse_off(bytes, path);
+    if (ending == ".ply") return parse_ply(bytes, path);
+    if (ending == ".stl") return parse_stl(bytes, path);
+    throw InputError(path + ": the name's ending is none of .obj, .ply, .off, .stl");
+}
+
+void require_valid(const PolygonSoup& soup, const std::string& path) {
+    constexpr std::size_t limit = std::numeric_limits<int>::max() / 8;
+    if (soup.ends.empty()) throw InputError(path + ": the file holds no faces");
+    if (soup.points.size() > limit || soup.corners.size() > limit)
+        throw InputError(path + ": the mesh is too large");
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+        if (!soup.points[v].allFinite())
+            throw InputError(fmt::format("{}: vertex {} has a coordinate that is not finite", path, v));
+    for (std::size_t f = 0, c = 0; f < soup.ends.size(); ++f)
+        for (; c < soup.ends[f]; ++c)
+            if (soup.corners[c] < 0 || soup.corners[c] >= static_cast<long long>(soup.points.size()))
+                throw InputError(
+                    fmt::format("{}: face {} names a vertex outside the file's {} vertices (counted from 0)",
+                                path, f, soup.points.size()));
+}
+
+/// Fans every polygon from its first corner.
+TriangleMesh fan(const PolygonSoup& soup) {
+    TriangleMesh mesh;
+    mesh.vertices.resize(soup.points.size(), 3);
+    for (std::size_t v = 0; v < soup.points.size(); ++v) mesh.vertices.row(v) = soup.points[v].transpose();
+    mesh.faces.resize(soup.corners.size() - 2 * soup.ends.size(), 3);
+    int face = 0;
+    std::size_t first = 0;
+    for (const std::size_t end : soup.ends) {
+        for (std::size_t c = first + 1; c + 1 < end; ++c)
+            mesh.faces.row(face++) << int(soup.corners[first]), int(soup.corners[c]),
+                int(soup.corners[c + 1]);
+        first = end;
+    }
+    return mesh;
+}
+
+template <class T>
+void append(std::string& bytes, const T* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::string& path) {
+    if (std::filesystem::is_directory(path)) throw IoError("cannot read '" + path + "': it is a folder");
+    const std::string bytes = read_file(path);
+    if (bytes.empty()) throw InputError(path + ": the file is empty");
+    const PolygonSoup soup = parse(bytes, path);
+    require_valid(soup, path);
+    return fan(soup);
+}
+
+std::string to_ply(const TriangleMesh& mesh) {
+    std::string bytes = fmt::format(
+        "ply\nformat binary_little_endian 1.0\n"
+        "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        mesh.vertex_count(), mesh.face_count());
+    bytes.reserve(bytes.size() + 24 * std::size_t(mesh.vertex_count()) + 13 * std::size_t(mesh.face_count()));
+    append(bytes, mesh.vertices.data(), std::size_t(mesh.vertices.size()));
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        bytes.push_back(3);
+        append(bytes, mesh.faces.data() + 3 * f, 3);
+    }
+    return bytes;
+}
+
+}  // namespace varimap

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Reads OBJ, PLY (ascii, binary), OFF and STL (corners welded) by the file's ending, in any case of letters.
+/// Vertex order is the file's; polygons are fanned from their first corner, in file order.
+/// Throws IoError (cannot open), InputError (unreadable, no faces, index out of range, not finite).
+/// Not OpenMesh's readers: OpenMesh 9 rounds coordinates in OBJ, OFF and ascii PLY to single precision, and
+/// reports success on broken files, with faces left out (index out of range) or made up (file cut short).
+TriangleMesh read_mesh(const std::string& path);
+
+/// Binary little-endian PLY with double coordinates.
+std::string to_ply(const TriangleMesh& mesh);
+
+/// Refuses what this version cannot serve: several components, edges of three or more faces, vertices whose
+/// faces do not form one fan, inconsistent or non-orientable faces, degenerate indices, zero area.
+/// The one line names the defect, how many there are and the first element (0-based). Throws InputError.
+void require_manifold(const TriangleMesh& mesh, const std::string& path);
+
+}  // namespace varimap

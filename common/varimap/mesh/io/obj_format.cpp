@@ -1,0 +1,36 @@
+#include "varimap/mesh/io/polygon_soup.h"
+#include "varimap/mesh/io/text_scanner.h"
+
+namespace varimap {
+namespace {
+
+/// The vertex of a corner such as 7, 7/1, 7//3 or -1: 0-based; negative indices count back from the last one.
+long long corner_vertex(const TextScanner& scanner, std::string_view word, std::size_t points) {
+    long long index;
+    if (!to_integer(word.substr(0, word.find('/')), index) || index == 0)
+        scanner.fail("a corner of a face is not a vertex number (they start at 1)");
+    if (index > 0) return index - 1;
+    if (index < -static_cast<long long>(points)) scanner.fail("a face counts back beyond the first vertex");
+    return static_cast<long long>(points) + index;
+}
+
+}  // namespace
+
+PolygonSoup parse_obj(const std::string& bytes, const std::string& path) {
+    PolygonSoup soup;
+    TextScanner scanner(bytes, path);
+    while (scanner.next_line()) {
+        const auto& words = scanner.words();
+        if (words[0] == "v") {
+            soup.points.emplace_back(scanner.number(1, "x"), scanner.number(2, "y"), scanner.number(3, "z"));
+        } else if (words[0] == "f") {
+            if (words.size() < 4) scanner.fail("a face has fewer than 3 corners");
+            for (std::size_t i = 1; i < words.size(); ++i)
+                soup.corners.push_back(corner_vertex(scanner, words[i], soup.points.size()));
+            soup.end_polygon();
+        }
+    }
+    return soup;
+}
+
+}  // namespace varimap

@@ -1,0 +1,97 @@
+#include "varimap/mesh/io/text_scanner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "varimap/core/error.h"
+
+namespace varimap {
+namespace {
+
+constexpr std::string_view blanks = " \t\v\f";
+
+/// std::from_chars takes no leading plus.
+std::string_view without_plus(std::string_view word) {
+    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    return plus ? word.substr(1) : word;
+}
+
+/// A word as a message can show it: short and printable.
+std::string printable(std::string_view word) {
+    std::string text(word.substr(0, 20));
+    for (char& c : text)
+        if (c < ' ' || c > '~') c = '?';
+    return text;
+}
+
+}  // namespace
+
+bool to_number(std::string_view word, double& value) {
+    word = without_plus(word);
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    if (stop != end || word.empty()) return false;
+    if (error == std::errc::result_out_of_range) {
+        const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
+        value = tiny ? 0 : std::numeric_limits<double>::infinity();
+        return true;
+    }
+    return error == std::errc();
+}
+
+bool to_integer(std::string_view word, long long& value) {
+    word = without_plus(word);
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    return error == std::errc() && stop == end;
+}
+
+std::string_view TextScanner::take_line() {
+    const std::size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
+    const std::string_view line = text_.substr(position_, end - position_);
+    position_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : 1);
+    ++line_;
+    return line;
+}
+
+bool TextScanner::next_line() {
+    words_.clear();
+    bool joined = false;
+    while (position_ < text_.size() && (words_.empty() || joined)) {
+        std::string_view line = take_line();
+        line = line.substr(0, line.find('#'));
+        joined = !line.empty() && line.back() == '\\';
+        if (joined) line.remove_suffix(1);
+        for (std::size_t begin = line.find_first_not_of(blanks); begin != line.npos;) {
+            const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+            words_.push_back(line.substr(begin, end - begin));
+            begin = line.find_first_not_of(blanks, end);
+        }
+    }
+    return !words_.empty();
+}
+
+double TextScanner::number(std::size_t i, const char* what) const {
+    double value;
+    if (i >= words_.size()) fail(fmt::format("{} is missing", what));
+    if (!to_number(words_[i], value))
+        fail(fmt::format("{} '{}' is not a number", what, printable(words_[i])));
+    return value;
+}
+
+long long TextScanner::integer(std::size_t i, const char* what) const {
+    long long value;
+    if (i >= words_.size()) fail(fmt::format("{} is missing", what));
+    if (!to_integer(words_[i], value))
+        fail(fmt::format("{} '{}' is not an integer", what, printable(words_[i])));
+    return value;
+}
+
+void TextScanner::fail(const std::string& message) const {
+    throw InputError(fmt::format("{}:{}: {}", path_, line_, message));
+}
+
+}  // namespace varimap

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+/// Counts the elements with a defect and remembers the first.
+struct Defect {
+    int count = 0;
+    int first = -1;
+    void add(int element) {
+        if (count++ == 0) first = element;
+    }
+};
+
+void refuse_degenerate_faces(const TriangleMesh& mesh, const std::string& path) {
+    Defect defect;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const int a = mesh.faces(f, 0), b = mesh.faces(f, 1), c = mesh.faces(f, 2);
+        if (a == b || b == c || c == a) defect.add(f);
+    }
+    if (defect.count > 0)
+        throw InputError(fmt::format("{}: {} faces name a vertex twice, the first is face {}; remove them",
+                                     path, defect.count, defect.first));
+}
+
+void refuse_crowded_edges(const Edges& edges, const std::string& path) {
+    Defect defect;
+    for (int e = 0; e < edges.size(); ++e)
+        if (edges.sides[e].size() > 2) defect.add(e);
+    if (defect.count == 0) return;
+    const auto [a, b] = edges.vertices[defect.first];
+    throw InputError(
+        fmt::format("{}: {} edges belong to three or more faces, the first joins vertices {} and {}; "
+                    "separate the sheets that meet there",
+                    path, defect.count, a, b));
+}
+
+/// Two faces agree when they run through their common edge in opposite directions.
+void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
+    Defect defect;
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto sides = edges.sides[e];
+        const auto start = [&](int s) { return mesh.faces(s / 3, s % 3); };
+        if (sides.size() == 2 && start(sides[0]) == start(sides[1])) defect.add(e);
+    }
+    if (defect.count == 0) return;
+    const auto [a, b] = edges.vertices[defect.first];
+    throw InputError(fmt::format(
+        "{}: {} edges lie between faces of opposite orientation, the first joins vertices {} and {}; "
+        "orient the faces consistently (a one-sided surface cannot be served)",
+        path, defect.count, a, b));
+}
+
+/// Fans of faces around v: faces that share an edge at v belong to the same one.
+int count_fans(const TriangleMesh& mesh, const Edges& edges, std::span<const int> faces, int v) {
+    std::vector<int> parent(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) parent[i] = int(i);
+    const auto root = [&](int i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    int fans = int(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const int side = 3 * faces[i] + c;
+            if (mesh.faces(faces[i], c) != v && mesh.faces(faces[i], (c + 1) % 3) != v) continue;
+            for (const int other : edges.sides[edges.of_side[side]]) {
+                const auto at = std::lower_bound(faces.begin(), faces.end(), other / 3) - faces.begin();
+                const int a = root(int(i)), b = root(int(at));
+                if (a == b) continue;
+                parent[std::max(a, b)] = std::min(a, b);
+                --fans;
+            }
+        }
+    return fans;
+}
+
+void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
+    const Adjacency faces = vertex_faces(mesh);
+    Defect defect;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if (faces[v].size() > 1 && count_fans(mesh, edges, faces[v], v) > 1) defect.add(v);
+    if (defect.count > 0)
+        throw InputError(
+            fmt::format("{}: at {} vertices the faces form more than one fan, the first is vertex {}; "
+                        "give each fan its own vertex",
+                        path, defect.count, defect.first));
+}
+
+void refuse_several_components(const TriangleMesh& mesh, const std::string& path) {
+    const std::vector<int> component = vertex_components(mesh);
+    const int count = 1 + *std::max_element(component.begin(), component.end());
+    if (count < 2) return;
+    const auto second = std::find(component.begin(), component.end(), 1) - component.begin();
+    throw InputError(fmt::format(
+        "{}: the surface has {} components, the second starts at vertex {}; keep one", path, count, second));
+}
+
+void refuse_no_area(const TriangleMesh& mesh, const std::string& path) {
+    const double area = surface_area(mesh);
+    if (!(area > 0)) throw InputError(path + ": the surface has no area (are its points all on one line?)");
+    if (!std::isfinite(area)) throw InputError(path + ": the coordinates are too large; scale the mesh down");
+}
+
+}  // namespace
+
+void require_manifold(const TriangleMesh& mesh, const std::string& path) {
+    if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
+    refuse_degenerate_faces(mesh, path);
+    const Edges edges = find_edges(mesh);
+    refuse_crowded_edges(edges, path);
+    refuse_inconsistent_orientation(mesh, edges, path);
+    refuse_pinched_vertices(mesh, edges, path);
+    refuse_several_components(mesh, path);
+    refuse_no_area(mesh, path);
+}
+
+}  // namespace varimap

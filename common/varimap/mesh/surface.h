@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// A surface ready for the method: the artifact of varimap-preprocess.
+///
+/// `mesh` has unit area, its area centroid at the origin, and edges no longer than the target length
+/// (Sec. 5, Limitations: recursive longest-edge bisection). Each of its faces lies inside one input face, and
+/// the used input vertices are its first vertices, in input order.
+struct Surface {
+    TriangleMesh mesh;     ///< normalised and bisected
+    Eigen::VectorXd mass;  ///< per vertex of mesh: Voronoi area, sums to 1 (Sec. 2.1)
+    TriangleMesh input;    ///< the input in its own coordinates, polygons fanned, vertex order kept
+    std::vector<int> vertex_of_input;    ///< per input vertex: vertex of mesh, -1 where no face uses it
+    std::vector<int> input_face;         ///< per face of mesh: the input face it lies in
+    std::vector<SurfacePoint> on_input;  ///< per vertex of mesh: where it lies on the input
+    Vec3 centre = Vec3::Zero();          ///< x_mesh = (x_input - centre) * scale
+    double scale = 1;
+    bool mirrored = false;  ///< all faces have their last two corners exchanged
+};
+
+template <>
+struct ArtifactType<Surface> {
+    static constexpr const char* kind = "surface";
+    static constexpr const char* stage = "varimap-preprocess";
+    static constexpr int schema = 2;
+};
+std::string encode(const Surface& surface);
+void decode(const std::string& payload, Surface& surface);
+
+/// The surface with the opposite orientation: faces with their last two corners exchanged, `mirrored`
+/// toggled. A map from it that preserves orientation reverses that of the original.
+Surface with_reversed_orientation(Surface surface);
+/// The same points on faces whose last two corners are exchanged.
+PointMap on_reversed_faces(PointMap points);
+
+/// The same point, from a face of `surface.mesh` to the input face that holds it. Coordinates clamped to [0,
+/// 1].
+SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh);
+
+}  // namespace varimap

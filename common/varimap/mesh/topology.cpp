@@ -1,0 +1,174 @@
+#include "varimap/mesh/topology.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace varimap {
+namespace {
+
+/// Root of v's tree; halves the path on the way.
+int find_root(std::vector<int>& parent, int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+}
+
+/// Joins a and b; the lower root wins, so that roots do not depend on the order of the joins.
+void join(std::vector<int>& parent, int a, int b) {
+    a = find_root(parent, a);
+    b = find_root(parent, b);
+    parent[std::max(a, b)] = std::min(a, b);
+}
+
+struct Side {
+    std::uint64_t edge;  ///< lower vertex in the high half, higher vertex in the low half
+    int side;
+};
+
+std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
+    std::vector<Side> sides(3 * std::size_t(mesh.face_count()));
+    for (int s = 0; s < int(sides.size()); ++s) {
+        const int a = mesh.faces(s / 3, s % 3), b = mesh.faces(s / 3, (s + 1) % 3);
+        sides[s] = {std::uint64_t(std::min(a, b)) << 32 | std::uint32_t(std::max(a, b)), s};
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+        return x.edge != y.edge ? x.edge < y.edge : x.side < y.side;
+    });
+    return sides;
+}
+
+}  // namespace
+
+Adjacency vertex_faces(const TriangleMesh& mesh) {
+    Adjacency result;
+    result.begin.assign(mesh.vertex_count() + 1, 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int c = 0; c < 3; ++c) ++result.begin[mesh.faces(f, c) + 1];
+    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+    result.item.resize(result.begin.back());
+    std::vector<int> next(result.begin.begin(), result.begin.end() - 1);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int c = 0; c < 3; ++c) result.item[next[mesh.faces(f, c)]++] = f;
+    return result;
+}
+
+Adjacency vertex_neighbours(const TriangleMesh& mesh) {
+    const Adjacency faces = vertex_faces(mesh);
+    Adjacency result;
+    result.begin.reserve(mesh.vertex_count() + 1);
+    result.item.reserve(faces.item.size() + faces.item.size() / 8);
+    std::vector<int> around;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        around.clear();
+        for (const int f : faces[v])
+            for (int c = 0; c < 3; ++c)
+                if (mesh.faces(f, c) != v) around.push_back(mesh.faces(f, c));
+        std::sort(around.begin(), around.end());
+        around.erase(std::unique(around.begin(), around.end()), around.end());
+        result.item.insert(result.item.end(), around.begin(), around.end());
+        result.begin.push_back(int(result.item.size()));
+    }
+    return result;
+}
+
+SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v) {
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (mesh.faces(f, k) == v) return {f, Vec3::Unit(k)};
+    return {};
+}
+
+Edges find_edges(const TriangleMesh& mesh) {
+    const std::vector<Side> sides = sorted_sides(mesh);
+    Edges edges;
+    edges.of_side.resize(sides.size());
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (i == 0 || sides[i].edge != sides[i - 1].edge) {
+            if (i > 0) edges.sides.begin.push_back(int(i));
+            edges.vertices.push_back({int(sides[i].edge >> 32), int(sides[i].edge & 0xffffffff)});
+        }
+        edges.sides.item.push_back(sides[i].side);
+        edges.of_side[sides[i].side] = edges.size() - 1;
+    }
+    if (!sides.empty()) edges.sides.begin.push_back(int(sides.size()));
+    return edges;
+}
+
+std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked) {
+    std::vector<std::vector<int>> parts;
+    for (int seed = 0; seed < int(marked.size()); ++seed) {
+        if (!marked[std::size_t(seed)]) continue;
+        std::vector<int> part{seed};
+        marked[std::size_t(seed)] = 0;
+        for (std::size_t i = 0; i < part.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                for (const int side : edges.sides[edges.of_side[std::size_t(3 * part[i] + k)]])
+                    if (char& mark = marked[std::size_t(side / 3)]; mark) {
+                        mark = 0;
+                        part.push_back(side / 3);
+                    }
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+std::vector<int> vertex_components(const TriangleMesh& mesh) {
+    const int n = mesh.vertex_count();
+    std::vector<int> parent(n), component(n, -1);
+    std::iota(parent.begin(), parent.end(), 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int c = 1; c < 3; ++c) join(parent, mesh.faces(f, 0), mesh.faces(f, c));
+    std::vector<char> used(n, 0);
+    for (int s = 0; s < 3 * mesh.face_count(); ++s) used[mesh.faces.data()[s]] = 1;
+    int count = 0;
+    for (int v = 0; v < n; ++v) {
+        if (!used[v]) continue;
+        const int root = find_root(parent, v);
+        component[v] = root == v ? count++ : component[root];
+    }
+    return component;
+}
+
+TopologySummary summarise_topology(const TriangleMesh& mesh) {
+    const Edges edges = find_edges(mesh);
+    std::vector<int> parent(mesh.vertex_count());
+    std::iota(parent.begin(), parent.end(), 0);
+    std::vector<char> used(mesh.vertex_count(), 0), on_boundary(mesh.vertex_count(), 0);
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto [a, b] = edges.vertices[e];
+        used[a] = used[b] = 1;
+        if (edges.sides[e].size() > 1) continue;
+        on_boundary[a] = on_boundary[b] = 1;
+        join(parent, a, b);
+    }
+    TopologySummary summary;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        summary.used_vertices += used[v];
+        summary.boundary_loops += on_boundary[v] && parent[v] == v;
+    }
+    const int euler = summary.used_vertices - edges.size() + mesh.face_count();
+    summary.genus = (2 - summary.boundary_loops - euler) / 2;
+    return summary;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+    std::vector<std::array<int, 2>> sides, opposite;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = mesh.faces(f, k), b = mesh.faces(f, (k + 1) % 3);
+            sides.push_back({a, b});
+            opposite.push_back({b, a});
+        }
+    std::sort(sides.begin(), sides.end());
+    std::sort(opposite.begin(), opposite.end());
+    return sides == opposite && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
+double signed_volume(const TriangleMesh& mesh, const Vec3& origin) {
+    double sum = 0;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        sum += (mesh.vertex(mesh.faces(f, 0)) - origin).dot(face_normal(mesh, f)) / 6;
+    return sum;
+}
+
+}  // namespace varimap

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Lists of integers in one block: list i is item[begin[i]] ... item[begin[i + 1] - 1].
+struct Adjacency {
+    std::vector<int> begin{0};
+    std::vector<int> item;
+
+    int size() const { return int(begin.size()) - 1; }
+    std::span<const int> operator[](int i) const {
+        return {item.data() + begin[i], item.data() + begin[i + 1]};
+    }
+};
+
+/// Per vertex: the faces that use it, ascending.
+Adjacency vertex_faces(const TriangleMesh& mesh);
+/// Per vertex: the vertices it shares an edge with, ascending.
+Adjacency vertex_neighbours(const TriangleMesh& mesh);
+
+/// A vertex as a point of one of its faces; face -1 if no face uses it.
+SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v);
+
+/// The edges of a mesh, ascending by (lower vertex, higher vertex).
+/// Side 3 f + c is the side of face f that runs from its corner c to its corner c + 1 (mod 3).
+struct Edges {
+    std::vector<std::array<int, 2>> vertices;  ///< lower, higher
+    Adjacency sides;                           ///< per edge, ascending; one side on a boundary
+    std::vector<int> of_side;                  ///< 3 |F|: the edge of each side
+
+    int size() const { return int(vertices.size()); }
+};
+/// Faces must not repeat a vertex. Non-manifold edges are allowed: they have more than two sides.
+Edges find_edges(const TriangleMesh& mesh);
+
+/// Sets of marked faces that hang together over edges, by their lowest faces; each from that face outwards.
+std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked);
+
+/// Per vertex: its connected component, numbered by lowest vertex from 0; -1 where no face uses it.
+std::vector<int> vertex_components(const TriangleMesh& mesh);
+
+/// Numbers of a connected manifold surface. genus = (2 - boundary_loops - V + E - F) / 2.
+struct TopologySummary {
+    int used_vertices = 0;
+    int boundary_loops = 0;
+    int genus = 0;
+};
+TopologySummary summarise_topology(const TriangleMesh& mesh);
+
+/// Whether every edge has one face on either side, of the same orientation.
+bool is_closed(const TriangleMesh& mesh);
+
+/// The volume that a closed mesh encloses, negative if its faces look inward. `origin`: best near it.
+double signed_volume(const TriangleMesh& mesh, const Vec3& origin = Vec3::Zero());
+
+}  // namespace varimap

@@ -1,0 +1,33 @@
+#include "varimap/mesh/triangle_mesh.h"
+
+#include <cmath>
+
+namespace varimap {
+
+double surface_area(const TriangleMesh& mesh) {
+    double twice = 0;
+    for (int f = 0; f < mesh.face_count(); ++f) twice += face_normal(mesh, f).norm();
+    return twice / 2;
+}
+
+Points vertex_normals(const TriangleMesh& mesh) {
+    Points normals = Points::Zero(mesh.vertex_count(), 3);
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 n = face_normal(mesh, f);
+        if (n.norm() == 0) continue;
+        for (int c = 0; c < 3; ++c) {
+            const Vec3 p = mesh.vertex(mesh.faces(f, c));
+            const Vec3 a = mesh.vertex(mesh.faces(f, (c + 1) % 3)) - p;
+            const Vec3 b = mesh.vertex(mesh.faces(f, (c + 2) % 3)) - p;
+            const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+            normals.row(mesh.faces(f, c)) += angle * n.normalized().transpose();
+        }
+    }
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double length = normals.row(v).norm();
+        if (length > 0) normals.row(v) /= length;
+    }
+    return normals;
+}
+
+}  // namespace varimap

@@ -1,0 +1,161 @@
+#include "varimap/mesh/triangle_strip.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace varimap {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) {
+    return a[0] * b[1] - a[1] * b[0];
+}
+
+/// A strip in the plane.
+struct Unfolded {
+    Vec2 start, goal;
+    std::vector<Portal> portals;
+    std::vector<std::pair<int, int>> ends;  ///< the vertices at the portals' left and right ends
+};
+
+/// Unfolds `p` into the plane, ahead (side 1) or behind (side -1) the portal whose ends are l and r in space.
+Vec2 unfold(const Vec3& p, const Vec3& l, const Vec3& r, const Portal& portal, double side) {
+    const auto& [left, right] = portal;
+    const double length = (r - l).norm();
+    if (length == 0) return left + Vec2(0, side * (p - l).norm());
+    const Vec3 axis = (r - l) / length;
+    const double along = axis.dot(p - l);
+    const double away = (p - l - along * axis).norm();
+    const Vec2 u = (right - left) / length;
+    return left + along * u + side * away * Vec2(-u[1], u[0]);
+}
+
+Unfolded unfold(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip, const Vec3& start,
+                const Vec3& goal) {
+    Unfolded flat;
+    auto [l, r] = edges.vertices[strip.edges.front()];
+    Portal portal(Vec2(0, 0), Vec2((mesh.vertex(r) - mesh.vertex(l)).norm(), 0));
+    flat.start = unfold(start, mesh.vertex(l), mesh.vertex(r), portal, -1);
+    for (int edge : strip.edges) {
+        const auto [v, w] = edges.vertices[edge];
+        const bool keeps_left = v == l || w == l, keeps_right = v == r || w == r;
+        if (!keeps_left || !keeps_right) {
+            const int apex = v == l || v == r ? w : v;
+            const Vec2 point = unfold(mesh.vertex(apex), mesh.vertex(l), mesh.vertex(r), portal, 1);
+            (keeps_left ? r : l) = apex;
+            (keeps_left ? portal.second : portal.first) = point;
+        }
+        flat.portals.push_back(portal);
+        flat.ends.emplace_back(l, r);
+    }
+    flat.goal = unfold(goal, mesh.vertex(l), mesh.vertex(r), portal, 1);
+    return flat;
+}
+
+/// Crosses, from `face`, the edge at `vertex` other than `edge`, and goes on around the vertex up to `last`.
+/// Nothing where a boundary is in the way.
+std::optional<TriangleStrip> walk_around(const Edges& edges, int vertex, int face, int edge, int last) {
+    TriangleStrip walk;
+    for (const int first = face; face != last;) {
+        int next = -1;
+        for (int side = 3 * face; side < 3 * face + 3; ++side) {
+            const int e = edges.of_side[side];
+            const auto [a, b] = edges.vertices[e];
+            if (e != edge && (a == vertex || b == vertex)) next = e;
+        }
+        if (next < 0 || edges.sides[next].size() != 2) return {};
+        const auto sides = edges.sides[next];
+        edge = next, face = sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3;
+        if (face == first) return {};
+        walk.edges.push_back(edge);
+        walk.faces.push_back(face);
+    }
+    return walk;
+}
+
+/// The strip that passes the vertex at which portal `bend` ends on its other side.
+std::optional<TriangleStrip> pass_other_side(const Edges& edges, const TriangleStrip& strip, int vertex,
+                                             int bend) {
+    const auto touches = [&](int i) {
+        const auto [a, b] = edges.vertices[strip.edges[i]];
+        return a == vertex || b == vertex;
+    };
+    int begin = bend, end = bend + 1;  // the portals around the vertex
+    while (begin > 0 && touches(begin - 1)) --begin;
+    while (end < int(strip.edges.size()) && touches(end)) ++end;
+    const auto walk = walk_around(edges, vertex, strip.faces[begin], strip.edges[begin], strip.faces[end]);
+    if (!walk) return {};
+    TriangleStrip other;
+    const auto splice = [](auto& to, const auto& from, int cut, const auto& middle, int resume) {
+        to.assign(from.begin(), from.begin() + cut);
+        to.insert(to.end(), middle.begin(), middle.end());
+        to.insert(to.end(), from.begin() + resume, from.end());
+    };
+    splice(other.edges, strip.edges, begin, walk->edges, end);
+    splice(other.faces, strip.faces, begin + 1, walk->faces, end + 1);
+    return other;
+}
+
+}  // namespace
+
+FunnelPath funnel(const Vec2& start, const std::vector<Portal>& portals, const Vec2& goal) {
+    const int n = int(portals.size());
+    FunnelPath path;
+    Vec2 apex = start, left = start, right = start;
+    int left_index = -1, right_index = -1;
+    const auto bend_at = [&](const Vec2& corner, int index, bool is_left) {
+        path.length += (corner - apex).norm();
+        path.bends.emplace_back(index, is_left);
+        apex = left = right = corner;
+        left_index = right_index = index;
+    };
+    for (int i = 0; i <= n; ++i) {
+        const auto [l, r] = i < n ? portals[i] : Portal(goal, goal);
+        if (cross(right - apex, r - apex) >= 0) {  // the right side does not widen
+            if (apex != right && left != r && cross(left - apex, r - apex) > 0) {
+                i = left_index;
+                bend_at(Vec2(left), left_index, true);
+                continue;
+            }
+            right = r, right_index = i;
+        }
+        if (cross(left - apex, l - apex) <= 0) {
+            if (apex != left && right != l && cross(right - apex, l - apex) < 0) {
+                i = right_index;
+                bend_at(Vec2(right), right_index, false);
+                continue;
+            }
+            left = l, left_index = i;
+        }
+    }
+    path.length += (goal - apex).norm();
+    return path;
+}
+
+double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
+                  const Vec3& goal) {
+    const auto measure = [&](const TriangleStrip& s, Unfolded& flat) {
+        if (s.edges.empty()) return FunnelPath{(goal - start).norm(), {}};
+        flat = unfold(mesh, edges, s, start, goal);
+        return funnel(flat.start, flat.portals, flat.goal);
+    };
+    Unfolded flat, other_flat;
+    FunnelPath path = measure(strip, flat);
+    for (size_t i = 0; i < path.bends.size(); ++i) {
+        const auto [portal, is_left] = path.bends[i];
+        const int vertex = is_left ? flat.ends[portal].first : flat.ends[portal].second;
+        auto other = pass_other_side(edges, strip, vertex, portal);
+        if (!other) continue;
+        FunnelPath other_path = measure(*other, other_flat);
+        if (!(other_path.length < path.length * (1 - 1e-12))) continue;
+        strip = std::move(*other);
+        std::swap(flat, other_flat);
+        path = std::move(other_path);
+        i = size_t(-1);  // start over: the bends are others now
+    }
+    return path.length;
+}
+
+}  // namespace varimap

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "varimap/mesh/topology.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Triangles in a row: edges[i] lies between faces[i] and faces[i + 1].
+struct TriangleStrip {
+    std::vector<int> faces, edges;
+};
+
+/// Length of the shortest path from `start` to `goal` on the surface, near the strip. The strip is unfolded
+/// into the plane, where the funnel algorithm finds its shortest path; where that bends at a vertex, the
+/// strip is led past the vertex's other side if this shortens the path, until nothing does: the path is then
+/// locally shortest. `strip` becomes the strip that holds it. `start` lies in its first face, `goal` in its
+/// last.
+double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
+                  const Vec3& goal);
+
+/// A segment of the plane, its ends to the left and to the right of the way that crosses it.
+using Portal = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+
+struct FunnelPath {
+    double length = 0;
+    std::vector<std::pair<int, bool>> bends;  ///< portals at whose left (true) or right end the path bends
+};
+/// Shortest path through the portals in their order, which bound a strip of triangles (Lee and Preparata
+/// 1984).
+FunnelPath funnel(const Eigen::Vector2d& start, const std::vector<Portal>& portals,
+                  const Eigen::Vector2d& goal);
+
+}  // namespace varimap

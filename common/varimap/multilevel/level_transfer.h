@@ -1,0 +1,61 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "varimap/spectral/hierarchy.h"
+#include "varimap/transport/alternating_minimization.h"
+
+namespace varimap {
+
+/// One surface at one level: its samples, the transport problem's side, and the level's embedding of all
+/// vertices.
+struct LevelSide {
+    Level level;
+    RowMatrix vertex_points;      ///< mesh vertices x D
+    Eigen::VectorXd vertex_mass;  ///< per mesh vertex
+    Side side;
+};
+
+/// Two surfaces at one level.
+struct LevelPair {
+    LevelSide A, B;
+};
+
+/// Builds a side from a level, the embedding of all vertices and their masses.
+LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::VectorXd& vertex_mass);
+
+/// Makes landmarks (pairs of mesh vertices, samples of both levels) pull at each other with this weight
+/// (cost.h).
+void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks, double weight);
+
+/// Where a level starts: centres, and the kept entries of the plan before it.
+struct Start {
+    Centres centres;
+    KeptEntries kept;
+};
+
+/// The full plan, from centres at the origin of the embeddings, landmarks pinned.
+Start zero_start(const LevelPair& pair);
+
+/// Level switch: a new sample takes its parent's mean image, recomputed with the new embedding's mean over
+/// the cells of the parent's partners, then smoothed by W; children inherit the parent's kept entries. What
+/// does not depend on the plan is computed once, so that many plans can be handed down.
+class LevelSwitch {
+  public:
+    /// Refers to `fine`, which must outlive it.
+    LevelSwitch(const Level& coarse_A, const Level& coarse_B, const LevelPair& fine);
+    Start hand_down(const Coupling& coarse_plan, double support_threshold) const;
+
+  private:
+    const LevelPair& fine_;
+    Eigen::VectorXd coarse_mass_A_, coarse_mass_B_;
+    std::vector<int> parent_A_, parent_B_;
+    RowMatrix means_A_, means_B_;  ///< per coarse sample: mean over its cell in the fine level's embedding
+};
+
+/// The switch of a single plan.
+Start hand_down(const Coupling& coarse_plan, const Level& coarse_A, const Level& coarse_B,
+                const LevelPair& fine, double support_threshold);
+
+}  // namespace varimap

@@ -1,0 +1,96 @@
+#include "varimap/multilevel/orientation.h"
+
+#include <Eigen/Dense>
+
+#include "varimap/core/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+/// Two orthonormal tangent vectors, positively oriented about the normal.
+Eigen::Matrix<double, 3, 2> tangent_basis(const Vec3& normal) {
+    const Vec3 axis = std::abs(normal.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY();
+    Eigen::Matrix<double, 3, 2> basis;
+    basis.col(0) = normal.cross(axis).normalized();
+    basis.col(1) = normal.cross(basis.col(0));
+    return basis;
+}
+
+/// Least-squares fit of a linear map between two tangent planes.
+class OffsetFit {
+  public:
+    OffsetFit(const OrientedSurface& A, int a, const OrientedSurface& B, int b)
+        : A_(A),
+          B_(B),
+          a_(a),
+          b_(b),
+          plane_A_(tangent_basis(A.normals.row(a).transpose())),
+          plane_B_(tangent_basis(B.normals.row(b).transpose())) {}
+
+    void add(int a, int b, double weight) {
+        if (A_.normals.row(a).dot(A_.normals.row(a_)) <= 0 || B_.normals.row(b).dot(B_.normals.row(b_)) <= 0)
+            return;
+        const Eigen::RowVector2d p = (A_.positions.row(a) - A_.positions.row(a_)) * plane_A_;
+        const Eigen::RowVector2d q = (B_.positions.row(b) - B_.positions.row(b_)) * plane_B_;
+        moments_A_ += weight * p.transpose() * p;
+        moments_B_ += weight * q.transpose() * q;
+        products_ += weight * q.transpose() * p;
+    }
+
+    double normalised_determinant() const {
+        // Offsets along one line, or none: no orientation, which rounding must not invent.
+        if (is_degenerate(moments_A_) || is_degenerate(moments_B_)) return 0;
+        return products_.determinant() / std::sqrt(moments_A_.determinant() * moments_B_.determinant());
+    }
+
+  private:
+    static bool is_degenerate(const Eigen::Matrix2d& m) {
+        return !(m.determinant() > 1e-9 * m.trace() * m.trace());
+    }
+
+    const OrientedSurface &A_, &B_;
+    int a_, b_;
+    Eigen::Matrix<double, 3, 2> plane_A_, plane_B_;
+    Eigen::Matrix2d moments_A_ = Eigen::Matrix2d::Zero(), moments_B_ = Eigen::Matrix2d::Zero(),
+                    products_ = Eigen::Matrix2d::Zero();
+};
+
+}  // namespace
+
+int nearest_by_descent(int vertex, const Eigen::RowVectorXd& centre, const RowMatrix& vertex_points,
+                       const GeodesicGraph& graph) {
+    double smallest = (vertex_points.row(vertex) - centre).squaredNorm();
+    for (int current = vertex;; vertex = current) {
+        for (int e = graph.offset[vertex]; e < graph.offset[vertex + 1]; ++e) {
+            const double d = (vertex_points.row(graph.target[e]) - centre).squaredNorm();
+            if (d < smallest) smallest = d, current = graph.target[e];
+        }
+        if (current == vertex) return vertex;
+    }
+}
+
+Orientation measure_orientation(const LevelSide& from, const OrientedSurface& surface_from,
+                                const LevelSide& to, const OrientedSurface& surface_to,
+                                const GeodesicGraph& graph_to, const RowMatrix& centres,
+                                const std::vector<int>& start_vertex) {
+    const std::vector<int>& samples = from.level.samples;
+    Orientation result;
+    result.image_vertex.resize(samples.size());
+    result.determinant.resize(samples.size());
+    parallel_for_each_index(size_t(0) + samples.size(), size_t(32), [&](size_t k) {
+        result.image_vertex[k] =
+            nearest_by_descent(start_vertex[k], centres.row(k), to.vertex_points, graph_to);
+    });
+    parallel_for_each_index(size_t(0) + samples.size(), size_t(32), [&](size_t k) {
+        OffsetFit fit(surface_from, samples[k], surface_to, result.image_vertex[k]);
+        for (SparseMatrix::InnerIterator it(from.side.weights, k); it; ++it)
+            fit.add(samples[it.col()], result.image_vertex[it.col()], it.value() * from.side.mass[it.col()]);
+        result.determinant[k] = fit.normalised_determinant();
+    });
+    for (size_t k = 0; k < samples.size(); ++k)
+        if (result.determinant[k] < 0) result.reversed_mass += from.side.mass[k];
+    return result;
+}
+
+}  // namespace varimap

@@ -1,0 +1,65 @@
+#include "varimap/pair_stage/pair_inputs.h"
+
+#include <fmt/format.h>
+
+#include "varimap/landmarks/vertex_list.h"
+
+namespace varimap {
+
+namespace {
+
+int mesh_vertex(const Surface& surface, int input_vertex, const char* which) {
+    const int v = surface.vertex_of_input[input_vertex];
+    if (v < 0)
+        throw InputError(fmt::format("landmark vertex {} of the {} belongs to no face; choose another vertex",
+                                     input_vertex, which));
+    return v;
+}
+
+}  // namespace
+
+PairInputs::PairInputs(Stage& stage) : A_(declare(stage, "A")), B_(declare(stage, "B")) {}
+
+PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& name) {
+    const std::string& surface = stage.input(name + ".surface", "surface of varimap-preprocess");
+    const std::string& basis = stage.input(name + ".basis", "basis of varimap-eigen");
+    const std::string& hierarchy = stage.input(name + ".hierarchy", "hierarchy of varimap-hierarchy");
+    return {surface, basis, hierarchy};
+}
+
+SurfaceData PairInputs::read(Stage& stage, const std::string& name, const Paths& paths) {
+    auto surface = stage.read<Surface>(name + ".surface", paths.surface);
+    auto basis = stage.read<Basis>(name + ".basis", paths.basis);
+    auto hierarchy = stage.read<Hierarchy>(name + ".hierarchy", paths.hierarchy);
+    Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);
+    Stage::require_lineage(hierarchy.header, paths.hierarchy, "surface", surface.header, paths.surface);
+    Stage::require_lineage(hierarchy.header, paths.hierarchy, "basis", basis.header, paths.basis);
+    hierarchies_.emplace_back(name + ".hierarchy", hierarchy.header);
+    return {std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
+}
+
+void PairInputs::require_same(const Header& plan, const std::string& plan_path) const {
+    for (const auto& [role, header] : hierarchies_)
+        Stage::require_lineage(plan, plan_path, role, header,
+                               role == "A.hierarchy" ? A_.hierarchy : B_.hierarchy);
+}
+
+Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
+                         const Surface& B) {
+    if (files.empty()) return {};
+    Landmarks landmarks = read_landmarks(files, A.input, B.input);
+    for (size_t i = 0; i < files.size(); ++i)
+        stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);
+    landmarks.vertices = to_mesh_vertices(landmarks.vertices, A, B);
+    return landmarks;
+}
+
+std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks,
+                                                  const Surface& A, const Surface& B) {
+    std::vector<std::pair<int, int>> result;
+    for (const auto& [a, b] : landmarks)
+        result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
+    return result;
+}
+
+}  // namespace varimap

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "varimap/landmarks/vertex_list.h"
+#include "varimap/multilevel/pair_context.h"
+#include "varimap/stage/stage_main.h"
+
+namespace varimap {
+
+/// The six per-surface artifacts a solving stage reads, as its positional arguments, with their lineage
+/// checked.
+class PairInputs {
+  public:
+    explicit PairInputs(Stage& stage);
+    SurfaceData read_A(Stage& stage) { return read(stage, "A", A_); }
+    SurfaceData read_B(Stage& stage) { return read(stage, "B", B_); }
+    /// Refuses a plan that was made from other hierarchies than those read.
+    void require_same(const Header& plan, const std::string& plan_path) const;
+
+  private:
+    struct Paths {
+        const std::string &surface, &basis, &hierarchy;
+    };
+    static Paths declare(Stage& stage, const std::string& name);
+    SurfaceData read(Stage& stage, const std::string& name, const Paths& paths);
+    Paths A_, B_;
+    std::vector<std::pair<std::string, Header>> hierarchies_;  ///< role, header
+};
+
+/// Reads landmarks (vertex_list.h), vertices as those of the preprocessed meshes, points as places on the
+/// input meshes, and records their files as inputs.
+Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
+                         const Surface& B);
+/// Landmarks from input vertices to vertices of the preprocessed meshes. Throws InputError for vertices no
+/// face uses.
+std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks,
+                                                  const Surface& A, const Surface& B);
+
+}  // namespace varimap

@@ -1,0 +1,54 @@
+#include "varimap/quality/chord_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace varimap {
+
+TriangleMesh unit_area(const TriangleMesh& mesh) {
+    TriangleMesh result = mesh;
+    const Eigen::RowVector3d centre =
+        (mesh.vertices.colwise().minCoeff() + mesh.vertices.colwise().maxCoeff()) / 2;
+    result.vertices.rowwise() -= centre;
+    result.vertices /= std::sqrt(surface_area(result));
+    return result;
+}
+
+bool has_area(const TriangleMesh& mesh, int f) {
+    const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
+               c = mesh.vertex(mesh.faces(f, 2));
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    constexpr double shape = 1e-10, rounding = 1e-4;
+    return face_normal(mesh, f).norm() > shape * longest * (longest + rounding);
+}
+
+ChordMesh::ChordMesh(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to)
+    : source(unit_area(from)),
+      target(unit_area(to)),
+      image{Points::Zero(from.vertex_count(), 3), from.faces},
+      normals(Points::Zero(from.vertex_count(), 3)),
+      has_image_(std::size_t(from.vertex_count()), false) {
+    const TriangleMesh normals_of_target{vertex_normals(target), target.faces};
+    for (int v = 0; v < from.vertex_count(); ++v) {
+        const SurfacePoint& point = map[std::size_t(v)];
+        if (point.face < 0) continue;
+        has_image_[std::size_t(v)] = true;
+        image.vertices.row(v) = position(target, point).transpose();
+        normals.row(v) = position(normals_of_target, point).transpose();
+    }
+}
+
+bool ChordMesh::is_mapped(int f) const {
+    const auto corners = source.faces.row(f);
+    return has_image_[std::size_t(corners[0])] && has_image_[std::size_t(corners[1])] &&
+           has_image_[std::size_t(corners[2])];
+}
+
+double ChordMesh::facing(int f) const {
+    const auto corners = source.faces.row(f);
+    const Vec3 m = (normals.row(corners[0]) + normals.row(corners[1]) + normals.row(corners[2])).transpose();
+    return face_normal(image, f).dot(m);
+}
+
+}  // namespace varimap

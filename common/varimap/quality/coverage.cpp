@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+
+#include "varimap/core/parallel.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/quality.h"
+
+namespace varimap {
+
+namespace {
+
+/// The chord triangles that have an area. Those that face against the target come both ways round, so that
+/// neither a flip nor a sharp crease of the target (where the test for flips may err) counts as a gap.
+TriangleMesh visible_image(const ChordMesh& chords) {
+    TriangleMesh image = chords.image;
+    image.faces.resize(2 * chords.image.face_count(), 3);
+    int count = 0;
+    for (int f = 0; f < chords.image.face_count(); ++f) {
+        if (!chords.is_mapped(f) || !has_area(chords.image, f)) continue;
+        const Eigen::RowVector3i corners = chords.image.faces.row(f);
+        image.faces.row(count++) = corners;
+        if (chords.facing(f) <= 0) image.faces.row(count++) << corners[0], corners[2], corners[1];
+    }
+    image.faces.conservativeResize(count, 3);
+    return image;
+}
+
+double longest_edge(const TriangleMesh& mesh, int f) {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+        longest = std::max(longest,
+                           (mesh.vertex(mesh.faces(f, k)) - mesh.vertex(mesh.faces(f, (k + 1) % 3))).norm());
+    return longest;
+}
+
+constexpr double sideways = 0.8;      ///< largest |q - c| / |p - c| of a face that is hit
+constexpr double within_face = 0.05;  ///< of its longest edge: always near enough
+
+bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const ClosestPoint& on_image,
+            const ClosestPoint& on_target) {
+    const Vec3 centroid = position(target, {f, Vec3::Constant(1.0 / 3)});
+    const auto near = on_image(centroid, face_normal(target, f)).point;
+    const Vec3 p = position(image, near);
+    const Vec3 q = position(target, on_target(p, face_normal(image, near.face)).point);
+    return (q - centroid).norm() <=
+           std::max(sideways * (p - centroid).norm(), within_face * longest_edge(target, f));
+}
+
+}  // namespace
+
+double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+    const ChordMesh chords(map, source, target);
+    const TriangleMesh image = visible_image(chords);
+    if (image.face_count() == 0) return 0;
+    const ClosestPoint on_image(image), on_target(chords.target);
+    std::vector<char> hit(std::size_t(target.face_count()));
+    parallel_for_each_index<int>(target.face_count(), 64, [&](int f) {
+        hit[std::size_t(f)] = is_hit(f, chords.target, image, on_image, on_target);
+    });
+    double hit_area = 0, area = 0;
+    for (int f = 0; f < target.face_count(); ++f) {
+        const double part = face_normal(chords.target, f).norm();
+        area += part;
+        if (hit[std::size_t(f)]) hit_area += part;
+    }
+    return hit_area / area;
+}
+
+}  // namespace varimap

@@ -1,0 +1,154 @@
+#include "varimap/quality/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "varimap/core/parallel.h"
+#include "varimap/quality/chord_mesh.h"
+
+namespace varimap {
+
+namespace {
+
+/// Columns of the Jacobian J of the map from the plane of a source triangle (its first edge along the first
+/// axis) to the chord triangle in R^3.
+Eigen::Matrix<double, 3, 2> jacobian(const Vec3& e1, const Vec3& e2, const Vec3& d1, const Vec3& d2) {
+    const double length = e1.norm();
+    const double along = e1.dot(e2) / length;
+    const double height = e1.cross(e2).norm() / length;
+    Eigen::Matrix<double, 3, 2> J;
+    J.col(0) = d1 / length;
+    J.col(1) = (d2 - along * J.col(0)) / height;
+    return J;
+}
+
+/// sigma_1 / sigma_2 = sigma_1^2 / det, with det = sigma_1 sigma_2.
+double singular_value_ratio(const Eigen::Matrix<double, 3, 2>& J, double determinant) {
+    const double a = J.col(0).squaredNorm(), b = J.col(1).squaredNorm(), c = J.col(0).dot(J.col(1));
+    const double largest = (a + b + std::hypot(a - b, 2 * c)) / 2;
+    return largest < conformal_distortion_cap * determinant ? std::max(1.0, largest / determinant)
+                                                            : conformal_distortion_cap;
+}
+
+TriangleDistortion measure_triangle(const ChordMesh& chords, int f) {
+    TriangleDistortion result;
+    if (!chords.is_mapped(f) || !has_area(chords.source, f)) return result;
+    const auto corners = chords.source.faces.row(f);
+    const auto edge = [&](const TriangleMesh& mesh, int k) {
+        return Vec3(mesh.vertex(corners[k]) - mesh.vertex(corners[0]));
+    };
+    result.area = face_normal(chords.source, f).norm() / 2;
+    const auto J = jacobian(edge(chords.source, 1), edge(chords.source, 2), edge(chords.image, 1),
+                            edge(chords.image, 2));
+    result.squared_norm = J.squaredNorm();
+    result.collapsed = !has_area(chords.image, f);
+    result.flipped = result.collapsed || chords.facing(f) <= 0;
+    result.area_ratio = result.collapsed ? 0 : face_normal(chords.image, f).norm() / (2 * result.area);
+    result.conformal =
+        result.collapsed ? conformal_distortion_cap : singular_value_ratio(J, result.area_ratio);
+    return result;
+}
+
+Distortion summarise(const std::vector<TriangleDistortion>& triangles) {
+    Distortion total;
+    std::vector<double> areas, ratios, conformals;
+    double area = 0, flipped_area = 0;
+    for (const auto& triangle : triangles) {
+        if (triangle.area == 0) continue;
+        areas.push_back(triangle.area);
+        ratios.push_back(triangle.area_ratio);
+        conformals.push_back(triangle.conformal);
+        area += triangle.area;
+        if (triangle.flipped) flipped_area += triangle.area;
+        total.flipped_count += triangle.flipped;
+        total.collapsed_count += triangle.collapsed;
+        total.dirichlet_energy += triangle.area * triangle.squared_norm / 2;
+    }
+    total.flipped_area_percent = area > 0 ? 100 * flipped_area / area : 0;
+    total.area_ratio = weighted_quantiles(ratios, areas);
+    total.conformal_distortion = weighted_quantiles(conformals, areas);
+    return total;
+}
+
+/// Values in ascending order with the weight up to and including each.
+std::vector<std::pair<double, double>> cumulated(const std::vector<double>& values,
+                                                 const std::vector<double>& weights) {
+    std::vector<std::pair<double, double>> sorted(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) sorted[i] = {values[i], weights[i]};
+    std::sort(sorted.begin(), sorted.end());
+    double sum = 0;
+    for (auto& [value, weight] : sorted) weight = sum += weight;
+    return sorted;
+}
+
+double at_share(const std::vector<std::pair<double, double>>& sorted, double share) {
+    if (sorted.empty()) return 0;
+    const double weight = share * sorted.back().second;
+    const auto found = std::partition_point(sorted.begin(), sorted.end(),
+                                            [&](const auto& entry) { return entry.second < weight; });
+    return found == sorted.end() ? sorted.back().first : found->first;
+}
+
+}  // namespace
+
+double weighted_quantile(const std::vector<double>& values, const std::vector<double>& weights,
+                         double share) {
+    return at_share(cumulated(values, weights), share);
+}
+
+Quantiles weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights) {
+    const auto sorted = cumulated(values, weights);
+    return {at_share(sorted, 0.01), at_share(sorted, 0.05), at_share(sorted, 0.5), at_share(sorted, 0.95),
+            at_share(sorted, 0.99)};
+}
+
+std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
+                                                  const TriangleMesh& target) {
+    const ChordMesh chords(map, source, target);
+    std::vector<TriangleDistortion> triangles(std::size_t(source.face_count()));
+    parallel_for_each_index<int>(source.face_count(), 1024,
+                                 [&](int f) { triangles[std::size_t(f)] = measure_triangle(chords, f); });
+    return triangles;
+}
+
+Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+    return summarise(measure_triangles(map, source, target));
+}
+
+RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,
+                             const TriangleMesh& B) {
+    const TriangleMesh unit = unit_area(A);
+    const ChordMesh back(B_to_A, B, A);
+    std::vector<double> weights(std::size_t(A.vertex_count()), 0), distances, used;
+    for (int f = 0; f < A.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) weights[std::size_t(A.faces(f, k))] += face_normal(unit, f).norm() / 6;
+    double sum = 0, weight = 0;
+    for (int v = 0; v < A.vertex_count(); ++v) {
+        const SurfacePoint& there = A_to_B[std::size_t(v)];
+        if (there.face < 0 || !back.is_mapped(there.face)) continue;
+        distances.push_back((position(back.image, there) - unit.vertex(v)).norm());
+        used.push_back(weights[std::size_t(v)]);
+        sum += distances.back() * used.back();
+        weight += used.back();
+    }
+    return {weight > 0 ? sum / weight : 0, weighted_quantile(distances, used, 0.95)};
+}
+
+std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks,
+                                       const TriangleMesh& source, const TriangleMesh& target) {
+    const double length = std::sqrt(surface_area(target));
+    std::vector<double> residuals;
+    for (const auto& [from, to] : landmarks) {
+        Vec3 image = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const SurfacePoint& corner = map[std::size_t(source.faces(from.face, k))];
+            if (from.barycentric[k] > 0 && corner.face >= 0)
+                image += from.barycentric[k] * position(target, corner);
+        }
+        residuals.push_back((image - position(target, to)).norm() / length);
+    }
+    return residuals;
+}
+
+}  // namespace varimap

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+// How good a map is, measured on the meshes it is given for. Both are first brought to unit area, so lengths
+// are in units of sqrt(area) and nothing depends on the inputs' scale. A source triangle is compared with its
+// CHORD triangle, whose corners are the images of its own. Left out everywhere: vertices without an image,
+// triangles with such a corner, and source triangles without area. All numbers are finite, and the same for
+// any number of threads.
+
+/// Quantiles at 1, 5, 50, 95 and 99%.
+struct Quantiles {
+    double p01 = 0, p05 = 0, p50 = 0, p95 = 0, p99 = 0;
+};
+/// Smallest value up to which that share of the weight lies. Zeros if there is no weight.
+double weighted_quantile(const std::vector<double>& values, const std::vector<double>& weights, double share);
+Quantiles weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights);
+
+/// Conformal distortion of chord triangles that are collapsed to a segment or a point.
+inline constexpr double conformal_distortion_cap = 1e6;
+
+/// What one source triangle contributes; area 0: nothing.
+struct TriangleDistortion {
+    double area = 0;          ///< of the source triangle
+    double area_ratio = 0;    ///< chord area / source area
+    double conformal = 1;     ///< sigma_1 / sigma_2
+    double squared_norm = 0;  ///< |J|_F^2
+    bool flipped = false, collapsed = false;
+};
+std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
+                                                  const TriangleMesh& target);
+
+struct Distortion {
+    /// Triangles with n . m <= 0: n the normal of the chord triangle, m the sum of the target's normals
+    /// (angle-weighted at vertices, interpolated) at the three images. Collapsed triangles count as flipped.
+    int flipped_count = 0;
+    double flipped_area_percent = 0;  ///< their share of the source's area
+    int collapsed_count = 0;          ///< chord triangles without area
+    Quantiles area_ratio;  ///< chord area / source area, both of unit total; weighted by source area
+    /// sigma_1 / sigma_2 >= 1 of the linear map onto the chord triangle, weighted by source area; 1:
+    /// conformal.
+    Quantiles conformal_distortion;
+    /// 1/2 sum area |J|_F^2 = 1/2 sum area (sigma_1^2 + sigma_2^2); 1 for an isometry.
+    double dirichlet_energy = 0;
+};
+Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+
+/// Share of the target's area that is hit. A target face is hit if its centroid c lies in front of or behind
+/// the image of the source: with p the closest point to c on the chord triangles that face the way c does,
+/// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or a quarter of the face's
+/// longest edge. (Where no image is near, p lies at the rim of the image and q beside it, so |q - c| is about
+/// |p - c|.) Flipped chord triangles count whichever way they face: a flip is not a gap.
+double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+
+/// Distance in R^3 of each vertex of A from its image under A -> B -> A, in units of sqrt(area of A),
+/// weighted by the vertices' areas. B_to_A is taken linear on the faces of B (chord triangles).
+struct RoundTrip {
+    double mean = 0, p95 = 0;
+};
+RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,
+                             const TriangleMesh& B);
+
+/// Distance in R^3 between the image of the first point of each pair (linear on the source's faces) and the
+/// second point, in units of sqrt(area of the target).
+std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks,
+                                       const TriangleMesh& source, const TriangleMesh& target);
+
+}  // namespace varimap

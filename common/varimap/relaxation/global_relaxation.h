@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "varimap/relaxation/attachments.h"
+#include "varimap/relaxation/feature_agreement.h"
+#include "varimap/relaxation/moving_map.h"
+
+namespace varimap {
+
+/// Descent of the fold energy in all vertices at once: Newton's method in the tangent planes of the images
+/// with the convex part of each face's Hessian, one sparse Cholesky factorisation per step. It moves what
+/// local relaxation would need thousands of sweeps for: whole limbs along the target.
+class GlobalRelaxation {
+  public:
+    /// Vertices with fixed[v] stay. Keeps references to the map and to `features`, whose energy is added
+    /// where given.
+    GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
+                     const FeatureAgreement* features = nullptr);
+    ~GlobalRelaxation();
+
+    /// The attachments whose energy is added from now on; keeps a reference.
+    void attach(const std::vector<Attachment>& attachments);
+
+    /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
+    /// stays as it is.
+    /// Robust: what is summed is area * r log(1 + x / r) with the excess x of a face's energy (per area) over
+    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; for r = 0 that
+    /// is area * x.
+    double step(const FoldEnergy& energy, double robustness);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace varimap

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "varimap/mesh/surface_walk.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/mesh/triangle_mesh.h"
+#include "varimap/relaxation/fold_energy.h"
+
+namespace varimap {
+
+/// A map whose images slide on the target: the state that the relaxations of untangling.h work on. Both
+/// meshes are brought to unit area.
+class MovingMap {
+  public:
+    MovingMap(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+
+    const TriangleMesh& source() const { return source_; }
+    const TriangleMesh& target() const { return target_; }
+    const PointMap& points() const { return points_; }
+    const Adjacency& faces_of_vertex() const { return faces_of_vertex_; }
+    const RestTriangle& rest(int f) const { return rest_[std::size_t(f)]; }
+    bool has_image(int v) const { return points_[std::size_t(v)].face >= 0; }
+    /// Whether a face counts: it has area, and all its corners have an image.
+    bool is_mapped(int f) const {
+        const auto corners = source_.faces.row(f);
+        return rest_[std::size_t(f)].area > 0 && has_image(corners[0]) && has_image(corners[1]) &&
+               has_image(corners[2]);
+    }
+    /// Position in space of a vertex's image.
+    const Vec3& image(int v) const { return image_[std::size_t(v)]; }
+    /// Unit mean of the target's normals at a face's three images; zero where they cancel.
+    Vec3 mean_normal(int f) const;
+    Chord chord(int f) const;
+    /// Two orthonormal directions in the plane of the target's face that holds the image.
+    Eigen::Matrix<double, 3, 2> tangents(int v) const;
+    /// Walks a vertex's image along a tangent vector, from where it is.
+    void move(int v, const Vec3& step) { place(v, walk_(points_[std::size_t(v)], step)); }
+    void place(int v, const SurfacePoint& point);
+    /// Rest areas of faces times `factor`: the relaxations then aim at lengths times its root.
+    void scale_rest(const std::vector<int>& faces, double factor) {
+        for (const int f : faces) rest_[std::size_t(f)].area *= factor;
+    }
+    /// Takes a vertex's image away.
+    void clear(int v) { points_[std::size_t(v)].face = -1; }
+    /// Where a walk from a point of the target ends.
+    SurfacePoint walk(const SurfacePoint& from, const Vec3& step) const { return walk_(from, step); }
+    /// Interpolated normal of the target at a vertex's image; not of unit length.
+    const Vec3& normal(int v) const { return normal_[std::size_t(v)]; }
+
+  private:
+    TriangleMesh source_, target_, normals_;  ///< normals_: the target's, as a mesh to interpolate on
+    std::vector<RestTriangle> rest_;
+    Adjacency faces_of_vertex_;
+    SurfaceWalk walk_;
+    PointMap points_;
+    std::vector<Vec3> image_, normal_;
+};
+
+}  // namespace varimap

@@ -1,0 +1,132 @@
+#include "varimap/relaxation/normal_agreement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "varimap/core/parallel.h"
+#include "varimap/relaxation/fold_removal.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr int passes = 12;
+constexpr int directions = 12;
+constexpr std::array<double, 5> radii{0.1, 0.3, 0.7, 1.3, 2.2};  ///< in mean edges of the vertex's image
+constexpr double disagreement = 10;                              ///< cost per area
+constexpr double reversal = 100;                                 ///< cost per face: above all else
+const FoldEnergy energy{1, 0.03};
+const RobustExcess robust{energy, 0.3};
+
+const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  Vec3(.15, .7, .15),
+                                       Vec3(.15, .15, .7), Vec3(.08, .46, .46), Vec3(.46, .08, .46),
+                                       Vec3(.46, .46, .08)};
+
+/// Sorted, each once.
+void make_set(std::vector<int>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+NormalAgreement::NormalAgreement(MovingMap& map) : map_(map), closest_(map.target()) {}
+
+bool NormalAgreement::disagrees(int f) const {
+    const auto c = map_.source().faces.row(f);
+    const Vec3 &x = map_.image(c[0]), &y = map_.image(c[1]), &z = map_.image(c[2]);
+    Vec3 below = Vec3::Zero();
+    int face = -1;
+    for (const Vec3& b : inner_points) {
+        face = closest_(b[0] * x + b[1] * y + b[2] * z, face).point.face;
+        below += face_normal(map_.target(), face).normalized();
+    }
+    return !((y - x).cross(z - x).dot(below) > 0);
+}
+
+std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) const {
+    std::vector<char> marks(faces.size(), 0);
+    parallel_for_each_index(std::size_t(0) + faces.size(), std::size_t(64), [&](std::size_t i) {
+        marks[i] = map_.is_mapped(faces[i]) && (map_.chord(faces[i]).D <= 0 || disagrees(faces[i]));
+    });
+    std::vector<int> found;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (marks[i]) found.push_back(faces[i]);
+    return found;
+}
+
+std::vector<int> NormalAgreement::disagreeing_faces() const {
+    std::vector<int> all(std::size_t(map_.source().face_count()));
+    std::iota(all.begin(), all.end(), 0);
+    return disagreeing_among(all);
+}
+
+double NormalAgreement::cost(int v, double limit) const {
+    const auto faces = map_.faces_of_vertex()[v];
+    double sum = 0;
+    for (const int f : faces) {
+        if (!map_.is_mapped(f)) continue;
+        const Chord chord = map_.chord(f);
+        sum += map_.rest(f).area * robust.value(energy.value(chord.q, chord.D));
+        if (chord.D <= FoldRemoval::flat_limit) sum += reversal;
+    }
+    for (const int f : faces) {
+        if (sum >= limit) break;  // what follows asks for many closest points
+        if (map_.is_mapped(f) && disagrees(f)) sum += map_.rest(f).area * disagreement;
+    }
+    return sum;
+}
+
+bool NormalAgreement::search(int v) {
+    double reach = 0;
+    int count = 0;
+    for (const int f : map_.faces_of_vertex()[v])
+        for (int k = 0; k < 3; ++k)
+            if (const int u = map_.source().faces(f, k); u != v && map_.has_image(u))
+                reach += (map_.image(u) - map_.image(v)).norm(), ++count;
+    if (count == 0) return false;
+    reach /= count;
+    const SurfacePoint start = map_.points()[std::size_t(v)];
+    const auto frame = map_.tangents(v);
+    SurfacePoint best = start;
+    const double before = cost(v, std::numeric_limits<double>::infinity());
+    double least = before;
+    for (const double radius : radii)
+        for (int i = 0; i < directions; ++i) {
+            const double angle = 2 * std::numbers::pi * i / directions;
+            const Vec3 step =
+                radius * reach * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
+            map_.place(v, map_.walk(start, step));
+            if (const double c = cost(v, least); c < least) least = c, best = map_.points()[std::size_t(v)];
+        }
+    map_.place(v, best);
+    return least < before;
+}
+
+std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const std::vector<char>& fixed) {
+    for (int pass = 0; pass < passes && !disagreeing.empty(); ++pass) {
+        std::vector<int> vertices;
+        for (const int f : disagreeing)
+            for (int k = 0; k < 3; ++k)
+                if (const int v = map_.source().faces(f, k); !fixed[std::size_t(v)]) vertices.push_back(v);
+        make_set(vertices);
+        bool moved = false;
+        for (const int v : vertices) moved = search(v) || moved;
+        if (!moved) break;
+        // Only faces around what moved can have changed.
+        std::vector<int> faces = disagreeing;
+        for (const int v : vertices) {
+            const auto star = map_.faces_of_vertex()[v];
+            faces.insert(faces.end(), star.begin(), star.end());
+        }
+        make_set(faces);
+        disagreeing = disagreeing_among(faces);
+    }
+    return disagreeing;
+}
+
+}  // namespace varimap

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "varimap/mesh/closest_point.h"
+#include "varimap/relaxation/moving_map.h"
+
+namespace varimap {
+
+/// Faces that cut through a thin feature (a finger, an ear): upright by the target's normals at their
+/// corners, which the fold energy looks at, but not by those beneath their interior. They are few and lie
+/// where the energy has many shallow minima, so their vertices are moved by a direct search: each to the best
+/// of a fixed set of places around it, where a disagreeing face costs more than any strain worth having.
+class NormalAgreement {
+  public:
+    explicit NormalAgreement(MovingMap& map);
+
+    /// Reversed faces, and those whose chord does not face the way the target does beneath it, ascending.
+    std::vector<int> disagreeing_faces() const;
+    /// Turns them; vertices with fixed[v] stay. Returns those that are left.
+    std::vector<int> improve(std::vector<int> disagreeing, const std::vector<char>& fixed);
+
+  private:
+    std::vector<int> disagreeing_among(const std::vector<int>& faces) const;
+    bool disagrees(int f) const;
+    /// Of the faces around a vertex; some number above `limit` if that is exceeded.
+    double cost(int v, double limit) const;
+    bool search(int v);
+
+    MovingMap& map_;
+    ClosestPoint closest_;
+};
+
+}  // namespace varimap

@@ -1,0 +1,42 @@
+#include "varimap/relaxation/target_cells.h"
+
+#include "varimap/mesh/mass.h"
+
+namespace varimap {
+
+TargetCells::TargetCells(const MovingMap& map, const GeodesicGraph& target_graph, double radius)
+    : cell_of_vertex_(std::size_t(target_graph.vertex_count()), -1) {
+    const Eigen::VectorXd area = voronoi_masses(map.target());
+    GeodesicBall ball(target_graph);
+    for (int seed = 0; seed < target_graph.vertex_count(); ++seed) {
+        if (cell_of_vertex_[std::size_t(seed)] >= 0) continue;
+        const int cell = int(area_.size());
+        area_.push_back(0);
+        ball.grow({seed}, [&](int v, double distance) {
+            if (distance > radius) return false;
+            if (cell_of_vertex_[std::size_t(v)] < 0) {
+                cell_of_vertex_[std::size_t(v)] = cell;
+                area_.back() += area[v];
+            }
+            return true;
+        });
+    }
+}
+
+std::vector<char> TargetCells::reached(const MovingMap& map) const {
+    std::vector<char> reached(area_.size(), 0);
+    for (const SurfacePoint& image : map.points())
+        for (int k = 0; k < 3; ++k)
+            if (image.face >= 0)
+                reached[std::size_t(cell_of_vertex_[std::size_t(map.target().faces(image.face, k))])] = 1;
+    return reached;
+}
+
+double TargetCells::lost_area(const std::vector<char>& before, const std::vector<char>& after) const {
+    double sum = 0;
+    for (std::size_t c = 0; c < area_.size(); ++c)
+        if (before[c] && !after[c]) sum += area_[c];
+    return sum;
+}
+
+}  // namespace varimap

@@ -1,0 +1,268 @@
+#include "varimap/relaxation/untangling.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "varimap/quality/quality.h"
+#include "varimap/relaxation/feature_agreement.h"
+#include "varimap/relaxation/fold_removal.h"
+#include "varimap/relaxation/global_relaxation.h"
+#include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/normal_agreement.h"
+
+namespace varimap {
+
+namespace {
+
+/// Two rounds of relaxation and removal of folds.
+struct Round {
+    double regularisation;     ///< e; where it is large, folds pass through each other
+    double robustness_factor;  ///< on the option
+    double fold_visits;        ///< bounds the removal of folds (fold_removal.h)
+    double last_inverse;       ///< share of the option's inverse_weight in the last step
+};
+constexpr double first_inverse = 0.03;  ///< the same in the first; more would slow both directions down
+/// The first leaves crumpled parts to their replacement.
+constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150, 1}}};
+constexpr int reconciliations = 2;
+constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
+constexpr int least_steps = 2;
+constexpr double least_gain = 1e-5;  ///< share of the energy that a step must win to be followed by another
+
+/// Vertices that local sweeps may move: those of a face that holds a landmark would leave it.
+std::vector<int> free_vertices(const MovingMap& map, std::vector<char> fixed,
+                               const std::vector<Attachment>& landmarks) {
+    for (const Attachment& landmark : landmarks)
+        for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(landmark.from.face, k))] = 1;
+    std::vector<int> free;
+    for (int v = 0; v < int(fixed.size()); ++v)
+        if (!fixed[std::size_t(v)] && map.has_image(v)) free.push_back(v);
+    return free;
+}
+
+/// Global steps over the whole map, each followed by a local sweep that lets single vertices out of corners.
+class Relaxation {
+  public:
+    Relaxation(MovingMap& map, const std::vector<char>& fixed, const FeatureAgreement* features,
+               const std::vector<Attachment>& landmarks, const Round& round, const UntanglingOptions& options)
+        : map_(map),
+          options_(options),
+          landmarks_(landmarks),
+          energy_{options.area_weight, round.regularisation},
+          last_inverse_(round.last_inverse),
+          robustness_(round.robustness_factor * options.robustness),
+          vertices_(free_vertices(map, fixed, landmarks)),
+          global_(map, fixed, features),
+          local_(map, 99) {
+        // A factorisation takes more than linear time; the first steps are those that matter.
+        const double affordable = options.global_steps * large / double(vertices_.size() + 1);
+        most_ = std::min(options.global_steps, std::max(least_steps, int(affordable)));
+    }
+
+    /// `back`: the other direction, whose inverse the map is drawn to.
+    void step(const PointMap* back) {
+        attachments_ = landmarks_;
+        if (back && options_.inverse_weight > 0) {
+            const auto inverse = inverse_attachments(map_, *back, options_.inverse_weight * inverse_share());
+            attachments_.insert(attachments_.end(), inverse.begin(), inverse.end());
+        }
+        global_.attach(attachments_);
+        const double gain = global_.step(energy_, robustness_);
+        local_.sweep(vertices_, energy_, false);
+        ++steps_;
+        converged_ = gain < least_gain && steps_ > 3;
+    }
+    bool done() const { return converged_ || steps_ >= most_; }
+    int steps() const { return steps_; }
+
+  private:
+    /// Where few steps are taken the directions cannot follow each other as far.
+    double inverse_share() const {
+        const double progress = (steps_ + 1.0) / options_.global_steps;
+        return first_inverse + (last_inverse_ - first_inverse) * progress * progress;
+    }
+
+    MovingMap& map_;
+    const UntanglingOptions& options_;
+    const std::vector<Attachment>& landmarks_;
+    FoldEnergy energy_;
+    double last_inverse_, robustness_;
+    std::vector<int> vertices_;
+    GlobalRelaxation global_;
+    LocalRelaxation local_;
+    std::vector<Attachment> attachments_;
+    int most_ = 0, steps_ = 0;
+    bool converged_ = false;
+};
+
+/// Vertices that stay: the pinned ones and those of mirrored parts.
+std::vector<char> stay(const MovingMap& map, const std::vector<char>& pinned, const MirrorGate& gate,
+                       UntanglingReport& report) {
+    std::vector<char> fixed = pinned;
+    report.mirrored_parts = 0;
+    report.gated_area_percent = 0;
+    for (const ReversedPatch& patch : reversed_patches(map)) {
+        if (!is_mirrored_part(patch, gate)) continue;
+        ++report.mirrored_parts;
+        report.gated_area_percent += 100 * patch.area;
+        for (const int f : patch.faces)
+            for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(f, k))] = 1;
+    }
+    return fixed;
+}
+
+/// One direction of a map while it is untangled.
+class Untangling {
+  public:
+    Untangling(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
+               const std::vector<char>& pinned, const PointPairs& points, const UntanglingOptions& options)
+        : map_(map),
+          source_(source),
+          target_(target),
+          pinned_(pinned),
+          options_(options),
+          before_(measure_distortion(map, source, target)),
+          moving_(map, source, target),
+          landmarks_(landmark_attachments(moving_, points)) {
+        report_.flipped_before = report_.flipped_after = before_.flipped_count;
+        report_.flipped_area_percent_before = report_.flipped_area_percent_after =
+            before_.flipped_area_percent;
+        if (options.feature_weight > 0 && options.global_steps > 0)
+            features_ = std::make_unique<FeatureAgreement>(moving_, options.feature_weight);
+    }
+
+    /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
+    void start_relaxation(const Round& round) {
+        fixed_ = stay(moving_, pinned_, options_.gate, report_);
+        if (options_.global_steps > 0)
+            relaxation_ =
+                std::make_unique<Relaxation>(moving_, fixed_, features_.get(), landmarks_, round, options_);
+    }
+    bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
+    void relax(const PointMap* back) {
+        if (!is_relaxed()) relaxation_->step(back);
+    }
+    void end_relaxation(const Round& round) {
+        if (relaxation_) report_.global_steps += relaxation_->steps();
+        relaxation_.reset();
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, held());
+    }
+
+    void replace_parts(const PointMap& back) {
+        if (!options_.replace_parts) return;
+        replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts, landmarks_);
+        replacement_->continue_surroundings(back);
+    }
+
+    const PointMap& points() const { return moving_.points(); }
+    void reconcile(const PointMap& back, bool whole) {
+        if (replacement_) replacement_->adopt_inverse(back, whole && double(pinned_.size()) <= large);
+    }
+
+    const UntanglingReport& report() const { return report_; }
+    UntanglingReport finish() {
+        if (options_.align_normals) align_normals();
+        if (replacement_) {
+            report_.parts_tried = replacement_->report().tried;
+            report_.parts_replaced = replacement_->report().replaced;
+            report_.replaced_area_percent = replacement_->report().area_percent;
+        }
+        const Distortion after = measure_distortion(moving_.points(), source_, target_);
+        if (after.flipped_area_percent > before_.flipped_area_percent) return report_;
+        map_ = moving_.points();
+        report_.flipped_after = after.flipped_count;
+        report_.flipped_area_percent_after = after.flipped_area_percent;
+        return report_;
+    }
+
+  private:
+    /// The fixed vertices, and those that hold a landmark in place, unless their triangle is reversed.
+    std::vector<char> held() const {
+        std::vector<char> held = fixed_;
+        for (const Attachment& landmark : landmarks_)
+            if (moving_.chord(landmark.from.face).D > 0)
+                for (int k = 0; k < 3; ++k) held[std::size_t(source_.faces(landmark.from.face, k))] = 1;
+        return held;
+    }
+    void align_normals() {
+        NormalAgreement agreement(moving_);
+        const std::vector<int> disagreeing = agreement.disagreeing_faces();
+        report_.disagreeing_before = int(disagreeing.size());
+        report_.disagreeing_after = int(agreement.improve(disagreeing, held()).size());
+    }
+
+    PointMap& map_;
+    const TriangleMesh &source_, &target_;
+    const std::vector<char>& pinned_;
+    const UntanglingOptions& options_;
+    Distortion before_;
+    MovingMap moving_;
+    const std::vector<Attachment> landmarks_;  ///< that are points
+    std::vector<char> fixed_;
+    std::unique_ptr<FeatureAgreement> features_;
+    std::unique_ptr<Relaxation> relaxation_;
+    std::unique_ptr<PartReplacement> replacement_;
+    UntanglingReport report_;
+};
+
+void run(Untangling& map, const Round& round) {
+    map.start_relaxation(round);
+    while (!map.is_relaxed()) map.relax(nullptr);
+    map.end_relaxation(round);
+}
+
+/// Calls body for both, side by side, with what the other's images are before.
+template <class Body>
+void with_each_other(Untangling& there, Untangling& back, const Body& body) {
+    const PointMap A_to_B = there.points(), B_to_A = back.points();
+    tbb::parallel_invoke([&] { body(there, B_to_A); }, [&] { body(back, A_to_B); });
+}
+
+/// A round of both directions, which draw each other towards their inverses.
+void run(Untangling& there, Untangling& back, const Round& round) {
+    tbb::parallel_invoke([&] { there.start_relaxation(round); }, [&] { back.start_relaxation(round); });
+    while (!there.is_relaxed() || !back.is_relaxed())
+        with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.relax(&inverse); });
+    tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
+}
+
+PointPairs swapped(const PointPairs& points) {
+    PointPairs result;
+    for (const auto& [first, second] : points) result.emplace_back(second, first);
+    return result;
+}
+
+}  // namespace
+
+UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
+                          const std::vector<char>& pinned, const UntanglingOptions& options) {
+    Untangling untangling(map, source, target, pinned, {}, options);
+    if (!options.enabled) return untangling.report();
+    run(untangling, rounds[0]);
+    untangling.replace_parts({});
+    run(untangling, rounds[1]);
+    return untangling.finish();
+}
+
+UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
+                           const PinnedPair& pinned, const UntanglingOptions& options) {
+    Untangling there(maps.A_to_B, A, B, pinned.A, pinned.points, options),
+        back(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options);
+    if (!options.enabled) return {there.report(), back.report()};
+    run(there, back, rounds[0]);
+    with_each_other(there, back,
+                    [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
+    for (int round = 0; round < reconciliations; ++round)
+        with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
+            map.reconcile(inverse, round == 0);
+        });
+    run(there, back, rounds[1]);
+    UntanglingReports reports;
+    tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
+    return reports;
+}
+
+}  // namespace varimap

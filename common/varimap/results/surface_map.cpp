@@ -1,0 +1,162 @@
+#include "varimap/results/surface_map.h"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "varimap/artifact/cereal_eigen.h"
+#include "varimap/core/error.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr std::string_view csv_header = "vertex,face,b0,b1,b2";
+constexpr double barycentric_tolerance = 1e-3;  ///< files of other programs may carry few digits
+
+/// The shortest text that reads back to the same number, in every locale.
+template <class Number>
+void append(std::string& text, Number number) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+    text.append(buffer, end);
+}
+
+/// Reads one number and the comma behind it (or the end of the line) off the front of `line`.
+template <class Number>
+bool take(std::string_view& line, Number& number, bool last = false) {
+    const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), number);
+    line.remove_prefix(std::size_t(end - line.data()));
+    if (status != std::errc()) return false;
+    if (last) return line.empty();
+    if (line.empty() || line.front() != ',') return false;
+    line.remove_prefix(1);
+    return true;
+}
+
+bool is_valid(const SurfacePoint& point) {
+    const Vec3& b = point.barycentric;
+    if (point.face < -1 || !b.allFinite()) return false;
+    if (point.face < 0) return true;
+    return std::abs(b.sum() - 1) <= barycentric_tolerance && b.minCoeff() >= -barycentric_tolerance;
+}
+
+std::string_view next_line(std::string_view& text) {
+    const auto end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    return line;
+}
+
+SurfacePoint parse_row(std::string_view line, int vertex, const std::string& place) {
+    SurfacePoint point;
+    int number = 0;
+    Vec3& b = point.barycentric;
+    if (!take(line, number) || !take(line, point.face) || !take(line, b[0]) || !take(line, b[1]) ||
+        !take(line, b[2], true))
+        throw InputError(place + ": expected five numbers " + std::string(csv_header));
+    if (number != vertex)
+        throw InputError(place + ": vertex " + std::to_string(number) + " where vertex " +
+                         std::to_string(vertex) + " should stand; rows must be in the vertices' order");
+    if (!is_valid(point))
+        throw InputError(place + ": needs a face of -1 or more and barycentric coordinates that sum to 1");
+    return point;
+}
+
+}  // namespace
+
+/// A point map as two arrays, the form in which artifacts hold it.
+struct PackedPointMap {
+    Eigen::VectorXi faces;
+    Points barycentric;
+};
+
+template <class Archive>
+void serialize(Archive& archive, PackedPointMap& map) {
+    archive(map.faces, map.barycentric);
+}
+
+namespace {
+
+PackedPointMap pack(const PointMap& map) {
+    const auto n = Eigen::Index(map.size());
+    PackedPointMap packed{Eigen::VectorXi(n), Points(n, 3)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+        packed.faces[i] = map[std::size_t(i)].face;
+        packed.barycentric.row(i) = map[std::size_t(i)].barycentric.transpose();
+    }
+    return packed;
+}
+
+PointMap unpack(const PackedPointMap& packed) {
+    if (packed.faces.size() != packed.barycentric.rows())
+        throw ArtifactError("a map artifact has arrays of unequal length; rerun varimap-remesh");
+    PointMap map(std::size_t(packed.faces.size()));
+    for (std::size_t i = 0; i < map.size(); ++i)
+        map[i] = {packed.faces[Eigen::Index(i)], packed.barycentric.row(Eigen::Index(i)).transpose()};
+    return map;
+}
+
+}  // namespace
+
+/// SurfaceMap as it is archived.
+struct PackedSurfaceMap {
+    PackedPointMap A_to_B, B_to_A;
+    std::string quality;
+};
+
+template <class Archive>
+void serialize(Archive& archive, PackedSurfaceMap& map) {
+    archive(map.A_to_B, map.B_to_A, map.quality);
+}
+
+std::string encode(const SurfaceMap& map) {
+    return cereal_encode(PackedSurfaceMap{pack(map.A_to_B), pack(map.B_to_A), map.quality});
+}
+
+void decode(const std::string& payload, SurfaceMap& map) {
+    PackedSurfaceMap packed;
+    cereal_decode(payload, packed);
+    map = {unpack(packed.A_to_B), unpack(packed.B_to_A), std::move(packed.quality)};
+}
+
+std::string to_csv(const PointMap& map) {
+    std::string text(csv_header);
+    text += '\n';
+    for (std::size_t vertex = 0; vertex < map.size(); ++vertex) {
+        append(text, vertex);
+        text += ',';
+        append(text, map[vertex].face);
+        for (int k = 0; k < 3; ++k) {
+            text += ',';
+            append(text, map[vertex].barycentric[k]);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+PointMap read_csv_map(const std::string& path) {
+    const std::string bytes = read_file(path);
+    std::string_view text = bytes;
+    if (next_line(text) != csv_header)
+        throw InputError(path + ":1: not a map of varimap, whose first line is " + std::string(csv_header));
+    PointMap map;
+    while (!text.empty()) {
+        const std::string_view line = next_line(text);
+        if (line.empty() && text.empty()) break;
+        const int vertex = int(map.size());
+        map.push_back(parse_row(line, vertex, path + ":" + std::to_string(vertex + 2)));
+    }
+    return map;
+}
+
+Points image_positions(const PointMap& map, const TriangleMesh& target, const Points& fallback) {
+    Points positions = fallback;
+    for (std::size_t i = 0; i < map.size(); ++i)
+        if (map[i].face >= 0) positions.row(Eigen::Index(i)) = position(target, map[i]).transpose();
+    return positions;
+}
+
+}  // namespace varimap

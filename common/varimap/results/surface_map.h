@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// The dense map in both directions, between the INPUT meshes: the artifact of varimap-remesh.
+/// A_to_B has one row per INPUT vertex of A, in A's order, on INPUT faces of B; face -1 for vertices no face
+/// uses.
+struct SurfaceMap {
+    PointMap A_to_B;
+    PointMap B_to_A;
+    std::string quality;  ///< the deterministic part of quality.json
+};
+
+template <>
+struct ArtifactType<SurfaceMap> {
+    static constexpr const char* kind = "map";
+    static constexpr const char* stage = "varimap-remesh";
+    static constexpr int schema = 1;
+};
+std::string encode(const SurfaceMap& map);
+void decode(const std::string& payload, SurfaceMap& map);
+
+/// `vertex,face,b0,b1,b2`, one row per vertex; numbers read back exactly, in any locale.
+std::string to_csv(const PointMap& map);
+/// Throws InputError naming file and line.
+PointMap read_csv_map(const std::string& path);
+
+/// Positions on `target` of a map's images; rows without an image keep the given fallback row.
+Points image_positions(const PointMap& map, const TriangleMesh& target, const Points& fallback);
+
+}  // namespace varimap

@@ -1,0 +1,83 @@
+#include "varimap/stage/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "varimap/core/error.h"
+#include "varimap/stage/parameter_text.h"
+
+namespace varimap {
+namespace {
+
+/// std::from_chars knows no locale, unlike std::stod.
+template <class Number>
+bool parse_number(const std::string& text, Number& value) {
+    const char* end = text.data() + text.size();
+    const auto result = std::from_chars(text.data(), end, value);
+    return result.ec == std::errc() && result.ptr == end;
+}
+
+std::string limit_text(const Parameter& parameter, double limit) {
+    if (std::holds_alternative<int*>(parameter.value)) return fmt::format("{}", std::int64_t(limit));
+    return fmt::format("{}", limit);
+}
+
+[[noreturn]] void refuse(const Parameter& parameter, const std::string& text) {
+    throw UsageError(fmt::format("--{}: '{}' is not {}", parameter.name, text, allowed_values(parameter)));
+}
+
+struct Assign {
+    const Parameter& parameter;
+    const std::string& text;
+
+    template <class Number>
+    void operator()(Number* target) const {
+        Number value{};
+        // Written so that nan is refused too.
+        if (!parse_number(text, value) || !(value >= parameter.minimum && value <= parameter.maximum) ||
+            !std::isfinite(double(value)))
+            refuse(parameter, text);
+        *target = value;
+    }
+    void operator()(bool* target) const {
+        if (text != "true" && text != "false") refuse(parameter, text);
+        *target = text == "true";
+    }
+    void operator()(std::string* target) const {
+        const auto& choices = parameter.choices;
+        const bool listed = std::find(choices.begin(), choices.end(), text) != choices.end();
+        if ((!choices.empty() && !listed) || text.find('\n') != std::string::npos) refuse(parameter, text);
+        *target = text;
+    }
+};
+
+}  // namespace
+
+std::string Parameter::text() const {
+    return std::visit([](const auto* target) { return fmt::format("{}", *target); }, value);
+}
+
+std::vector<std::pair<std::string, std::string>> ParameterList::resolved() const {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const auto& parameter : list_) pairs.emplace_back(parameter.name, parameter.text());
+    return pairs;
+}
+
+std::string allowed_values(const Parameter& parameter) {
+    if (std::holds_alternative<bool*>(parameter.value)) return "true or false";
+    if (std::holds_alternative<std::string*>(parameter.value))
+        return parameter.choices.empty() ? "one line of text"
+                                         : fmt::format("one of {}", fmt::join(parameter.choices, ", "));
+    const bool whole = std::holds_alternative<int*>(parameter.value);
+    return fmt::format("{} from {} to {}", whole ? "a whole number" : "a number",
+                       limit_text(parameter, parameter.minimum), limit_text(parameter, parameter.maximum));
+}
+
+void assign(const Parameter& parameter, const std::string& text) {
+    std::visit(Assign{parameter, text}, parameter.value);
+}
+
+}  // namespace varimap

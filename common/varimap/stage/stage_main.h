@@ -1,0 +1,92 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/stage/parameters.h"
+
+namespace varimap {
+
+/// One run of one stage: its command line, the artifacts it reads and writes, and what it recorded.
+///
+///   int main(int argc, char** argv) {
+///       EigenParams params;
+///       Stage stage("eigen", "Laplacian eigenbasis of a surface");
+///       stage.parameters([&](ParameterList& list) { params.describe(list); });
+///       const std::string& in = stage.input("surface", "artifact of varimap-preprocess");
+///       const std::string& out = stage.output("basis", ArtifactType<Basis>::schema, "artifact to write");
+///       return stage.main(argc, argv, [&] {
+///           auto surface = stage.read<Surface>("surface", in);
+///           stage.write(out, compute_basis(surface.value, params));
+///       });
+///   }
+///
+/// Every stage answers --help, --version, --threads N, --config FILE, and --stale FILE... (prints those of
+/// FILE... that it would write differently now: other parameters, schema or varimap version, or a damaged
+/// file).
+class Stage {
+  public:
+    Stage(const std::string& name, const std::string& summary);
+    ~Stage();
+
+    // Declaration, before main().
+    void parameters(const std::function<void(ParameterList&)>& describe);
+    /// A required positional file that is read.
+    const std::string& input(const std::string& role, const std::string& help);
+    /// One or more positional files behind the others.
+    const std::vector<std::string>& input_list(const std::string& role, const std::string& help);
+    /// The positional file that is written; at most one per stage. Schema 0: a file that is no artifact, such
+    /// as a picture; it gets no side file and --stale never prints it.
+    const std::string& output(const std::string& kind, int schema, const std::string& help);
+    /// Options that do not belong to the parameters (they do not change an artifact's meaning).
+    const std::string& option(const std::string& name, const std::string& help);
+    const std::vector<std::string>& list_option(const std::string& name, const std::string& help,
+                                                int minimum = 1, int maximum = 1 << 20);
+    const bool& flag(const std::string& name, const std::string& help);
+
+    /// Parses, runs `body`, reports; returns the process's exit code. Never throws.
+    int main(int argc, char** argv, const std::function<void()>& body);
+
+    // Inside body.
+    /// Reads an artifact and records it as a direct input.
+    template <class T>
+    Artifact<T> read(const std::string& role, const std::string& path) {
+        auto artifact = read_artifact<T>(path);
+        record_input({role, artifact.header.kind, artifact.header.payload_hash});
+        return artifact;
+    }
+    /// Records a foreign file (a mesh, a landmark list) as a direct input, by its content.
+    void record_file(const std::string& role, const std::string& path);
+    void record_input(InputRecord record);
+    /// Refuses (ArtifactError) unless `child` was made from the artifact `parent` in that role.
+    static void require_lineage(const Header& child, const std::string& child_path, const std::string& role,
+                                const Header& parent, const std::string& parent_path);
+    template <class T>
+    void write(const std::string& path, const T& value) {
+        using Type = ArtifactType<T>;
+        write_encoded(path, Type::kind, Type::schema, encode(value));
+    }
+    /// A number for the side file <artifact>.run.json (levels, iterations, ...). Last value wins.
+    void record_number(const std::string& name, double value);
+    /// Number of threads of this run.
+    int threads() const;
+    /// Wall seconds, CPU seconds and peak memory in MB of this process so far.
+    struct Usage {
+        double wall_seconds, cpu_seconds, peak_megabytes;
+    };
+    Usage usage() const;
+
+  private:
+    void write_encoded(const std::string& path, const std::string& kind, int schema,
+                       const std::string& payload);
+    void write_run_file() const;
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace varimap

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "varimap/transport/cost.h"
+#include "varimap/transport/sinkhorn.h"
+
+namespace varimap {
+
+struct AlternationOptions {
+    double tolerance = 1e-3;  ///< stop when the energy changes by less than this share (Alg. 1)
+    int maximum_alternations = 30;
+    double gamma_divisor = 300;  ///< gamma = largest instantiated cost / this
+    double annealing_divisor =
+        100;  ///< the first solve of a level starts from largest cost / this, in steps of 3
+    double marginal_tolerance = 1e-2;  ///< Sinkhorn stops at this L1 error of the row sums
+    int sinkhorn_iterations = 1000;
+    double support_threshold =
+        1e-2;               ///< entries below this share of their row's and column's mass do not spread
+    double area_bound = 2;  ///< B = D^2: row and column sums stay within [m / sqrt(B), m sqrt(B)]
+    std::string area_energy = "transported";  ///< or "paper": C' with relaxed masses (cost.h)
+    double mass_penalty = 0.1;                ///< rho within these bounds / largest instantiated cost
+    double background_factor = 10;  ///< cost of entries that are not instantiated, times the largest cost
+};
+
+/// Kept entries of a plan, one sorted list of columns per row.
+using KeptEntries = std::vector<std::vector<int>>;
+
+/// What one alternation did.
+struct Alternation {
+    double energy;  ///< Eq. (3), or C', after all half-steps; without costs of comparison (Side::compared)
+    double gamma;
+    SinkhornReport sinkhorn;
+    int entries;
+};
+
+/// State of a level: the plan, its potentials, the centres that belong to it, and the samples' own mean
+/// images.
+struct Solution {
+    Coupling plan;
+    Potentials potentials;
+    RelaxedMasses relaxed;  ///< empty unless the energy is the paper's
+    CentreStep step;
+};
+
+/// Alg. 1 at one level: alternately solves for the plan on a support that follows it (Sec. 4.3) and relocates
+/// the centres. The sides are referred to, not copied: their averaging may be changed between steps
+/// (Sec. 4.4).
+class AlternatingMinimization {
+  public:
+    AlternatingMinimization(const Side& X, const Side& Y, const AlternationOptions& options)
+        : X_(X), Y_(Y), options_(options) {}
+
+    /// Begins from centres, on the enlarged kept entries; none: on all entries (coarsest level).
+    void start(const Centres& centres, const KeptEntries& kept);
+    /// The half-steps over the plan, over the relaxed masses (if the energy has them), and over the centres.
+    Alternation step() { return step(false); }
+    /// A step with a plan solved for more tightly and at last rounded, so that it keeps the area bound to
+    /// within 0.1%. The centres are those of the plan before rounding. Throws ConvergenceError where the
+    /// bound cannot be kept.
+    Alternation tight_step() { return step(true); }
+    /// Steps until the energy of Eq. (3) settles: the one that is reported, though costs of comparison have a
+    /// part in what is minimised.
+    void run(const std::function<void(const Alternation&)>& observe);
+
+    const Solution& solution() const { return solution_; }
+    Solution take_solution() { return std::move(solution_); }
+    /// Goes on from a solution found elsewhere, for the same sides.
+    void adopt(Solution solution) { solution_ = std::move(solution); }
+    const AlternationOptions& options() const { return options_; }
+
+  private:
+    Alternation step(bool tight);
+    void keep_bounds();
+    void renew_support();
+
+    const Side& X_;
+    const Side& Y_;
+    AlternationOptions options_;
+    Solution solution_;
+    bool fresh_ = true;  ///< no step since start(): the support is set and gamma is annealed
+};
+
+}  // namespace varimap

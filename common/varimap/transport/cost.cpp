@@ -1,0 +1,181 @@
+#include "varimap/transport/cost.h"
+
+#include "varimap/core/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+/// The points with a last column of their squared norms.
+RowMatrix with_squared_norms(const RowMatrix& points) {
+    RowMatrix extended(points.rows(), points.cols() + 1);
+    extended << points, points.rowwise().squaredNorm();
+    return extended;
+}
+
+/// m' where it is given, else m.
+const Eigen::VectorXd& divisor(const Side& side, const Eigen::VectorXd& relaxed) {
+    return relaxed.size() > 0 ? relaxed : side.mass;
+}
+
+/// A = diag(1/m') P' diag(m): m_k W_k(x_i) / Z_k times m_i / m'_i.
+SparseMatrix cost_weights(const Side& side, const Eigen::VectorXd& relaxed) {
+    return divisor(side, relaxed).cwiseInverse().asDiagonal() * SparseMatrix(side.averaging.transpose()) *
+           side.mass.asDiagonal();
+}
+
+/// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i +
+/// c_i.
+struct CollapsedSum {
+    RowMatrix g;
+    Eigen::VectorXd alpha, c;
+
+    CollapsedSum(const Side& side, const RowMatrix& centres, const Eigen::VectorXd& relaxed) {
+        const SparseMatrix A = cost_weights(side, relaxed);
+        g = A * centres;
+        alpha = A * Eigen::VectorXd::Ones(side.mass.size());
+        c = A * Eigen::VectorXd(centres.rowwise().squaredNorm());
+    }
+
+    /// Mean contribution per sample for its mean image, which has the mean of squared norms in its last
+    /// column.
+    Eigen::VectorXd mean(const RowMatrix& image) const {
+        const Eigen::Index D = image.cols() - 1;
+        const Eigen::VectorXd cost =
+            alpha.cwiseProduct(image.col(D)) - 2 * g.cwiseProduct(image.leftCols(D)).rowwise().sum() + c;
+        return cost.cwiseMax(0);
+    }
+};
+
+void pull(const Side& side, const Side& other, RowMatrix& centres) {
+    const double W = side.landmark_weight;
+    for (size_t k = 0; k < side.partner.size(); ++k)
+        if (side.partner[k] >= 0)
+            centres.row(k) = W * other.points.row(side.partner[k]) + (1 - W) * centres.row(k);
+}
+
+/// Mean images of a side's samples and what their neighbourhoods make of them.
+struct SideImages {
+    RowMatrix mean;           ///< samples x D: mean image of each sample
+    RowMatrix sums;           ///< per neighbourhood: sum_i p_ki rho_i / m'_i (mean image)
+    Eigen::VectorXd squares;  ///< the same sum of squared norms
+    Eigen::VectorXd weights;  ///< the same sum of 1
+
+    /// `image` has squared norms in its last column; rho are the transported masses.
+    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+               const Eigen::VectorXd& relaxed) {
+        const Eigen::Index D = image.cols() - 1;
+        const Eigen::VectorXd share = rho.cwiseQuotient(divisor(side, relaxed));
+        const RowMatrix all = side.averaging * RowMatrix(share.asDiagonal() * image);
+        mean = image.leftCols(D);
+        sums = all.leftCols(D);
+        squares = all.col(D);
+        weights = side.averaging * share;
+    }
+
+    RowMatrix centres() const { return weights.cwiseInverse().asDiagonal() * sums; }
+
+    /// sum_k m_k var[image of the k-th neighbourhood, eta_k].
+    double energy(const Eigen::VectorXd& mass, const RowMatrix& eta) const {
+        const Eigen::VectorXd spread = squares - 2 * sums.cwiseProduct(eta).rowwise().sum() +
+                                       weights.cwiseProduct(Eigen::VectorXd(eta.rowwise().squaredNorm()));
+        return mass.dot(spread);
+    }
+
+    /// What soft landmarks add, once they have moved the centres by W of the way to their partners.
+    double landmark_energy(const Side& side, const Side& other) const {
+        const double W = side.landmark_weight;
+        double distances = 0;
+        for (size_t k = 0; k < side.partner.size(); ++k)
+            if (side.partner[k] >= 0)
+                distances += side.mass[k] * weights[k] *
+                             (sums.row(k) / weights[k] - other.points.row(side.partner[k])).squaredNorm();
+        return W * (1 - W) * distances;
+    }
+};
+
+SideImages images_of_rows(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
+    return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan), relaxed.row};
+}
+SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan,
+                             const RelaxedMasses& relaxed) {
+    return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan), relaxed.column};
+}
+
+/// The m' that minimise sum_i A_i / m'_i within the bounds: clamp(s sqrt(A_i)), of sum 1.
+Eigen::VectorXd least_inverses(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+                               const RowMatrix& centres, const MassBounds& bounds) {
+    const Eigen::VectorXd mean = CollapsedSum(side, centres, {}).mean(image);
+    const Eigen::ArrayXd A = side.mass.array() * rho.array() * mean.array();
+    return bounded_masses(A.max(1e-300).log() / 2, bounds);
+}
+
+}  // namespace
+
+SparseMatrix averaging_operator(const SparseMatrix& weights, const Eigen::VectorXd& mass) {
+    SparseMatrix P = weights * mass.asDiagonal();
+    for (int k = 0; k < P.outerSize(); ++k) {
+        double total = 0;
+        for (SparseMatrix::InnerIterator it(P, k); it; ++it) total += it.value();
+        for (SparseMatrix::InnerIterator it(P, k); it; ++it) it.valueRef() /= total;
+    }
+    return P;
+}
+
+void pull_landmarks(const Side& X, const Side& Y, Centres& centres) {
+    pull(X, Y, centres.row);
+    pull(Y, X, centres.column);
+}
+
+CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed) {
+    const CollapsedSum x(X, centres.row, relaxed.row), y(Y, centres.column, relaxed.column);
+    const Eigen::Index DX = X.points.cols(), DY = Y.points.cols();
+    const Eigen::Index further = X.compared.size() > 0 ? X.compared.cols() + 2 : 0;
+    const Eigen::Index columns = DX + DY + 4 + further;
+    u_.resize(X.points.rows(), columns);
+    v_.resize(Y.points.rows(), columns);
+    const Eigen::VectorXd one_x = Eigen::VectorXd::Ones(u_.rows()), one_y = Eigen::VectorXd::Ones(v_.rows());
+    u_.leftCols(DX + DY + 4) << -2 * x.g, X.points, x.alpha, X.points.rowwise().squaredNorm(), x.c, one_x;
+    v_.leftCols(DX + DY + 4) << Y.points, -2 * y.g, Y.points.rowwise().squaredNorm(), y.alpha, one_y, y.c;
+    if (further == 0) return;
+    u_.rightCols(further) << -2 * X.compared, X.compared.rowwise().squaredNorm(), one_x;
+    v_.rightCols(further) << Y.compared, one_y, Y.compared.rowwise().squaredNorm();
+}
+
+Eigen::VectorXd CostFactors::on(const Support& support) const {
+    Eigen::VectorXd cost(support.entries());
+    parallel_for_each_index(0 + support.rows(), 32, [&](int i) {
+        for (int e = support.row_begin[i]; e < support.row_begin[i + 1]; ++e)
+            cost[e] = std::max(0.0, entry(i, support.column[e]));
+    });
+    return cost;
+}
+
+CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
+    SideImages rows = images_of_rows(X, Y, plan, relaxed), columns = images_of_columns(X, Y, plan, relaxed);
+    CentreStep step;
+    step.centres = {rows.centres(), columns.centres()};
+    pull_landmarks(X, Y, step.centres);
+    step.energy = rows.energy(X.mass, step.centres.row) + columns.energy(Y.mass, step.centres.column) +
+                  rows.landmark_energy(X, Y) + columns.landmark_energy(Y, X);
+    step.row_image = std::move(rows.mean);
+    step.column_image = std::move(columns.mean);
+    return step;
+}
+
+RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan,
+                                    const Centres& centres, const MassBounds& row_bounds,
+                                    const MassBounds& column_bounds) {
+    return {least_inverses(X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan),
+                           centres.row, row_bounds),
+            least_inverses(Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan),
+                           centres.column, column_bounds)};
+}
+
+double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
+              const RelaxedMasses& relaxed) {
+    return images_of_rows(X, Y, plan, relaxed).energy(X.mass, centres.row) +
+           images_of_columns(X, Y, plan, relaxed).energy(Y.mass, centres.column);
+}
+
+}  // namespace varimap

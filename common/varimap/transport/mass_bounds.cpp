@@ -1,0 +1,81 @@
+#include "varimap/transport/mass_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace varimap {
+
+namespace {
+
+/// clamp(phi a_i, lower_i, upper_i), as an expression.
+auto clamped(const Eigen::ArrayXd& log_a, double log_phi, const MassBounds& bounds) {
+    return (log_a + log_phi).min(700.0).exp().max(bounds.lower.array()).min(bounds.upper.array());
+}
+
+/// log phi of the linear piece between two neighbouring breakpoints, where clamped() sums to 1.
+double solve_piece(const Eigen::ArrayXd& log_a, const Eigen::ArrayXd& log_lower,
+                   const Eigen::ArrayXd& log_upper, const MassBounds& bounds, double begin, double end) {
+    const double middle = begin + (end - begin) / 2;
+    double held = 0, top = -std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < log_a.size(); ++i) {
+        if (log_a[i] + middle <= log_lower[i])
+            held += bounds.lower[i];
+        else if (log_a[i] + middle >= log_upper[i])
+            held += bounds.upper[i];
+        else
+            top = std::max(top, log_a[i]);
+    }
+    double free = 0;
+    for (Eigen::Index i = 0; i < log_a.size(); ++i)
+        if (log_a[i] + middle > log_lower[i] && log_a[i] + middle < log_upper[i])
+            free += std::exp(log_a[i] - top);
+    // Rounding may leave a piece without free lines, or the last of them without mass: then any phi of it
+    // does.
+    if (!(free > 0) || !(held < 1)) return middle;
+    return std::clamp(std::log((1 - held) / free) - top, begin, end);
+}
+
+}  // namespace
+
+MassBounds MassBounds::around(const Eigen::VectorXd& mass, double factor) {
+    return {mass / factor, mass * factor};
+}
+
+MassBounds MassBounds::within(const MassBounds& other) const {
+    return {lower.cwiseMax(other.lower), upper.cwiseMin(other.upper)};
+}
+
+Eigen::VectorXd MassBounds::projected(const Eigen::VectorXd& mass) const {
+    return exact() ? lower : bounded_masses(mass.array().log(), *this);
+}
+
+double MassBounds::excess(const Eigen::VectorXd& mass) const {
+    const Eigen::ArrayXd above = mass.array() / upper.array(), below = lower.array() / mass.array();
+    return std::max(0.0, std::max(above.maxCoeff(), below.maxCoeff()) - 1);
+}
+
+Eigen::VectorXd bounded_masses(const Eigen::ArrayXd& log_a, const MassBounds& bounds) {
+    const Eigen::ArrayXd log_lower = bounds.lower.array().log(), log_upper = bounds.upper.array().log();
+    std::vector<double> breakpoints(2 * log_a.size());
+    Eigen::Map<Eigen::ArrayXd>(breakpoints.data(), log_a.size()) = log_lower - log_a;
+    Eigen::Map<Eigen::ArrayXd>(breakpoints.data() + log_a.size(), log_a.size()) = log_upper - log_a;
+    // Sorts only around the place looked for: every halving puts one breakpoint where sorting would.
+    auto begin = breakpoints.begin(), after = breakpoints.end();
+    while (begin < after) {
+        const auto middle = begin + (after - begin) / 2;
+        std::nth_element(begin, middle, after);
+        if (clamped(log_a, *middle, bounds).sum() < 1)
+            begin = middle + 1;
+        else
+            after = middle;
+    }
+    // All at one end of their bounds: the sums of the bounds are 1 but for rounding.
+    if (after == breakpoints.begin()) return bounds.lower;
+    if (after == breakpoints.end()) return bounds.upper;
+    return clamped(log_a, solve_piece(log_a, log_lower, log_upper, bounds, *std::prev(after), *after),
+                   bounds);
+}
+
+}  // namespace varimap

@@ -1,0 +1,188 @@
+#include "varimap/transport/support.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "varimap/core/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+/// Collects distinct numbers below a bound, quickly and repeatedly.
+class DistinctSet {
+  public:
+    explicit DistinctSet(int bound) : stamp_(bound, 0) {}
+    void clear() {
+        ++generation_;
+        members_.clear();
+    }
+    void add(int i) {
+        if (stamp_[i] == generation_) return;
+        stamp_[i] = generation_;
+        members_.push_back(i);
+    }
+    std::vector<int> sorted() {
+        std::sort(members_.begin(), members_.end());
+        return members_;
+    }
+
+  private:
+    std::vector<int> stamp_, members_;
+    int generation_ = 0;
+};
+
+/// For each row k of `outer`: the union of the lists inner[i] over the columns i of that row.
+std::vector<std::vector<int>> union_over_neighbours(const SparseMatrix& outer,
+                                                    const std::vector<std::vector<int>>& inner, int bound) {
+    std::vector<std::vector<int>> result(outer.rows());
+    tbb::parallel_for(tbb::blocked_range<int>(0, int(outer.rows()), 256), [&](const auto& range) {
+        DistinctSet set(bound);
+        for (int k = range.begin(); k < range.end(); ++k) {
+            set.clear();
+            for (SparseMatrix::InnerIterator it(outer, k); it; ++it)
+                for (int j : inner[it.col()]) set.add(j);
+            result[k] = set.sorted();
+        }
+    });
+    return result;
+}
+
+std::vector<std::vector<int>> union_over_entries(const std::vector<std::vector<int>>& kept,
+                                                 const SparseMatrix& inner) {
+    std::vector<std::vector<int>> result(kept.size());
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, kept.size(), 256), [&](const auto& range) {
+        DistinctSet set(int(inner.cols()));
+        for (size_t i = range.begin(); i < range.end(); ++i) {
+            set.clear();
+            for (int j : kept[i])
+                for (SparseMatrix::InnerIterator it(inner, j); it; ++it) set.add(int(it.col()));
+            result[i] = set.sorted();
+        }
+    });
+    return result;
+}
+
+RowMatrix normalised(RowMatrix sums, const Eigen::VectorXd& totals) {
+    return totals.cwiseInverse().asDiagonal() * sums;
+}
+
+}  // namespace
+
+Support::Support(std::vector<std::vector<int>> columns, int column_count)
+    : row_begin(columns.size() + 1, 0), column_begin(column_count + 1, 0) {
+    for (size_t i = 0; i < columns.size(); ++i) row_begin[i + 1] = row_begin[i] + int(columns[i].size());
+    column.reserve(row_begin.back());
+    for (auto& list : columns) {
+        column.insert(column.end(), list.begin(), list.end());
+        std::vector<int>().swap(list);
+    }
+    for (int j : column) ++column_begin[j + 1];
+    std::partial_sum(column_begin.begin(), column_begin.end(), column_begin.begin());
+    std::vector<int> next(column_begin.begin(), column_begin.end() - 1);
+    row.resize(column.size());
+    by_row.resize(column.size());
+    for (int i = 0; i < rows(); ++i)
+        for (int e = row_begin[i]; e < row_begin[i + 1]; ++e) {
+            const int place = next[column[e]]++;
+            row[place] = i;
+            by_row[place] = e;
+        }
+}
+
+Support Support::dense(int rows, int columns) {
+    std::vector<int> all(columns);
+    std::iota(all.begin(), all.end(), 0);
+    return Support(std::vector<std::vector<int>>(rows, all), columns);
+}
+
+Eigen::VectorXd row_sums(const Coupling& plan) {
+    Eigen::VectorXd sums = plan.row_background * plan.column_background.sum();
+    for (int i = 0; i < plan.support.rows(); ++i)
+        for (int e = plan.support.row_begin[i]; e < plan.support.row_begin[i + 1]; ++e)
+            sums[i] += plan.value[e];
+    return sums;
+}
+
+Eigen::VectorXd column_sums(const Coupling& plan) {
+    Eigen::VectorXd sums = plan.column_background * plan.row_background.sum();
+    for (int j = 0; j < plan.support.columns(); ++j)
+        for (int e = plan.support.column_begin[j]; e < plan.support.column_begin[j + 1]; ++e)
+            sums[j] += plan.value[plan.support.by_row[e]];
+    return sums;
+}
+
+RowMatrix row_barycentres(const Coupling& plan, const RowMatrix& points) {
+    const Support& s = plan.support;
+    RowMatrix sums = plan.row_background * (plan.column_background.transpose() * points);
+    parallel_for_each_index(0 + s.rows(), 64, [&](int i) {
+        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
+            if (plan.value[e] > 0) sums.row(i) += plan.value[e] * points.row(s.column[e]);
+    });
+    return normalised(std::move(sums), row_sums(plan));
+}
+
+RowMatrix column_barycentres(const Coupling& plan, const RowMatrix& points) {
+    const Support& s = plan.support;
+    RowMatrix sums = plan.column_background * (plan.row_background.transpose() * points);
+    parallel_for_each_index(0 + s.columns(), 64, [&](int j) {
+        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e) {
+            const double value = plan.value[s.by_row[e]];
+            if (value > 0) sums.row(j) += value * points.row(s.row[e]);
+        }
+    });
+    return normalised(std::move(sums), column_sums(plan));
+}
+
+std::vector<std::vector<int>> significant_entries(const Coupling& plan, const Eigen::VectorXd& row_mass,
+                                                  const Eigen::VectorXd& column_mass, double threshold) {
+    const Support& s = plan.support;
+    std::vector<char> keep(s.entries(), 0);
+    std::vector<int> best_of_column(s.columns(), -1);
+    for (int i = 0; i < s.rows(); ++i) {
+        int best = -1;
+        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e) {
+            const int j = s.column[e];
+            const double value = plan.value[e];
+            keep[e] = value >= threshold * row_mass[i] || value >= threshold * column_mass[j];
+            if (best < 0 || value > plan.value[best]) best = e;
+            if (best_of_column[j] < 0 || value > plan.value[best_of_column[j]]) best_of_column[j] = e;
+        }
+        if (best >= 0) keep[best] = 1;
+    }
+    for (int e : best_of_column)
+        if (e >= 0) keep[e] = 1;
+    std::vector<std::vector<int>> kept(s.rows());
+    for (int i = 0; i < s.rows(); ++i)
+        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
+            if (keep[e]) kept[i].push_back(s.column[e]);
+    return kept;
+}
+
+Support enlarged(const std::vector<std::vector<int>>& kept, const SparseMatrix& row_neighbours,
+                 const SparseMatrix& column_neighbours) {
+    const int columns = int(column_neighbours.rows());
+    return Support(
+        union_over_neighbours(row_neighbours, union_over_entries(kept, column_neighbours), columns), columns);
+}
+
+std::vector<std::vector<int>> inherited(const std::vector<std::vector<int>>& kept,
+                                        const std::vector<int>& row_parent,
+                                        const std::vector<int>& column_parent) {
+    int coarse_columns = 0;
+    for (int q : column_parent) coarse_columns = std::max(coarse_columns, q + 1);
+    for (const auto& list : kept)
+        for (int q : list) coarse_columns = std::max(coarse_columns, q + 1);
+    std::vector<std::vector<int>> children(coarse_columns);
+    for (size_t j = 0; j < column_parent.size(); ++j) children[column_parent[j]].push_back(int(j));
+
+    std::vector<std::vector<int>> result(row_parent.size());
+    parallel_for_each_index(size_t(0) + row_parent.size(), size_t(256), [&](size_t i) {
+        for (int q : kept[row_parent[i]])
+            result[i].insert(result[i].end(), children[q].begin(), children[q].end());
+        std::sort(result[i].begin(), result[i].end());
+    });
+    return result;
+}
+
+}  // namespace varimap

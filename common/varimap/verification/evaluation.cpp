@@ -1,0 +1,112 @@
+#include "varimap/verification/evaluation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "varimap/core/error.h"
+#include "varimap/core/parallel.h"
+#include "varimap/mesh/geodesic.h"
+
+namespace varimap {
+
+namespace {
+
+/// Per vertex the corner of one of its faces; face -1 where it has none.
+PointMap vertex_points(const TriangleMesh& mesh) {
+    PointMap points(size_t(mesh.vertex_count()));
+    for (int f = mesh.face_count() - 1; f >= 0; --f)
+        for (int k = 0; k < 3; ++k) points[size_t(mesh.faces(f, k))] = {f, Vec3::Unit(k)};
+    return points;
+}
+
+struct Pair {
+    int source, target;
+    SurfacePoint image, truth;
+};
+
+void require_possible(const Pair& pair, size_t row, const TriangleMesh& target) {
+    if (pair.image.face >= target.face_count())
+        throw InputError(fmt::format("the map sends vertex {} to face {}, but the target has {} faces",
+                                     pair.source, pair.image.face, target.face_count()));
+    if (pair.truth.face < 0)
+        throw InputError(
+            fmt::format("row {} of the target's points: vertex {} belongs to no face", row + 1, pair.target));
+}
+
+std::vector<Pair> pairs_with_images(const PointMap& map, const TriangleMesh& target,
+                                    const std::vector<int>& source_points,
+                                    const std::vector<int>& target_points) {
+    if (source_points.size() != target_points.size())
+        throw InputError(fmt::format("{} points on the source but {} on the target; they match row by row",
+                                     source_points.size(), target_points.size()));
+    const PointMap at_vertex = vertex_points(target);
+    std::vector<Pair> pairs;
+    for (size_t i = 0; i < source_points.size(); ++i) {
+        const int s = source_points[i], t = target_points[i];
+        if (s < 0 || size_t(s) >= map.size())
+            throw InputError(fmt::format("row {} of the source's points: vertex {}, but the map has {} rows",
+                                         i + 1, s, map.size()));
+        if (t < 0 || t >= target.vertex_count())
+            throw InputError(fmt::format("row {} of the target's points: vertex {}, but the mesh has {}",
+                                         i + 1, t, target.vertex_count()));
+        const Pair pair{s, t, map[size_t(s)], at_vertex[size_t(t)]};
+        if (pair.image.face < 0) continue;
+        require_possible(pair, i, target);
+        pairs.push_back(pair);
+    }
+    return pairs;
+}
+
+}  // namespace
+
+MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
+                     const std::vector<int>& target_points) {
+    const auto pairs = pairs_with_images(map, target, source_points, target_points);
+    if (pairs.empty()) throw InputError("the map gives an image to none of the source's points");
+    const double unit = std::sqrt(surface_area(target));
+    if (!(unit > 0)) throw InputError("the target mesh has no area");
+    const Geodesic distance(target);
+    MapErrors result{std::vector<double>(pairs.size()), int(source_points.size() - pairs.size())};
+    parallel_for_each_index(pairs.size(), size_t(16), [&](size_t i) {
+        result.errors[i] = distance(pairs[i].image, pairs[i].truth) / unit;
+    });
+    for (size_t i = 0; i < pairs.size(); ++i)
+        if (!std::isfinite(result.errors[i]))
+            throw InputError(
+                fmt::format("the image of source vertex {} and target vertex {} lie on different "
+                            "components of the target",
+                            pairs[i].source, pairs[i].target));
+    return result;
+}
+
+double MapErrors::mean() const {
+    return std::accumulate(errors.begin(), errors.end(), 0.) / double(errors.size());
+}
+
+double MapErrors::median() const {
+    std::vector<double> sorted = errors;
+    std::sort(sorted.begin(), sorted.end());
+    const size_t n = sorted.size();
+    return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
+}
+
+double MapErrors::maximum() const {
+    return *std::max_element(errors.begin(), errors.end());
+}
+
+double MapErrors::share_within(double bound) const {
+    const auto within = std::count_if(errors.begin(), errors.end(), [&](double e) { return e <= bound; });
+    return double(within) / double(errors.size());
+}
+
+std::string curve_csv(const MapErrors& errors) {
+    std::string csv = "error,share\n";
+    for (int i = 0; i <= 100; ++i)
+        csv += fmt::format("{:.4f},{:.6f}\n", i * .0025, errors.share_within(i * .0025));
+    return csv;
+}
+
+}  // namespace varimap

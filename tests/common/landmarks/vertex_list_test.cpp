@@ -1,0 +1,176 @@
+#include "varimap/landmarks/vertex_list.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fixtures/temporary_folder.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+
+namespace varimap {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+/// A strip of triangles over vertices 0 to 9; vertex 10 belongs to no face.
+TriangleMesh strip() {
+    TriangleMesh mesh{Points(11, 3), Faces(8, 3)};
+    for (int v = 0; v < 11; ++v) mesh.vertices.row(v) << v / 2, v % 2, .1 * v;
+    for (int f = 0; f < 8; ++f) mesh.faces.row(f) << f, f + 1, f + 2;
+    return mesh;
+}
+
+class VertexList : public testing::Test {
+  protected:
+    std::string write(const std::string& name, const std::string& text) {
+        const std::string path = folder_ / name;
+        write_file_atomically(path, text);
+        return path;
+    }
+    /// The message of the InputError that reading the pairs or lists throws; empty if it throws none.
+    std::string error_of(const std::vector<std::string>& files) {
+        try {
+            read_landmarks(files, mesh_, mesh_);
+            return {};
+        } catch (const InputError& error) {
+            return error.what();
+        }
+    }
+    TemporaryFolder folder_;
+    const TriangleMesh mesh_ = strip();
+};
+
+TEST_F(VertexList, ReadsNumbersCommentsAndBlankLines) {
+    const auto path = write("a.pinned", "# five\n 3\n\n0 # first\r\n\t7\n");
+    EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 0, 7));
+    EXPECT_THAT(read_vertex_list(path, IndexBase::zero, nullptr), ElementsAre(3, 0, 7));
+}
+
+TEST_F(VertexList, ShiftsWhereNumbersStartAtOne) {
+    const auto path = write("a.vts", "1\n8\n");
+    EXPECT_THAT(read_vertex_list(path, IndexBase::one, &mesh_), ElementsAre(0, 7));
+}
+
+TEST_F(VertexList, LetsCoordinatesDecideTheBase) {
+    const auto zero = write("zero.vts", "2 1 0 0.2\n5 2 1 0.5\n"),
+               one = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
+    EXPECT_THAT(read_vertex_list(zero, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
+    EXPECT_THAT(read_vertex_list(one, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
+    EXPECT_THAT(read_vertex_list(one, IndexBase::zero, &mesh_), ElementsAre(3, 6));
+}
+
+TEST_F(VertexList, StartsAtZeroWhereCoordinatesSayNothing) {
+    const auto path = write("a.vts", "3 0.0 0.0 0.0\n6 0.0 0.0 0.0\n");
+    EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 6));
+}
+
+TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"1\nx\n", ":2: 'x' is not a number"},
+        {"1 2\n", ":1: expected a vertex number"},
+        {"1\n2.5\n", ":2: 2.5 is not a vertex number"},
+        {"-1\n", ":1: vertex -1 is out of range"},
+        {"1\n11\n", ":2: vertex 11 is out of range: the mesh has 11"},
+        {"1 0 nan 0\n", ":1: 'nan' is not a number"},
+        {"# nothing\n", "holds no vertex numbers"}};
+    for (const auto& [text, message] : cases) {
+        const auto path = write("bad.txt", text);
+        try {
+            read_vertex_list(path, IndexBase::zero, &mesh_);
+            ADD_FAILURE() << text;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(path));
+            EXPECT_THAT(error.what(), HasSubstr(message));
+        }
+    }
+    EXPECT_THROW(read_vertex_list(write("one.txt", "0\n"), IndexBase::one, &mesh_), InputError);
+    EXPECT_THROW(read_vertex_list(folder_ / "absent", IndexBase::zero, nullptr), IoError);
+}
+
+TEST_F(VertexList, ReadsLandmarksFromPairsOrFromTwoLists) {
+    const auto expected = ElementsAre(Pair(3, 0), Pair(5, 9));
+    const auto pairs = write("pairs.txt", "# source target\n3 0\n5 9\n");
+    EXPECT_THAT(read_landmark_pairs(pairs), expected);
+    EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_).vertices, expected);
+    const auto sources = write("s.pinned", "3\n5\n"), targets = write("t.vts", "1 0 0 0\n10 4 1 .9\n");
+    EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices, expected);
+    EXPECT_THROW(read_landmarks({pairs, pairs, pairs}, mesh_, mesh_), UsageError);
+}
+
+TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
+    EXPECT_THAT(error_of({write("a", "1 2\n3 4\n1 5\n")}),
+                HasSubstr(":3: source vertex 1 is already the landmark of line 1"));
+    EXPECT_THAT(error_of({write("a", "1 2\n3 2\n")}), HasSubstr(":2: target vertex 2 is already"));
+    EXPECT_THAT(error_of({write("a", "1 2\n3 12\n")}),
+                HasSubstr(":2: vertex 12 is out of range: the mesh has 11 vertices"));
+    EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr(":1: target vertex 10 belongs to no face"));
+    EXPECT_THAT(error_of({write("a", "1\n")}), HasSubstr(":1: expected two vertex numbers"));
+    EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
+}
+
+TEST(IndexBaseText, IsReadOrRefused) {
+    EXPECT_EQ(index_base_from("auto"), IndexBase::automatic);
+    EXPECT_EQ(index_base_from("1"), IndexBase::one);
+    EXPECT_THROW(index_base_from("2"), UsageError);
+}
+
+TEST_F(VertexList, SnapsRowsOfCoordinatesToTheSurface) {
+    // Vertices 4 and 7 of the strip, lifted off it a little, and a point nearest to vertex 2.
+    const auto pairs = write("pairs.txt", "2 0 .41 3 1 .7\n1.1 0.05 .2 0 0 0\n");
+    EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_).vertices, ElementsAre(Pair(4, 7), Pair(2, 0)));
+    const auto sources = write("a.txt", "2 0 .4\n1 0 .2\n"), targets = write("b.txt", "7\n0\n");
+    EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices,
+                ElementsAre(Pair(4, 7), Pair(2, 0)));
+    EXPECT_THAT(error_of({write("bad.txt", "2 0 .4\n1 0\n"), targets}),
+                HasSubstr("bad.txt:2: expected the three"));
+}
+
+TEST_F(VertexList, KeepsWherePointsWerePicked) {
+    const Landmarks landmarks =
+        read_landmarks({write("a.txt", "1 0 .2\n"), write("b.txt", "1.7 .3 .37\n")}, mesh_, mesh_);
+    ASSERT_EQ(landmarks.points.size(), 1u);
+    EXPECT_LT((position(mesh_, landmarks.points[0].first) - Vec3(1, 0, .2)).norm(), 1e-12);
+    EXPECT_LT((position(mesh_, landmarks.points[0].second) - Vec3(1.7, .3, .37)).norm(), 1e-12);
+    EXPECT_TRUE(read_landmarks({write("v.txt", "4 7\n")}, mesh_, mesh_).points.empty()) << "vertices";
+    EXPECT_EQ(read_landmarks({write("c.txt", "4\n"), write("d.txt", "2 0 .4\n")}, mesh_, mesh_).points.size(),
+              1u);
+}
+
+TEST_F(VertexList, MatchesPickedPointsByName) {
+    const auto meshlab =
+        write("a.pp",
+              "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData/>\n"
+              " <point x=\"2\" y=\"0\" z=\".4\" name=\"nose\" active=\"1\"/>\n"
+              " <point name=\"tail\" active=\"1\" z=\".7\" y=\"1\" x=\"3\"/>\n"
+              " <point x=\"0\" y=\"0\" z=\"0\" name=\"off\" active=\"0\"/>\n</PickedPoints>\n");
+    const auto slicer = write("b.mrk.json", R"({"markups": [{"type": "Fiducial", "controlPoints": [
+        {"label": "ear", "position": [0, 0, 0]}, {"label": "tail", "position": [1, 0, 0.2]},
+        {"label": "nose", "position": [4, 1, 0.9]}]}]})");
+    const auto old_slicer = write("c.fcsv",
+                                  "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
+                                  "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n");
+    EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_).vertices,
+                ElementsAre(Pair(4, 9), Pair(7, 2)));
+    EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_).vertices,
+                ElementsAre(Pair(4, 1), Pair(7, 2)));
+    EXPECT_THAT(error_of({meshlab, write("other.fcsv", "1,0,0,0,0,0,0,1,1,1,0,paw,,\n")}),
+                HasSubstr("no name in common"));
+    EXPECT_THROW(read_landmarks({meshlab}, mesh_, mesh_), UsageError);
+}
+
+TEST_F(VertexList, RefusesDamagedFilesOfPickedPoints) {
+    const auto good = write("good.fcsv", "1,1,0,.2\n");
+    EXPECT_THAT(error_of({write("a.pp", "<PickedPoints>\n<point x=\"1\" y=\"2\"/>\n"), good}),
+                HasSubstr("a.pp:2: a point without"));
+    EXPECT_THAT(error_of({write("b.pp", "<point x=\"1\" y=\"2\" z=\"high\"/>"), good}),
+                HasSubstr("'high' is not a coordinate"));
+    EXPECT_THAT(error_of({write("c.pp", ""), good}), HasSubstr("c.pp: holds no points"));
+    EXPECT_THAT(error_of({write("d.json", "{\"markups\": 3"), good}),
+                HasSubstr("is not a 3D Slicer markups file"));
+    EXPECT_THAT(error_of({write("e.fcsv", "1,2\n"), good}), HasSubstr("e.fcsv:1: expected id,x,y,z"));
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,67 @@
+#include "varimap/multilevel/ironing.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/known_pair.h"
+#include "varimap/multilevel/solve_level.h"
+
+namespace varimap {
+namespace {
+
+using shapes::KnownPair;
+
+/// For every vertex of the rest surface the one that a map starts from in its place: the left foreleg and the
+/// tail are mirrored, each across its own axis.
+std::vector<int> with_mirrored_limbs(const Surface& rest) {
+    std::vector<int> vertex;
+    for (int v = 0; v < rest.mesh.vertex_count(); ++v) {
+        Vec3 p = rest.mesh.vertex(v) / rest.scale + rest.centre;
+        const bool on_leg = p[0] > 0 && p[1] > 0 && p[2] < -.45, on_tail = p[0] < -1.3;
+        const double axis = on_leg ? .25 - .0857 * (p[2] + .2) : -.111 * (p[0] + 1.2);
+        if (on_leg || on_tail) p[1] = 2 * axis - p[1];
+        vertex.push_back(shapes::nearest_vertex(rest.mesh, (p - rest.centre) * rest.scale));
+    }
+    return vertex;
+}
+
+/// Centres of the true map after a move of the source's vertices that is its own inverse.
+Centres centres_after(const std::vector<int>& move, const LevelPair& pair, const KnownPair& figures) {
+    const TriangleMesh &A = figures.A.surface.mesh, &B = figures.B.surface.mesh;
+    std::vector<int> row, column;
+    for (int s : pair.A.level.samples)
+        row.push_back(shapes::nearest_vertex(B, figures.A_on_B.row(move[std::size_t(s)]).transpose()));
+    for (int s : pair.B.level.samples)
+        column.push_back(move[std::size_t(shapes::nearest_vertex(A, figures.B_on_A.row(s).transpose()))]);
+    return {pair.A.side.averaging * RowMatrix(pair.B.vertex_points(row, Eigen::all)),
+            pair.B.side.averaging * RowMatrix(pair.A.vertex_points(column, Eigen::all))};
+}
+
+/// Share of the mass on which a level's map is reversed, solved from the map with mirrored limbs.
+double reversed_mass(const PairContext& context, const KnownPair& figures, bool iron, double* energy) {
+    constexpr int index = 7;  // about 400 samples
+    LevelPair pair = context.diffusion_level(index);
+    const Start start{centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}};
+    IroningOptions options;
+    options.enabled = iron;
+    std::vector<TraceRow> trace;
+    AlternationOptions alternation;
+    alternation.area_bound = 1;
+    const Solution solution = solve_level(context, pair, start, index, alternation, options, false, trace);
+    *energy = solution.step.energy;
+    // Weights are back to what they were.
+    EXPECT_EQ(RowMatrix(pair.A.side.averaging),
+              RowMatrix(averaging_operator(pair.A.side.weights, pair.A.side.mass)));
+    return Ironing(context, pair, options).measure(solution).reversed_mass();
+}
+
+TEST(Ironing, TurnsMirroredLimbsBack) {
+    const KnownPair figures = shapes::figure_pair(.6, false);
+    const PairContext context = figures.context();
+    double energy_without, energy_with;
+    EXPECT_GT(reversed_mass(context, figures, false, &energy_without), .05);
+    EXPECT_LT(reversed_mass(context, figures, true, &energy_with), .015);
+    EXPECT_LT(energy_with, energy_without);
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,185 @@
+#include "varimap/quality/quality.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+using shapes::at_vertices;
+
+TriangleMesh rectangle(int n, double width, double height) {
+    TriangleMesh mesh = shapes::square(n);
+    mesh.vertices.col(0) *= width;
+    mesh.vertices.col(1) *= height;
+    return mesh;
+}
+
+void expect_all(const Quantiles& q, double value) {
+    for (const double quantile : {q.p01, q.p05, q.p50, q.p95, q.p99}) EXPECT_NEAR(quantile, value, 1e-9);
+}
+
+/// Closest points of each vertex of a mesh moved by `move`.
+template <class Move>
+PointMap map_by(const TriangleMesh& source, const TriangleMesh& target, const Move& move) {
+    const ClosestPoint closest(target);
+    PointMap map;
+    for (int v = 0; v < source.vertex_count(); ++v) map.push_back(closest(move(source.vertex(v))).point);
+    return map;
+}
+
+/// A sphere with a long limb upwards.
+TriangleMesh sphere_with_limb(int level) {
+    TriangleMesh mesh = shapes::ellipsoid(level);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double z = mesh.vertices(v, 2);
+        if (z > 0.9) mesh.vertices(v, 2) = 0.9 + 40 * (z - 0.9);
+    }
+    return mesh;
+}
+
+TEST(WeightedQuantile, CountsWeights) {
+    const std::vector<double> values{3, 1, 2}, weights{1, 1, 98};
+    EXPECT_EQ(weighted_quantile(values, weights, 0.5), 2);
+    EXPECT_EQ(weighted_quantile(values, weights, 0.01), 1);
+    EXPECT_EQ(weighted_quantile(values, weights, 0.995), 3);
+    EXPECT_EQ(weighted_quantile({}, {}, 0.5), 0);
+}
+
+TEST(Quality, IdentityIsPerfect) {
+    for (const TriangleMesh& mesh : {shapes::ellipsoid(3), rectangle(9, 3, 1), sphere_with_limb(3)}) {
+        const PointMap identity = at_vertices(mesh);
+        const Distortion d = measure_distortion(identity, mesh, mesh);
+        EXPECT_EQ(d.flipped_count, 0);
+        EXPECT_EQ(d.collapsed_count, 0);
+        EXPECT_EQ(d.flipped_area_percent, 0);
+        expect_all(d.area_ratio, 1);
+        expect_all(d.conformal_distortion, 1);
+        EXPECT_NEAR(d.dirichlet_energy, 1, 1e-12);
+        EXPECT_NEAR(measure_coverage(identity, mesh, mesh), 1, 1e-12);
+        const RoundTrip round_trip = measure_round_trip(identity, identity, mesh, mesh);
+        EXPECT_NEAR(round_trip.mean, 0, 1e-12);
+        EXPECT_NEAR(round_trip.p95, 0, 1e-12);
+    }
+}
+
+TEST(Quality, DoesNotDependOnScaleAndPlace) {
+    const TriangleMesh mesh = shapes::ellipsoid(2);
+    TriangleMesh moved = mesh;
+    moved.vertices *= 250;
+    moved.vertices.rowwise() += Eigen::RowVector3d(1e3, -2e3, 5e2);
+    const PointMap identity = at_vertices(mesh);
+    const Distortion d = measure_distortion(identity, mesh, moved);
+    EXPECT_EQ(d.flipped_count, 0);
+    expect_all(d.area_ratio, 1);
+    EXPECT_NEAR(d.dirichlet_energy, 1, 1e-9);
+    EXPECT_NEAR(measure_coverage(identity, mesh, moved), 1, 1e-9);
+    EXPECT_NEAR(measure_round_trip(identity, identity, moved, mesh).mean, 0, 1e-9);
+}
+
+TEST(Quality, MirrorImageIsAllFlipped) {
+    const TriangleMesh mesh = shapes::ellipsoid(3);
+    const PointMap mirror = map_by(mesh, mesh, [](const Vec3& p) { return Vec3(-p[0], p[1], p[2]); });
+    const Distortion d = measure_distortion(mirror, mesh, mesh);
+    EXPECT_EQ(d.flipped_count, mesh.face_count());
+    EXPECT_NEAR(d.flipped_area_percent, 100, 1e-9);
+    EXPECT_EQ(d.collapsed_count, 0);
+    expect_all(d.area_ratio, 1);
+    EXPECT_NEAR(measure_coverage(mirror, mesh, mesh), 1, 1e-12) << "flips are not gaps";
+    EXPECT_NEAR(measure_round_trip(mirror, mirror, mesh, mesh).mean, 0, 1e-7);
+}
+
+TEST(Quality, StretchHasItsSingularValues) {
+    const TriangleMesh source = rectangle(6, 1, 1), target = rectangle(6, 4, 1);
+    const PointMap stretch = at_vertices(target);  // at unit areas: sigma = 2 and 1/2
+    const Distortion d = measure_distortion(stretch, source, target);
+    EXPECT_EQ(d.flipped_count, 0);
+    expect_all(d.area_ratio, 1);
+    expect_all(d.conformal_distortion, 4);
+    EXPECT_NEAR(d.dirichlet_energy, (4 + 0.25) / 2, 1e-9);
+}
+
+TEST(Quality, AreaRatioIsImageOverSource) {
+    const TriangleMesh mesh = rectangle(8, 1, 1);
+    const PointMap shrink = map_by(mesh, mesh, [](const Vec3& p) { return Vec3(p / 2); });
+    const Distortion d = measure_distortion(shrink, mesh, mesh);
+    expect_all(d.area_ratio, 0.25);
+    expect_all(d.conformal_distortion, 1);
+    EXPECT_NEAR(d.dirichlet_energy, 0.25, 1e-9);
+    EXPECT_NEAR(measure_coverage(shrink, mesh, mesh), 0.25, 1e-9);
+}
+
+TEST(Quality, CollapsedTrianglesAreFlippedAndFinite) {
+    const TriangleMesh mesh = shapes::ellipsoid(2);
+    const PointMap point(std::size_t(mesh.vertex_count()), SurfacePoint{5, Vec3(0.2, 0.3, 0.5)});
+    const Distortion d = measure_distortion(point, mesh, mesh);
+    EXPECT_EQ(d.flipped_count, mesh.face_count());
+    EXPECT_EQ(d.collapsed_count, mesh.face_count());
+    EXPECT_EQ(d.conformal_distortion.p50, conformal_distortion_cap);
+    EXPECT_EQ(d.area_ratio.p99, 0);
+    EXPECT_NEAR(d.dirichlet_energy, 0, 1e-12);
+    EXPECT_EQ(measure_coverage(point, mesh, mesh), 0);
+}
+
+TEST(Quality, VerticesWithoutImageAreLeftOut) {
+    const TriangleMesh mesh = shapes::ellipsoid(2);
+    PointMap map = at_vertices(mesh);
+    map[0] = {};
+    const Distortion d = measure_distortion(map, mesh, mesh);
+    EXPECT_EQ(d.flipped_count, 0);
+    EXPECT_NEAR(d.dirichlet_energy, 1, 0.1);
+    EXPECT_LT(measure_coverage(map, mesh, mesh), 1);
+    EXPECT_NEAR(measure_round_trip(map, map, mesh, mesh).p95, 0, 1e-12);
+}
+
+TEST(Coverage, GoodMapsBetweenUnequalMeshesCoverEverything) {
+    const auto outward = [](const Vec3& p) { return p; };
+    const auto covers = [&](const TriangleMesh& source, const TriangleMesh& target) {
+        return measure_coverage(map_by(source, target, outward), source, target);
+    };
+    EXPECT_GT(covers(shapes::ellipsoid(2), shapes::ellipsoid(4)), 0.995);
+    EXPECT_GT(covers(shapes::ellipsoid(4), shapes::ellipsoid(2)), 0.995);
+    EXPECT_GT(covers(shapes::figure(0.12), shapes::figure(0.12, 0.5)), 0.995);
+    EXPECT_GT(covers(shapes::figure(0.12), shapes::figure(0.06)), 0.99);
+}
+
+TEST(Coverage, LosesTheAreaOfAMissedLimb) {
+    const TriangleMesh mesh = sphere_with_limb(4);
+    const auto is_limb = [&](int f, double z) { return position(mesh, {f, Vec3::Constant(1. / 3)})[2] > z; };
+    double limb = 0;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (is_limb(f, 0.9)) limb += face_normal(mesh, f).norm() / 2;
+    const double share = limb / surface_area(mesh);
+    ASSERT_GT(share, 0.15);
+    const TriangleMesh ball = shapes::ellipsoid(4);
+    const PointMap flattened =
+        map_by(ball, mesh, [](const Vec3& p) { return Vec3(p[0], p[1], std::min(p[2], 0.9)); });
+    EXPECT_NEAR(measure_coverage(flattened, ball, mesh), 1 - share, 0.03);
+}
+
+TEST(RoundTrip, MeasuresTheDistance) {
+    const TriangleMesh mesh = rectangle(10, 2, 2);
+    const PointMap identity = at_vertices(mesh);
+    const PointMap shrink = map_by(mesh, mesh, [](const Vec3& p) { return Vec3(p[0], 0.5 * p[1], 0); });
+    const RoundTrip round_trip = measure_round_trip(shrink, identity, mesh, mesh);
+    EXPECT_NEAR(round_trip.mean, 0.25, 1e-9);  // mean of y/2 over [0, 2], by side length 2
+    EXPECT_NEAR(round_trip.p95, 0.475, 0.026);
+}
+
+TEST(LandmarkResiduals, AreDistancesBySquareRootOfArea) {
+    const TriangleMesh mesh = rectangle(2, 3, 3);
+    const auto residuals = landmark_residuals(at_vertices(mesh),
+                                              {{point_at_vertex(mesh, 4), point_at_vertex(mesh, 4)},
+                                               {point_at_vertex(mesh, 0), point_at_vertex(mesh, 2)}},
+                                              mesh, mesh);
+    ASSERT_EQ(residuals.size(), 2u);
+    EXPECT_NEAR(residuals[0], 0, 1e-12);
+    EXPECT_NEAR(residuals[1], 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace varimap

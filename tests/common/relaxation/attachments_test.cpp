@@ -1,0 +1,86 @@
+#include "varimap/relaxation/attachments.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/relaxation/global_relaxation.h"
+#include "varimap/relaxation/untangling.h"
+
+namespace varimap {
+namespace {
+
+TEST(Attachment, HasTheDerivativesOfItsValue) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    MovingMap map(shapes::turned_identity(sphere, 0.1), sphere, sphere);
+    const double step = 1e-6;
+    for (int f = 0; f < sphere.face_count(); f += 17) {
+        const Attachment attachment{{f, Vec3(0.2, 0.5, 0.3)}, map.target().vertex(f / 3), 2, 0.2};
+        std::vector<Eigen::Matrix<double, 3, 2>> frames;
+        for (int v = 0; v < sphere.vertex_count(); ++v) frames.push_back(map.tangents(v));
+        const AttachmentSystem system = derivatives(attachment, map, frames);
+        for (int k = 0; k < 3; ++k) {
+            const int v = sphere.faces(f, k);
+            const SurfacePoint image = map.points()[std::size_t(v)];
+            if (image.barycentric.minCoeff() < 0.01) continue;
+            for (int axis = 0; axis < 2; ++axis) {
+                map.move(v, step * frames[std::size_t(v)].col(axis));
+                const double ahead = value(attachment, map);
+                map.place(v, image);
+                map.move(v, -step * frames[std::size_t(v)].col(axis));
+                const double behind = value(attachment, map);
+                map.place(v, image);
+                EXPECT_NEAR(system.gradient[2 * k + axis], (ahead - behind) / (2 * step), 1e-6) << f;
+            }
+        }
+    }
+}
+
+TEST(Attachment, DrawsAPointWithinAFaceToItsPlace) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    MovingMap map(shapes::turned_identity(sphere, 0), sphere, sphere);
+    const std::vector<char> fixed(std::size_t(sphere.vertex_count()), 0);
+    GlobalRelaxation relaxation(map, fixed);
+    const SurfacePoint from{10, Vec3(0.2, 0.5, 0.3)};
+    const Vec3 to = position(map.target(), {11, Vec3(0.3, 0.3, 0.4)});
+    const std::vector<Attachment> attachments{{from, to, 1e4, 1}};
+    relaxation.attach(attachments);
+    const double before = value(attachments[0], map);
+    for (int step = 0; step < 10; ++step) relaxation.step({1, 0.1}, 0);
+    // The chord triangle passes below the curved surface, so a distance in the normal direction remains.
+    EXPECT_LT(value(attachments[0], map), 1e-3 * before);
+}
+
+/// Mean distance of every vertex from where it arrives by both maps, there and back.
+double round_trip(const MapPair& maps, const TriangleMesh& mesh) {
+    double sum = 0;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const SurfacePoint& there = maps.A_to_B[std::size_t(v)];
+        Vec3 back = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            back +=
+                there.barycentric[k] * position(mesh, maps.B_to_A[std::size_t(mesh.faces(there.face, k))]);
+        sum += (back - mesh.vertex(v)).norm();
+    }
+    return sum / mesh.vertex_count();
+}
+
+TEST(InverseAttachments, MakeTwoMapsInverseToEachOther) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    const MapPair start{shapes::turned_identity(sphere, 0.1), shapes::turned_identity(sphere, 0.1)};
+    const std::vector<char> pinned(std::size_t(sphere.vertex_count()), 0);
+    UntanglingOptions options;
+    options.feature_weight = 0;
+    options.replace_parts = false;
+    MapPair with = start, without = start;
+    untangle(with, sphere, sphere, {pinned, pinned}, options);
+    options.inverse_weight = 0;
+    untangle(without, sphere, sphere, {pinned, pinned}, options);
+    EXPECT_LT(round_trip(with, sphere), 0.1 * round_trip(start, sphere));
+    EXPECT_GT(round_trip(without, sphere), 0.5 * round_trip(start, sphere));
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,83 @@
+#include "varimap/relaxation/feature_agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/relaxation/untangling.h"
+
+namespace varimap {
+namespace {
+
+/// A sphere with bumps, which an isometry's energy hardly keeps from turning.
+TriangleMesh bumpy_sphere() {
+    TriangleMesh mesh = shapes::ellipsoid(4);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3 p = mesh.vertex(v);
+        mesh.vertices.row(v) *=
+            1 + 0.03 * std::sin(6 * p.x() + 1) * std::sin(5 * p.y()) * std::cos(4 * p.z());
+    }
+    return mesh;
+}
+
+double mean_error(const PointMap& map, const TriangleMesh& mesh) {
+    double sum = 0;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        sum += (position(mesh, map[std::size_t(v)]) - mesh.vertex(v)).norm();
+    return sum / mesh.vertex_count();
+}
+
+TEST(Relief, IsHighOnBumpsAndLowInDents) {
+    const TriangleMesh sphere = shapes::ellipsoid(4), bumpy = bumpy_sphere();
+    const Eigen::VectorXd height = bumpy.vertices.rowwise().norm() - sphere.vertices.rowwise().norm();
+    TriangleMesh unit = bumpy;
+    unit.vertices /= std::sqrt(surface_area(bumpy));
+    const Eigen::VectorXd h = relief(unit, 0.04);
+    EXPECT_LE(h.cwiseAbs().maxCoeff(), 2);
+    const Eigen::VectorXd a = h.array() - h.mean(), b = height.array() - height.mean();
+    EXPECT_GT(a.dot(b) / (a.norm() * b.norm()), 0.9);
+}
+
+TEST(FeatureAgreement, HasTheDerivativesOfItsValue) {
+    const TriangleMesh mesh = bumpy_sphere();
+    MovingMap map(shapes::turned_identity(mesh, 0.1), mesh, mesh);
+    const FeatureAgreement features(map, 3);
+    const double step = 1e-6;
+    double largest = 0;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const SurfacePoint image = map.points()[std::size_t(v)];
+        if (image.barycentric.minCoeff() < 0.01) continue;
+        const auto frame = map.tangents(v);
+        const Eigen::Vector2d gradient = features.derivatives(v, frame).gradient;
+        largest = std::max(largest, gradient.norm());
+        for (int axis = 0; axis < 2; ++axis) {
+            map.move(v, step * frame.col(axis));
+            const double ahead = features.value(v);
+            map.place(v, image);
+            map.move(v, -step * frame.col(axis));
+            const double behind = features.value(v);
+            map.place(v, image);
+            EXPECT_NEAR(gradient[axis], (ahead - behind) / (2 * step), 1e-4 * largest + 1e-9) << v;
+        }
+    }
+    EXPECT_GT(largest, 1e-4);
+}
+
+TEST(FeatureAgreement, TurnsAMapBackToWhereItsFeaturesAre) {
+    const TriangleMesh mesh = bumpy_sphere();
+    const PointMap start = shapes::turned_identity(mesh, 0.1);
+    UntanglingOptions options;
+    options.global_steps = 6;
+    PointMap with = start, without = start;
+    const std::vector<char> pinned(start.size(), 0);
+    untangle(with, mesh, mesh, pinned, options);
+    options.feature_weight = 0;
+    untangle(without, mesh, mesh, pinned, options);
+    EXPECT_LT(mean_error(with, mesh), 0.1 * mean_error(start, mesh));
+    EXPECT_LT(mean_error(with, mesh), 0.3 * mean_error(without, mesh));
+}
+
+}  // namespace
+}  // namespace varimap

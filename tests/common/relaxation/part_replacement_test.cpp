@@ -1,0 +1,157 @@
+#include "varimap/relaxation/part_replacement.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/bad_maps.h"
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+
+namespace varimap {
+namespace {
+
+/// A figure, another pose of it, and a map between them that is damaged on one leg.
+struct LegTrial {
+    TriangleMesh rest = shapes::figure(0.15), posed = shapes::figure_pose(0.5)(rest);
+    std::vector<char> leg = shapes::on_leg(rest), fixed = std::vector<char>(leg.size(), 0);
+    MovingMap map;
+    PartReplacement replacement;
+
+    explicit LegTrial(PointMap (*damaged)(const TriangleMesh&))
+        : map(damaged(rest), rest, posed), replacement(map, fixed, {}) {}
+    double error() const { return shapes::mean_error(map.points(), posed, leg); }
+    /// Faces of the leg; elsewhere the figure itself has a few.
+    int reversed() const {
+        int count = 0;
+        for (int f = 0; f < rest.face_count(); ++f)
+            count += leg[std::size_t(rest.faces(f, 0))] && map.chord(f).D <= 0;
+        return count;
+    }
+    void expect_undone() const {
+        EXPECT_GT(replacement.report().replaced, 0);
+        EXPECT_EQ(reversed(), 0);
+        EXPECT_LT(error(), 0.2 * shapes::longest_edge(posed));
+    }
+};
+
+PointMap half_a_turn(const TriangleMesh& figure) {
+    return shapes::twisted_leg(figure, 0.5);
+}
+PointMap whole_turn(const TriangleMesh& figure) {
+    return shapes::twisted_leg(figure, 1);
+}
+
+TEST(PartReplacement, UntwistsALimb) {
+    LegTrial trial(half_a_turn);
+    EXPECT_GT(trial.error(), 0.1);
+    trial.replacement.continue_surroundings({});
+    trial.expect_undone();
+}
+
+/// The foot is where it belongs: only the strain tells, and relaxation finds no way back.
+TEST(PartReplacement, UntwistsALimbByAWholeTurn) {
+    LegTrial trial(whole_turn);
+    trial.replacement.continue_surroundings({});
+    trial.expect_undone();
+}
+
+TEST(PartReplacement, UnmirrorsALimb) {
+    LegTrial trial(shapes::mirrored_leg);
+    EXPECT_GT(trial.reversed(), 100);
+    trial.replacement.continue_surroundings({});
+    trial.expect_undone();
+}
+
+TEST(PartReplacement, UncrumplesALimb) {
+    LegTrial trial(shapes::crumpled_leg);
+    EXPECT_GT(trial.reversed(), 100);
+    trial.replacement.continue_surroundings({});
+    trial.expect_undone();
+}
+
+TEST(PartReplacement, TakesACrumpledLimbFromTheInverse) {
+    LegTrial trial(shapes::crumpled_leg);
+    trial.replacement.adopt_inverse(shapes::at_vertices(trial.rest), false);
+    trial.expect_undone();
+    EXPECT_LT(trial.replacement.report().area_percent, 50);
+}
+
+TEST(PartReplacement, TakesAWholeMapFromTheInverse) {
+    LegTrial trial([](const TriangleMesh& figure) { return shapes::noisy_identity(figure, 6); });
+    EXPECT_GT(trial.reversed(), 100);
+    trial.replacement.adopt_inverse(shapes::at_vertices(trial.rest), true);
+    trial.expect_undone();
+    EXPECT_GE(trial.replacement.report().area_percent, 100);
+}
+
+void expect_same(const PointMap& a, const PointMap& b) {
+    int different = 0;
+    for (std::size_t v = 0; v < a.size(); ++v)
+        different += a[v].face != b[v].face || a[v].barycentric != b[v].barycentric;
+    EXPECT_EQ(different, 0);
+}
+
+TEST(PartReplacement, KeepsALimbThatTheInverseHasWorse) {
+    LegTrial trial(half_a_turn);
+    const PointMap before = trial.map.points();
+    trial.replacement.adopt_inverse(shapes::crumpled_leg(trial.rest), false);
+    EXPECT_GT(trial.replacement.report().tried, 0);
+    EXPECT_EQ(trial.replacement.report().replaced, 0);
+    expect_same(trial.map.points(), before);
+}
+
+TEST(PartReplacement, DoesNotTakeAnEqualMapFromTheInverse) {
+    const TriangleMesh egg = shapes::ellipsoid(3, {1.2, 1, 0.8}),
+                       stretched = shapes::ellipsoid(3, {2.4, 1, 0.8});
+    const PointMap identity = shapes::at_vertices(egg);
+    const std::vector<char> fixed(identity.size(), 0);
+    MovingMap map(identity, egg, stretched);
+    PartReplacement replacement(map, fixed, {});
+    replacement.adopt_inverse(identity, true);
+    EXPECT_EQ(replacement.report().replaced, 0) << "relaxation alone is no gain";
+    expect_same(map.points(), identity);
+}
+
+TEST(PartReplacement, LeavesAPartTooLargeToHaveSurroundings) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    const PointMap before = shapes::noisy_identity(sphere, 3);
+    const std::vector<char> fixed(before.size(), 0);
+    MovingMap map(before, sphere, sphere);
+    PartReplacementOptions options;
+    options.contrast = 0;  // strained as it is all over
+    PartReplacement replacement(map, fixed, options);
+    replacement.continue_surroundings({});
+    EXPECT_GT(replacement.report().tried, 0);
+    EXPECT_EQ(replacement.report().replaced, 0);
+    expect_same(map.points(), before);
+}
+
+TEST(PartReplacement, TriesNothingOnAGoodMap) {
+    LegTrial trial(shapes::at_vertices);
+    const PointMap before = trial.map.points();
+    trial.replacement.continue_surroundings({});
+    trial.replacement.adopt_inverse(shapes::crumpled_leg(trial.rest), false);
+    EXPECT_EQ(trial.replacement.report().tried, 0);
+    expect_same(trial.map.points(), before);
+}
+
+TEST(PartReplacement, KeepsLandmarks) {
+    LegTrial trial(shapes::crumpled_leg);
+    const PointMap truth = shapes::at_vertices(trial.posed);
+    std::vector<std::size_t> landmarks;
+    for (std::size_t v = 0; v < trial.leg.size(); v += 40)
+        if (trial.leg[v]) landmarks.push_back(v);
+    ASSERT_GT(landmarks.size(), 2u);
+    for (const std::size_t v : landmarks) {
+        trial.fixed[v] = 1;
+        trial.map.place(int(v), truth[v]);
+    }
+    trial.replacement.continue_surroundings({});
+    trial.expect_undone();
+    for (const std::size_t v : landmarks) {
+        EXPECT_EQ(trial.map.points()[v].face, truth[v].face);
+        EXPECT_EQ(trial.map.points()[v].barycentric, truth[v].barycentric);
+    }
+}
+
+}  // namespace
+}  // namespace varimap

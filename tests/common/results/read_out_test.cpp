@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/results/plan.h"
+
+namespace varimap {
+namespace {
+
+using shapes::plain_surface;
+
+/// A sphere pressed to a thin sheet with an upper and a lower side.
+Surface sheet(double thickness) {
+    TriangleMesh mesh = shapes::ellipsoid(2);
+    mesh.vertices.col(2) *= thickness / 2;
+    return plain_surface(mesh);
+}
+
+Plan identity_plan(const Surface& surface) {
+    Plan plan;
+    const int n = surface.mesh.vertex_count();
+    for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
+    plan.samples_B = plan.samples_A;
+    plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = surface.mass;
+    plan.plan.resize(n, n);
+    plan.plan.setIdentity();
+    plan.position_A = plan.position_B = surface.mesh.vertices;
+    return plan;
+}
+
+/// The vertex nearest to the middle of one side of a sheet.
+int top(const Surface& surface, double side) {
+    int v = 0;
+    (side * surface.mesh.vertices.col(2)).maxCoeff(&v);
+    return v;
+}
+
+double largest_distance(const PointMap& map, const Surface& target, const Points& expected) {
+    double largest = 0;
+    for (std::size_t i = 0; i < map.size(); ++i)
+        largest =
+            std::max(largest, (position(target.mesh, map[i]) - expected.row(int(i)).transpose()).norm());
+    return largest;
+}
+
+TEST(ReadOut, IdentityGoesToItself) {
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
+    Plan plan = identity_plan(surface);
+    VertexMaps maps = read_out(plan, surface, surface);
+    EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
+    EXPECT_LT(largest_distance(maps.B_to_A, surface, surface.mesh.vertices), 1e-12);
+    plan.samples_A.pop_back();  // no longer all vertices: closest points of the whole mesh
+    plan.plan.conservativeResize(int(plan.samples_A.size()), plan.plan.cols());
+    maps = read_out(plan, surface, surface);
+    EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
+}
+
+TEST(ReadOut, StaysOnTheSupportOfTheRow) {
+    const Surface surface = sheet(0.1);
+    Plan plan = identity_plan(surface);
+    plan.position_A.col(2) *= -1;  // every centre lies exactly on the wrong side
+    const VertexMaps maps = read_out(plan, surface, surface);
+    const int v = top(surface, 1);
+    EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(v)])[2], 0);
+}
+
+TEST(ReadOut, UsesTheTransposeForTheWayBack) {
+    const Surface surface = sheet(0.1);
+    Plan plan = identity_plan(surface);
+    const int up = top(surface, 1), down = top(surface, -1);
+    plan.plan.coeffRef(up, up) = plan.plan.coeffRef(down, down) = 0;
+    plan.plan.coeffRef(up, down) = 1;  // the row of `up` is supported below, the column of `up` is empty
+    plan.position_A.row(up) *= 0;
+    plan.position_B.row(down) *= 0;
+    const VertexMaps maps = read_out(plan, surface, surface);
+    EXPECT_LT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], -0.04);
+    EXPECT_GT(position(surface.mesh, maps.B_to_A[std::size_t(down)])[2], 0.04);
+}
+
+TEST(ReadOut, IgnoresFaintEntries) {
+    const Surface surface = sheet(0.1);
+    Plan plan = identity_plan(surface);
+    const int up = top(surface, 1), down = top(surface, -1);
+    plan.plan.coeffRef(up, down) = 0.04;
+    plan.position_A.row(up) = surface.mesh.vertices.row(down);
+    const VertexMaps maps = read_out(plan, surface, surface);
+    EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], 0);
+}
+
+TEST(ReadOut, TakesTheSideWithMostOfTheMass) {
+    const Surface surface = sheet(0.1);
+    Plan plan = identity_plan(surface);
+    const int up = top(surface, 1), down = top(surface, -1);
+    plan.plan.coeffRef(up, up) = 0.7;
+    plan.plan.coeffRef(up, down) = 0.3;
+    plan.position_A.row(up) *= -0.2;  // a little nearer to the lower side
+    const VertexMaps maps = read_out(plan, surface, surface);
+    EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], 0);
+}
+
+TEST(ReadOut, OfAnIncompletePlanKeepsTheSidesApart) {
+    const Surface surface = sheet(0.1);
+    Plan plan = identity_plan(surface);
+    plan.samples_A.pop_back();
+    plan.plan.conservativeResize(int(plan.samples_A.size()), plan.plan.cols());
+    plan.position_A *= 0.5;                  // shrunken centres,
+    plan.position_A.col(2).array() -= 0.01;  // those of the upper side nearer to the lower one in part
+    const VertexMaps maps = read_out(plan, surface, surface);
+    for (int v = 0; v < surface.mesh.vertex_count(); ++v)
+        if (std::abs(surface.mesh.vertices(v, 2)) > 0.01) {
+            const double z = position(surface.mesh, maps.A_to_B[std::size_t(v)])[2];
+            EXPECT_GT(z * surface.mesh.vertices(v, 2), 0) << "vertex " << v;
+        }
+}
+
+TEST(ReadOut, FallsBackWhereARowIsEmpty) {
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
+    Plan plan = identity_plan(surface);
+    plan.plan.coeffRef(3, 3) = 0;
+    plan.plan.prune(0.0);
+    const VertexMaps maps = read_out(plan, surface, surface);
+    EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
+}
+
+TEST(ReadOut, LandmarksAreExact) {
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
+    Plan plan = identity_plan(surface);
+    plan.landmarks = {{5, 40}};
+    const VertexMaps maps = read_out(plan, surface, surface);
+    EXPECT_EQ(position(surface.mesh, maps.A_to_B[5]), surface.mesh.vertex(40));
+    EXPECT_EQ(position(surface.mesh, maps.B_to_A[40]), surface.mesh.vertex(5));
+}
+
+TEST(ReadOut, RefusesAPlanOfOtherSurfaces) {
+    const Surface surface = plain_surface(shapes::ellipsoid(2)), other = plain_surface(shapes::ellipsoid(1));
+    EXPECT_THROW(read_out(identity_plan(surface), surface, other), ArtifactError);
+    Plan plan = identity_plan(surface);
+    plan.position_B(0, 0) = std::nan("");
+    EXPECT_THROW(read_out(plan, surface, surface), ConvergenceError);
+}
+
+}  // namespace
+}  // namespace varimap

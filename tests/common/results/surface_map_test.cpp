@@ -1,0 +1,165 @@
+#include "varimap/results/surface_map.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <locale>
+
+#include "varimap/core/error.h"
+#include "varimap/results/plan.h"
+
+namespace varimap {
+namespace {
+
+class SurfaceMapFile : public ::testing::Test {
+  protected:
+    std::string path_ = ::testing::TempDir() + "/surface_map_" +
+                        ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+    void TearDown() override { std::filesystem::remove(path_); }
+
+    PointMap read(const std::string& text) {
+        write_file_atomically(path_, text);
+        return read_csv_map(path_);
+    }
+    void expect_refused(const std::string& text, const std::string& place) {
+        try {
+            read(text);
+            ADD_FAILURE() << "accepted:\n" << text;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(path_ + ":" + place), std::string::npos) << error.what();
+        }
+    }
+};
+
+PointMap awkward_map() {
+    return {{7, Vec3(1.0 / 3, 0.1, 1 - 1.0 / 3 - 0.1)},
+            {},
+            {0, Vec3(1, 0, 0)},
+            {2147483647, Vec3(1e-17, 1, 5e-324)}};
+}
+
+void expect_equal(const PointMap& a, const PointMap& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].face, b[i].face);
+        EXPECT_EQ(a[i].barycentric, b[i].barycentric);
+    }
+}
+
+TEST_F(SurfaceMapFile, ReadsBackExactly) {
+    expect_equal(read(to_csv(awkward_map())), awkward_map());
+    EXPECT_TRUE(read(to_csv({})).empty());
+}
+
+TEST_F(SurfaceMapFile, HasTheDocumentedForm) {
+    const PointMap map{{3, Vec3(0.25, 0.5, 0.25)}, {}};
+    EXPECT_EQ(to_csv(map), "vertex,face,b0,b1,b2\n0,3,0.25,0.5,0.25\n1,-1,0,0,0\n");
+}
+
+/// A locale with a decimal comma, installed or not.
+struct Comma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+TEST_F(SurfaceMapFile, IgnoresTheLocale) {
+    const std::string before = to_csv(awkward_map());
+    const std::locale saved = std::locale::global(std::locale(std::locale(), new Comma));
+    const std::string after = to_csv(awkward_map());
+    const PointMap map = read(before);
+    std::locale::global(saved);
+    EXPECT_EQ(after, before);
+    expect_equal(map, awkward_map());
+}
+
+TEST_F(SurfaceMapFile, AcceptsLinesOfOtherSystems) {
+    expect_equal(read("vertex,face,b0,b1,b2\r\n0,3,0.25,0.5,0.25\r\n"), {{3, Vec3(0.25, 0.5, 0.25)}});
+    expect_equal(read("vertex,face,b0,b1,b2\n0,3,0.25,0.5,0.25"), {{3, Vec3(0.25, 0.5, 0.25)}});
+}
+
+TEST_F(SurfaceMapFile, RefusesNamingTheLine) {
+    const std::string header = "vertex,face,b0,b1,b2\n", good = "0,3,0.25,0.5,0.25\n";
+    expect_refused("", "1");
+    expect_refused("0,1,2\n", "1");
+    expect_refused(header + good + "1,3,0.25,0.5\n", "3");
+    expect_refused(header + good + "1,3,0.25,0.5,0.25,1\n", "3");
+    expect_refused(header + good + "2,3,0.25,0.5,0.25\n", "3");
+    expect_refused(header + good + "\n" + good, "3");
+    expect_refused(header + "0,-2,0.25,0.5,0.25\n", "2");
+    expect_refused(header + "0,3,0.25,0.5,0.5\n", "2");
+    expect_refused(header + "0,3,-1,1,1\n", "2");
+    expect_refused(header + "0,3,nan,0.5,0.25\n", "2");
+    expect_refused(header + "0,99999999999,0.25,0.5,0.25\n", "2");
+}
+
+TEST(SurfaceMapArtifact, DecodesWhatItEncodes) {
+    const SurfaceMap map{awkward_map(), {{1, Vec3(0, 1, 0)}}, "{\"energy\": 1}"};
+    SurfaceMap again;
+    decode(encode(map), again);
+    expect_equal(again.A_to_B, map.A_to_B);
+    expect_equal(again.B_to_A, map.B_to_A);
+    EXPECT_EQ(again.quality, map.quality);
+    EXPECT_EQ(encode(again), encode(map));
+    EXPECT_THROW(decode(encode(map).substr(0, 60), again), ArtifactError);
+}
+
+TEST(ImagePositions, KeepTheFallbackWhereThereIsNoImage) {
+    const TriangleMesh target{(Points(3, 3) << 0, 0, 0, 1, 0, 0, 0, 2, 0).finished(),
+                              (Faces(1, 3) << 0, 1, 2).finished()};
+    const Points fallback = Points::Constant(2, 3, 9);
+    const Points positions = image_positions({{}, {0, Vec3(0.5, 0.25, 0.25)}}, target, fallback);
+    EXPECT_EQ(positions, (Points(2, 3) << 9, 9, 9, 0.25, 0.5, 0).finished());
+}
+
+Plan small_plan() {
+    Plan plan;
+    plan.samples_A = {0, 2};
+    plan.samples_B = {1};
+    plan.mass_A = Eigen::Vector2d(0.25, 0.75);
+    plan.mass_B = Eigen::VectorXd::Ones(1);
+    plan.transported_A = Eigen::Vector2d(0.3, 0.7);
+    plan.transported_B = plan.mass_B;
+    plan.area_bound = 1.5;
+    plan.plan.resize(2, 1);
+    plan.plan.insert(0, 0) = 0.25;
+    plan.plan.insert(1, 0) = 0.75;
+    plan.plan.makeCompressed();
+    plan.position_A = Points::Random(3, 3);
+    plan.position_B = Points::Random(2, 3);
+    plan.landmarks = {{2, 1}};
+    plan.trace.push_back({3, 1, 2, 2, 1, 17, 2.0, 1e-3, 0.5, 1e-2});
+    return plan;
+}
+
+TEST(PlanArtifact, DecodesWhatItEncodes) {
+    const Plan plan = small_plan();
+    Plan again;
+    decode(encode(plan), again);
+    EXPECT_EQ(encode(again), encode(plan));
+    EXPECT_EQ(again.samples_A, plan.samples_A);
+    EXPECT_EQ(again.mass_A, plan.mass_A);
+    EXPECT_EQ(again.transported_A, plan.transported_A);
+    EXPECT_EQ(again.area_bound, 1.5);
+    EXPECT_EQ(Eigen::MatrixXd(again.plan), Eigen::MatrixXd(plan.plan));
+    EXPECT_EQ(again.position_A, plan.position_A);
+    EXPECT_EQ(again.landmarks, plan.landmarks);
+    ASSERT_EQ(again.trace.size(), 1u);
+    EXPECT_EQ(again.trace[0].sinkhorn_iterations, 17);
+    EXPECT_EQ(again.trace[0].marginal_error, 1e-2);
+}
+
+TEST(PlanArtifact, RefusesContradictions) {
+    Plan again, plan = small_plan();
+    plan.samples_A[1] = 3;
+    EXPECT_THROW(decode(encode(plan), again), ArtifactError);
+    plan = small_plan();
+    plan.landmarks = {{0, 2}};
+    EXPECT_THROW(decode(encode(plan), again), ArtifactError);
+    plan = small_plan();
+    plan.mass_B = Eigen::VectorXd::Ones(2);
+    EXPECT_THROW(decode(encode(plan), again), ArtifactError);
+}
+
+}  // namespace
+}  // namespace varimap
