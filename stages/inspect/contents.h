@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "varimap/core/linear_algebra.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
