@@ -31,12 +31,12 @@ std::string to_npy(const ArrayView& array) {
     return bytes;
 }
 
-std::string to_matrix_market(const ContentsVisitor::SparseMatrix& matrix) {
+std::string to_matrix_market(const SparseMatrix& matrix) {
     std::string text = "%%MatrixMarket matrix coordinate real general\n";
     auto out = std::back_inserter(text);
     fmt::format_to(out, "{} {} {}\n", matrix.rows(), matrix.cols(), matrix.nonZeros());
     for (Eigen::Index row = 0; row < matrix.outerSize(); ++row)
-        for (ContentsVisitor::SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+        for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry)
             fmt::format_to(out, "{} {} {}\n", entry.row() + 1, entry.col() + 1, entry.value());
     return text;
 }

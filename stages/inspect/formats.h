@@ -10,6 +10,6 @@ namespace varimap {
 std::string to_npy(const ArrayView& array);
 
 /// MatrixMarket coordinate format: indices from 1, row by row; values read back exactly, in any locale.
-std::string to_matrix_market(const ContentsVisitor::SparseMatrix& matrix);
+std::string to_matrix_market(const SparseMatrix& matrix);
 
 }  // namespace varimap

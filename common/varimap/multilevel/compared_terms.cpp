@@ -21,7 +21,7 @@ double neighbourhood_variance(const Side& side) {
 
 void append(Side& side, const RowMatrix& columns) {
     RowMatrix all(columns.rows(), side.compared.cols() + columns.cols());
-    all.leftCols(side.compared.cols()) = side.compared;
+    if (side.compared.cols() > 0) all.leftCols(side.compared.cols()) = side.compared;
     all.rightCols(columns.cols()) = columns;
     side.compared = std::move(all);
 }

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# consumer_test.sh BUILD SOURCE: installs a build folder into a prefix of its own; a project elsewhere finds the package
+# there, links it and runs. The same project takes the sources in by add_subdirectory, which is only configured.
+set -euo pipefail
+shopt -s inherit_errexit
+build=$(realpath -- "$1") source=$(realpath -- "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp "$source"/tests/consumer/{CMakeLists.txt,*.cpp} "$work"
+
+cmake --install "$build" --prefix "$work/prefix" >"$work/log"
+cmake -S "$work" -B "$work/found" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix"
+cmake --build "$work/found"
+"$work/found/transport"
+
+version=$("$work/prefix/bin/varimap-preprocess" --version)
+[[ -n $version ]] || { echo "FAILED: the installed varimap-preprocess names no version"; exit 1; }
+
+cmake -S "$work" -B "$work/along" -DVARIMAP_SOURCE="$source"
+# Nothing of varimap's settings reaches the project around it.
+grep -q '^CMAKE_BUILD_TYPE:STRING=$' "$work/along/CMakeCache.txt" || { echo "FAILED: a build type was set"; exit 1; }
+grep -q '^VARIMAP_TESTS:BOOL=OFF$' "$work/along/CMakeCache.txt" || { echo "FAILED: the tests are on"; exit 1; }
