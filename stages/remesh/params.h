@@ -16,9 +16,8 @@ struct RemeshParams {
         list.add("robustness", o.robustness,
                  "excess energy at which a triangle counts half in the relaxation; 0: all count fully", 0,
                  1e6);
-        list.add("feature_weight", o.feature_weight,
-                 "weight of features (relief of both surfaces) against the isometry in the relaxation", 0,
-                 1e3);
+        list.add("relief_weight", o.relief_weight,
+                 "weight of like relief of both surfaces against the isometry in the relaxation", 0, 1e3);
         list.add(
             "inverse_weight", o.inverse_weight,
             "weight of both directions' being each other's inverse against the isometry in the relaxation", 0,

@@ -51,11 +51,11 @@ Colour Figure::shade(const SurfacePoint& point, const Eigen::Matrix3d& view) con
     return colour * illumination(normal, openness) + Colour::Constant(gloss);
 }
 
-std::vector<bool> reversed_faces(const ChordMesh& chords, bool mirror) {
+std::vector<bool> reversed_faces(const ImageMesh& images, bool mirror) {
     const double sign = mirror ? -1 : 1;
-    std::vector<bool> reversed(size_t(chords.source.face_count()));
-    for (int f = 0; f < chords.source.face_count(); ++f)
-        reversed[size_t(f)] = chords.is_mapped(f) && !(sign * chords.facing(f) > 0);
+    std::vector<bool> reversed(size_t(images.source.face_count()));
+    for (int f = 0; f < images.source.face_count(); ++f)
+        reversed[size_t(f)] = images.is_mapped(f) && !(sign * images.facing(f) > 0);
     return reversed;
 }
 

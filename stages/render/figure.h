@@ -5,7 +5,7 @@
 
 #include "stages/render/colour.h"
 #include "varimap/mesh/ray_mesh.h"
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 
 namespace varimap {
 
@@ -31,8 +31,8 @@ class Figure {
     std::vector<double> openness_;
 };
 
-/// Per triangle of the chord mesh's source: whether its image is reversed (as quality.h counts flips); where
+/// Per triangle of the image mesh's source: whether its image is reversed (as quality.h counts flips); where
 /// the map reverses orientation on purpose (`mirror`), whether it is not.
-std::vector<bool> reversed_faces(const ChordMesh& chords, bool mirror);
+std::vector<bool> reversed_faces(const ImageMesh& images, bool mirror);
 
 }  // namespace varimap

@@ -14,7 +14,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 
 namespace varimap {
 
@@ -46,7 +46,7 @@ void require_fit(const TriangleMesh& source, const TriangleMesh& target, const P
 }
 
 /// Colour at the source's point closest to the image of a point of the target.
-Colour carried_colour(const ChordMesh& back, const ClosestPoint& closest, const SourceColour& colour,
+Colour carried_colour(const ImageMesh& back, const ClosestPoint& closest, const SourceColour& colour,
                       const SurfacePoint& point) {
     if (!back.is_mapped(point.face)) return unmapped_colour;
     return colour(position(back.target, closest(position(back.image, point)).point));
@@ -57,12 +57,12 @@ Colour carried_colour(const ChordMesh& back, const ClosestPoint& closest, const 
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params) {
     require_fit(source, target, source_to_target, target_to_source);
-    const ChordMesh there(source_to_target, source, target), back(target_to_source, target, source);
+    const ImageMesh there(source_to_target, source, target), back(target_to_source, target, source);
     const SourceColour colour(there.source, params.checker);
     const ClosestPoint closest(there.source);
-    const auto flags = [&](const ChordMesh& chords) {
-        return params.flips ? reversed_faces(chords, params.mirror)
-                            : std::vector<bool>(size_t(chords.source.face_count()));
+    const auto flags = [&](const ImageMesh& images) {
+        return params.flips ? reversed_faces(images, params.mirror)
+                            : std::vector<bool>(size_t(images.source.face_count()));
     };
     const Figure source_figure(
         there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, flags(there));
@@ -90,7 +90,7 @@ Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
     std::vector<Exhibit> exhibits{{figures[0].get(), source_view, "source"}};
     for (const PointMap& map : target_to_source) {
         require_fit(map, target, source, "a candidate", "target", "source");
-        const auto back = std::make_shared<ChordMesh>(map, target, source);
+        const auto back = std::make_shared<ImageMesh>(map, target, source);
         figures.push_back(figure(back->source, [&, back](const SurfacePoint& p) {
             return carried_colour(*back, closest, colour, p);
         }));
@@ -107,7 +107,7 @@ Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
                         const Eigen::VectorXd& source_masses, const Eigen::VectorXd& target_masses,
                         const RenderParams& params) {
     require_fit(source, target, source_to_target, target_to_source);
-    const ChordMesh back(target_to_source, target, source);
+    const ImageMesh back(target_to_source, target, source);
     const View source_view = natural_view(source, params.up);
     const View target_view =
         matching_view(back.source, back.image.vertices, have_image(target_to_source), source_view);

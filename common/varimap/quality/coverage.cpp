@@ -3,24 +3,24 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {
 
 namespace {
 
-/// The chord triangles that have an area. Those that face against the target come both ways round, so that
+/// The image triangles that have an area. Those that face against the target come both ways round, so that
 /// neither a flip nor a sharp crease of the target (where the test for flips may err) counts as a gap.
-TriangleMesh visible_image(const ChordMesh& chords) {
-    TriangleMesh image = chords.image;
-    image.faces.resize(2 * chords.image.face_count(), 3);
+TriangleMesh visible_image(const ImageMesh& images) {
+    TriangleMesh image = images.image;
+    image.faces.resize(2 * images.image.face_count(), 3);
     int count = 0;
-    for (int f = 0; f < chords.image.face_count(); ++f) {
-        if (!chords.is_mapped(f) || !has_area(chords.image, f)) continue;
-        const Eigen::RowVector3i corners = chords.image.faces.row(f);
+    for (int f = 0; f < images.image.face_count(); ++f) {
+        if (!images.is_mapped(f) || is_degenerate(images.image, f)) continue;
+        const Eigen::RowVector3i corners = images.image.faces.row(f);
         image.faces.row(count++) = corners;
-        if (chords.facing(f) <= 0) image.faces.row(count++) << corners[0], corners[2], corners[1];
+        if (images.facing(f) <= 0) image.faces.row(count++) << corners[0], corners[2], corners[1];
     }
     image.faces.conservativeResize(count, 3);
     return image;
@@ -50,17 +50,17 @@ bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const 
 }  // namespace
 
 double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
-    const ChordMesh chords(map, source, target);
-    const TriangleMesh image = visible_image(chords);
+    const ImageMesh images(map, source, target);
+    const TriangleMesh image = visible_image(images);
     if (image.face_count() == 0) return 0;
-    const ClosestPoint on_image(image), on_target(chords.target);
+    const ClosestPoint on_image(image), on_target(images.target);
     std::vector<char> hit(std::size_t(target.face_count()));
     parallel_for_each_index<int>(target.face_count(), 64, [&](int f) {
-        hit[std::size_t(f)] = is_hit(f, chords.target, image, on_image, on_target);
+        hit[std::size_t(f)] = is_hit(f, images.target, image, on_image, on_target);
     });
     double hit_area = 0, area = 0;
     for (int f = 0; f < target.face_count(); ++f) {
-        const double part = face_normal(chords.target, f).norm();
+        const double part = face_normal(images.target, f).norm();
         area += part;
         if (hit[std::size_t(f)]) hit_area += part;
     }

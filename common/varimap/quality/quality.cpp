@@ -5,14 +5,14 @@
 #include <numeric>
 
 #include "varimap/core/parallel.h"
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 
 namespace varimap {
 
 namespace {
 
 /// Columns of the Jacobian J of the map from the plane of a source triangle (its first edge along the first
-/// axis) to the chord triangle in R^3.
+/// axis) to the image triangle in R^3.
 Eigen::Matrix<double, 3, 2> jacobian(const Vec3& e1, const Vec3& e2, const Vec3& d1, const Vec3& d2) {
     const double length = e1.norm();
     const double along = e1.dot(e2) / length;
@@ -31,20 +31,20 @@ double singular_value_ratio(const Eigen::Matrix<double, 3, 2>& J, double determi
                                                             : conformal_distortion_cap;
 }
 
-TriangleDistortion measure_triangle(const ChordMesh& chords, int f) {
+TriangleDistortion measure_triangle(const ImageMesh& images, int f) {
     TriangleDistortion result;
-    if (!chords.is_mapped(f) || !has_area(chords.source, f)) return result;
-    const auto corners = chords.source.faces.row(f);
+    if (!images.is_mapped(f) || is_degenerate(images.source, f)) return result;
+    const auto corners = images.source.faces.row(f);
     const auto edge = [&](const TriangleMesh& mesh, int k) {
         return Vec3(mesh.vertex(corners[k]) - mesh.vertex(corners[0]));
     };
-    result.area = face_normal(chords.source, f).norm() / 2;
-    const auto J = jacobian(edge(chords.source, 1), edge(chords.source, 2), edge(chords.image, 1),
-                            edge(chords.image, 2));
+    result.area = face_normal(images.source, f).norm() / 2;
+    const auto J = jacobian(edge(images.source, 1), edge(images.source, 2), edge(images.image, 1),
+                            edge(images.image, 2));
     result.squared_norm = J.squaredNorm();
-    result.collapsed = !has_area(chords.image, f);
-    result.flipped = result.collapsed || chords.facing(f) <= 0;
-    result.area_ratio = result.collapsed ? 0 : face_normal(chords.image, f).norm() / (2 * result.area);
+    result.collapsed = is_degenerate(images.image, f);
+    result.flipped = result.collapsed || images.facing(f) <= 0;
+    result.area_ratio = result.collapsed ? 0 : face_normal(images.image, f).norm() / (2 * result.area);
     result.conformal =
         result.collapsed ? conformal_distortion_cap : singular_value_ratio(J, result.area_ratio);
     return result;
@@ -105,10 +105,10 @@ Quantiles weighted_quantiles(const std::vector<double>& values, const std::vecto
 
 std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
                                                   const TriangleMesh& target) {
-    const ChordMesh chords(map, source, target);
+    const ImageMesh images(map, source, target);
     std::vector<TriangleDistortion> triangles(std::size_t(source.face_count()));
     parallel_for_each_index<int>(source.face_count(), 1024,
-                                 [&](int f) { triangles[std::size_t(f)] = measure_triangle(chords, f); });
+                                 [&](int f) { triangles[std::size_t(f)] = measure_triangle(images, f); });
     return triangles;
 }
 
@@ -119,7 +119,7 @@ Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, c
 RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,
                              const TriangleMesh& B) {
     const TriangleMesh unit = unit_area(A);
-    const ChordMesh back(B_to_A, B, A);
+    const ImageMesh back(B_to_A, B, A);
     std::vector<double> weights(std::size_t(A.vertex_count()), 0), distances, used;
     for (int f = 0; f < A.face_count(); ++f)
         for (int k = 0; k < 3; ++k) weights[std::size_t(A.faces(f, k))] += face_normal(unit, f).norm() / 6;

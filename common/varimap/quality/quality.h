@@ -9,7 +9,7 @@ namespace varimap {
 
 // How good a map is, measured on the meshes it is given for. Both are first brought to unit area, so lengths
 // are in units of sqrt(area) and nothing depends on the inputs' scale. A source triangle is compared with its
-// CHORD triangle, whose corners are the images of its own. Left out everywhere: vertices without an image,
+// IMAGE triangle, whose corners are the images of its own. Left out everywhere: vertices without an image,
 // triangles with such a corner, and source triangles without area. All numbers are finite, and the same for
 // any number of threads.
 
@@ -21,13 +21,13 @@ struct Quantiles {
 double weighted_quantile(const std::vector<double>& values, const std::vector<double>& weights, double share);
 Quantiles weighted_quantiles(const std::vector<double>& values, const std::vector<double>& weights);
 
-/// Conformal distortion of chord triangles that are collapsed to a segment or a point.
+/// Conformal distortion of image triangles that are collapsed to a segment or a point.
 inline constexpr double conformal_distortion_cap = 1e6;
 
 /// What one source triangle contributes; area 0: nothing.
 struct TriangleDistortion {
     double area = 0;          ///< of the source triangle
-    double area_ratio = 0;    ///< chord area / source area
+    double area_ratio = 0;    ///< image area / source area
     double conformal = 1;     ///< sigma_1 / sigma_2
     double squared_norm = 0;  ///< |J|_F^2
     bool flipped = false, collapsed = false;
@@ -36,13 +36,13 @@ std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const Tri
                                                   const TriangleMesh& target);
 
 struct Distortion {
-    /// Triangles with n . m <= 0: n the normal of the chord triangle, m the sum of the target's normals
+    /// Triangles with n . m <= 0: n the normal of the image triangle, m the sum of the target's normals
     /// (angle-weighted at vertices, interpolated) at the three images. Collapsed triangles count as flipped.
     int flipped_count = 0;
     double flipped_area_percent = 0;  ///< their share of the source's area
-    int collapsed_count = 0;          ///< chord triangles without area
-    Quantiles area_ratio;  ///< chord area / source area, both of unit total; weighted by source area
-    /// sigma_1 / sigma_2 >= 1 of the linear map onto the chord triangle, weighted by source area; 1:
+    int collapsed_count = 0;          ///< image triangles without area
+    Quantiles area_ratio;  ///< image area / source area, both of unit total; weighted by source area
+    /// sigma_1 / sigma_2 >= 1 of the linear map onto the image triangle, weighted by source area; 1:
     /// conformal.
     Quantiles conformal_distortion;
     /// 1/2 sum area |J|_F^2 = 1/2 sum area (sigma_1^2 + sigma_2^2); 1 for an isometry.
@@ -51,14 +51,14 @@ struct Distortion {
 Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
 
 /// Share of the target's area that is hit. A target face is hit if its centroid c lies in front of or behind
-/// the image of the source: with p the closest point to c on the chord triangles that face the way c does,
+/// the image of the source: with p the closest point to c on the image triangles that face the way c does,
 /// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or a quarter of the face's
 /// longest edge. (Where no image is near, p lies at the rim of the image and q beside it, so |q - c| is about
-/// |p - c|.) Flipped chord triangles count whichever way they face: a flip is not a gap.
+/// |p - c|.) Flipped image triangles count whichever way they face: a flip is not a gap.
 double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
 
 /// Distance in R^3 of each vertex of A from its image under A -> B -> A, in units of sqrt(area of A),
-/// weighted by the vertices' areas. B_to_A is taken linear on the faces of B (chord triangles).
+/// weighted by the vertices' areas. B_to_A is taken linear on the faces of B (image triangles).
 struct RoundTrip {
     double mean = 0, p95 = 0;
 };

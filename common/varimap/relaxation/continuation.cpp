@@ -17,7 +17,7 @@ const FoldEnergy front_energy{1, 0.3};
 
 /// Where the target's tangent plane holds the corner opposite a placed side: the face is laid down beside the
 /// side's image, with its own lengths. False where the side has no length or no side of the target.
-bool lay_down(const MovingMap& map, int f, int corner, double scale, Vec3& position) {
+bool unfold(const SlidingMap& map, int f, int corner, double scale, Vec3& position) {
     const auto corners = map.source().faces.row(f);
     const int a = corners[(corner + 1) % 3], b = corners[(corner + 2) % 3];
     const Vec3 here = map.source().vertex(a), side = map.source().vertex(b) - here;
@@ -41,7 +41,7 @@ struct Placement {
 
 /// Image of a vertex with placed neighbours: the mean of where its faces put it, reached from the nearest of
 /// their images. False where no face has two placed corners.
-bool predict(const MovingMap& map, int v, double scale, Placement& placement) {
+bool predict(const SlidingMap& map, int v, double scale, Placement& placement) {
     Vec3 sum = Vec3::Zero();
     int count = 0, nearest = -1;
     double least = 0;
@@ -50,7 +50,7 @@ bool predict(const MovingMap& map, int v, double scale, Placement& placement) {
         const int corner = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
         const int a = corners[(corner + 1) % 3], b = corners[(corner + 2) % 3];
         Vec3 position;
-        if (!map.has_image(a) || !map.has_image(b) || !lay_down(map, f, corner, scale, position)) continue;
+        if (!map.has_image(a) || !map.has_image(b) || !unfold(map, f, corner, scale, position)) continue;
         sum += position;
         ++count;
         for (const int u : {a, b}) {
@@ -65,7 +65,7 @@ bool predict(const MovingMap& map, int v, double scale, Placement& placement) {
 }
 
 /// Vertices without an image that share a face with one that has, ascending.
-std::vector<int> front_of(const MovingMap& map, const std::vector<int>& missing) {
+std::vector<int> front_of(const SlidingMap& map, const std::vector<int>& missing) {
     std::vector<int> front;
     for (const int v : missing) {
         bool beside = false;
@@ -78,7 +78,7 @@ std::vector<int> front_of(const MovingMap& map, const std::vector<int>& missing)
 
 }  // namespace
 
-void continue_map(MovingMap& map, const std::vector<char>& open, double scale) {
+void continue_map(SlidingMap& map, const std::vector<char>& open, double scale) {
     const PointMap before = map.points();
     std::vector<int> missing;
     for (int v = 0; v < int(open.size()); ++v)

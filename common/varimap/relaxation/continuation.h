@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
 
@@ -11,6 +11,6 @@ namespace varimap {
 /// shares with placed vertices put it, unfolded onto the target; then the last rings are relaxed. Orientation
 /// and the turn of a limb about its axis are thus those of the surroundings: flips and twists cannot survive.
 /// Vertices that no front reaches keep their images. `scale`: lengths of the images / those of the source.
-void continue_map(MovingMap& map, const std::vector<char>& open, double scale);
+void continue_map(SlidingMap& map, const std::vector<char>& open, double scale);
 
 }  // namespace varimap

@@ -2,13 +2,14 @@
 
 #include <cmath>
 
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 
 namespace varimap {
 
 namespace {
 
-constexpr double aligned = 0.5;  ///< cosine from which on a chord's normal counts as that of the target
+constexpr double aligned =
+    0.5;  ///< cosine from which on the normal of an image triangle counts as that of the target
 
 }  // namespace
 
@@ -43,7 +44,7 @@ double RobustExcess::value(double v) const {
 std::vector<RestTriangle> rest_triangles(const TriangleMesh& source) {
     std::vector<RestTriangle> rest(std::size_t(source.face_count()));
     for (int f = 0; f < source.face_count(); ++f) {
-        if (!has_area(source, f)) continue;
+        if (is_degenerate(source, f)) continue;
         const double twice = face_normal(source, f).norm();
         rest[std::size_t(f)].area = twice / 2;
         for (int k = 0; k < 3; ++k) {
@@ -56,7 +57,8 @@ std::vector<RestTriangle> rest_triangles(const TriangleMesh& source) {
     return rest;
 }
 
-Chord::Chord(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& m) {
+ImageTriangle::ImageTriangle(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2,
+                             const Vec3& m) {
     const Vec3 e0 = x2 - x1, e1 = x0 - x2, e2 = x1 - x0;
     q = (rest.cotangent[0] * e0.squaredNorm() + rest.cotangent[1] * e1.squaredNorm() +
          rest.cotangent[2] * e2.squaredNorm()) /

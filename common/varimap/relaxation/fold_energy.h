@@ -7,9 +7,9 @@
 
 namespace varimap {
 
-/// The regularised fold-free energy (Garanzha et al. 2021) of one chord triangle, the image of a source
+/// The regularised fold-free energy (Garanzha et al. 2021) of one image triangle, the image of a source
 /// triangle of area a:   a (q / 2 + w (1 + D^2) / 2) / chi(D),   chi(D) = (D + sqrt(D^2 + e^2)) / 2,
-/// q = |J|_F^2 of the linear map onto the chord triangle, D its signed area ratio: with n the chord's normal
+/// q = |J|_F^2 of the linear map onto the image triangle, D its signed area ratio: with n its normal
 /// (twice its area) and m the unit mean of the target's normals at its corners, |n| / (2 a) up to 60 degrees
 /// between n and m, beyond n . m / a. For D > 0 and e -> 0: a cosh(log s1 - log s2) + a w cosh(log s1 + log
 /// s2) with the singular values s, so least where the map is an isometry; w weighs areas against angles.
@@ -46,12 +46,12 @@ struct RestTriangle {
 };
 std::vector<RestTriangle> rest_triangles(const TriangleMesh& source);
 
-/// A chord triangle: q and D. D's gradient by corner i is up x (the opposite edge, from corner i + 1 to i +
+/// A image triangle: q and D. D's gradient by corner i is up x (the opposite edge, from corner i + 1 to i +
 /// 2) / (2 a) for a fixed m.
-struct Chord {
+struct ImageTriangle {
     double q = 0, D = 0;
     Vec3 up;
-    Chord(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& m);
+    ImageTriangle(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& m);
 };
 
 }  // namespace varimap

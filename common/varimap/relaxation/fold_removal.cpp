@@ -20,7 +20,7 @@ constexpr std::array<double, 3> weights{1, 0.2, 0.05};
 constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
 
 /// Vertices that may move to unfold `folded`: those of the faces and of `rings` rings around them.
-std::vector<int> patch_around(const MovingMap& map, const std::vector<int>& folded, int rings,
+std::vector<int> patch_around(const SlidingMap& map, const std::vector<int>& folded, int rings,
                               const std::vector<char>& fixed) {
     std::vector<char> inside(map.points().size(), 0);
     std::vector<int> patch, front;
@@ -46,7 +46,7 @@ std::vector<int> patch_around(const MovingMap& map, const std::vector<int>& fold
 }
 
 /// Faces with a corner in the patch.
-std::vector<int> faces_of(const MovingMap& map, const std::vector<int>& patch) {
+std::vector<int> faces_of(const SlidingMap& map, const std::vector<int>& patch) {
     std::vector<int> faces;
     for (const int v : patch)
         for (const int f : map.faces_of_vertex()[v])
@@ -64,16 +64,16 @@ struct PatchState {
 /// The faces of a patch, as last looked at.
 class PatchFaces {
   public:
-    PatchFaces(const MovingMap& map, std::vector<int> faces)
+    PatchFaces(const SlidingMap& map, std::vector<int> faces)
         : map_(map), faces_(std::move(faces)), shape_(faces_.size()) {}
 
     PatchState look(const FoldEnergy& energy) {
         PatchState state;
         for (std::size_t i = 0; i < faces_.size(); ++i) {
-            const Chord chord = map_.chord(faces_[i]);
-            shape_[i] = {chord.q, chord.D};
-            state.worst = std::min(state.worst, chord.D);
-            state.folded += chord.D <= FoldRemoval::flat_limit;
+            const ImageTriangle image = map_.image_triangle(faces_[i]);
+            shape_[i] = {image.q, image.D};
+            state.worst = std::min(state.worst, image.D);
+            state.folded += image.D <= FoldRemoval::flat_limit;
         }
         state.energy = energy_as_seen(energy);
         return state;
@@ -89,7 +89,7 @@ class PatchFaces {
     struct Shape {
         double q, D;
     };
-    const MovingMap& map_;
+    const SlidingMap& map_;
     std::vector<int> faces_;
     std::vector<Shape> shape_;
 };
@@ -107,7 +107,7 @@ void lower_regularisation(FoldEnergy& energy, double before, const PatchState& n
 }
 
 /// Sweeps one patch until nothing in it is folded; returns the number of sweeps.
-int unfold_patch(MovingMap& map, LocalRelaxation& relax, std::vector<int> patch, double weight,
+int unfold_patch(SlidingMap& map, LocalRelaxation& relax, std::vector<int> patch, double weight,
                  int most_sweeps) {
     PatchFaces faces(map, faces_of(map, patch));
     FoldEnergy energy{weight, 1};
@@ -128,28 +128,29 @@ int unfold_patch(MovingMap& map, LocalRelaxation& relax, std::vector<int> patch,
 }
 
 /// Folded faces that can move, ascending.
-std::vector<int> folded_faces(const MovingMap& map, const std::vector<char>& fixed) {
+std::vector<int> folded_faces(const SlidingMap& map, const std::vector<char>& fixed) {
     std::vector<int> folded;
     const auto is_free = [&](int v) { return !fixed[std::size_t(v)]; };
     for (int f = 0; f < map.source().face_count(); ++f) {
         const auto corners = map.source().faces.row(f);
         const bool movable = is_free(corners[0]) || is_free(corners[1]) || is_free(corners[2]);
-        if (movable && map.is_mapped(f) && map.chord(f).D <= FoldRemoval::flat_limit) folded.push_back(f);
+        if (movable && map.is_mapped(f) && map.image_triangle(f).D <= FoldRemoval::flat_limit)
+            folded.push_back(f);
     }
     return folded;
 }
 
 }  // namespace
 
-int FoldRemoval::operator()(MovingMap& map, const std::vector<char>& fixed) const {
+int FoldRemoval::operator()(SlidingMap& map, const std::vector<char>& fixed) const {
     int sweeps = 0;
     double visits = most_visits * double(map.points().size());
     std::uint32_t seed = 1;
-    for (const int reach : rings)
+    for (const int ring_count : rings)
         for (const double weight : weights) {
             const std::vector<int> folded = folded_faces(map, fixed);
             if (folded.empty()) return sweeps;
-            const std::vector<int> patch = patch_around(map, folded, reach, fixed);
+            const std::vector<int> patch = patch_around(map, folded, ring_count, fixed);
             const int allowed = int(std::min(double(most_sweeps), visits / double(patch.size() + 1)));
             LocalRelaxation relax(map, seed++ * 2654435761u);
             const int done = unfold_patch(map, relax, patch, weight, allowed);

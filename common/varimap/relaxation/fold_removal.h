@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
 
@@ -15,7 +15,7 @@ struct FoldRemoval {
     double most_visits = 150;  ///< of all vertices in the mean, over all patch sizes: bounds the time
 
     /// Returns the number of sweeps done, over all patch sizes; 0 where nothing is folded.
-    int operator()(MovingMap& map, const std::vector<char>& fixed) const;
+    int operator()(SlidingMap& map, const std::vector<char>& fixed) const;
 };
 
 }  // namespace varimap

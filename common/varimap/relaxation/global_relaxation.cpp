@@ -32,13 +32,13 @@ Frame turned(const Frame& frame, const Vec3& up) {
 
 /// Gradient and convex Hessian of one face by the tangent coordinates of its corners. The Hessian takes the
 /// surface as unfolded into the face's plane: in space, what bends with the surface would count as strain.
-FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, int f,
+FaceSystem face_system(const SlidingMap& map, const std::vector<Frame>& frames, int f,
                        const FoldEnergy& energy) {
     const auto corners = map.source().faces.row(f);
     const RestTriangle& rest = map.rest(f);
-    const Chord chord = map.chord(f);
-    const auto d = energy.derivatives(chord.q, chord.D);
-    const Vec3 up = chord.up.normalized();
+    const ImageTriangle image = map.image_triangle(f);
+    const auto d = energy.derivatives(image.q, image.D);
+    const Vec3 up = image.up.normalized();
     Frame flat[3];
     for (int i = 0; i < 3; ++i) flat[i] = turned(frames[std::size_t(corners[i])], up);
     Vector6 q, D, gradient;
@@ -48,7 +48,7 @@ FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, i
         const Vec3 &x = map.image(corners[i]), &y = map.image(corners[j]), &z = map.image(corners[k]);
         const double cj = rest.cotangent[j], ck = rest.cotangent[k];
         const Vec3 by_q = (ck * (x - y) + cj * (x - z)) / rest.area;
-        const Vec3 by_D = chord.up.cross(z - y) / (2 * rest.area);
+        const Vec3 by_D = image.up.cross(z - y) / (2 * rest.area);
         gradient.segment<2>(2 * i) =
             rest.area * frames[std::size_t(corners[i])].transpose() * (d.f_q * by_q + d.f_D * by_D);
         q.segment<2>(2 * i) = flat[i].transpose() * by_q;
@@ -66,9 +66,9 @@ FaceSystem face_system(const MovingMap& map, const std::vector<Frame>& frames, i
 }  // namespace
 
 struct GlobalRelaxation::State {
-    MovingMap& map;
-    const FeatureAgreement* features;
-    const std::vector<Attachment>* attachments = nullptr;
+    SlidingMap& map;
+    const ReliefAgreement* relief;
+    const std::vector<SoftConstraint>* constraints = nullptr;
     std::vector<int> unknown;  ///< per vertex: its place among the free ones, or -1
     std::vector<int> free;
     std::vector<int> faces;                  ///< mapped ones with a free corner
@@ -79,11 +79,11 @@ struct GlobalRelaxation::State {
     PointMap start;           ///< images of the free vertices before a step
     std::vector<Vec3> steps;  ///< of the free vertices
 
-    State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f);
+    State(SlidingMap& m, const std::vector<char>& fixed, const ReliefAgreement* r);
     void assemble(const FoldEnergy& energy, const RobustExcess& robust);
-    void add_features();
+    void add_relief();
     void add(int i, const FaceSystem& face, double weight);
-    void add_attachments();
+    void add_constraints();
     PointMap images() const;
     void place(const PointMap& images);
     void set_steps(const Eigen::VectorXd& direction);
@@ -91,9 +91,9 @@ struct GlobalRelaxation::State {
     double total(const FoldEnergy& energy, const RobustExcess& robust) const;
 };
 
-GlobalRelaxation::State::State(MovingMap& m, const std::vector<char>& fixed, const FeatureAgreement* f)
+GlobalRelaxation::State::State(SlidingMap& m, const std::vector<char>& fixed, const ReliefAgreement* r)
     : map(m),
-      features(f),
+      relief(r),
       unknown(fixed.size(), -1),
       place_of(std::size_t(m.source().face_count()), -1),
       frames(fixed.size(), Frame::Zero()) {
@@ -129,8 +129,8 @@ void GlobalRelaxation::State::assemble(const FoldEnergy& energy, const RobustExc
         const FaceSystem face = face_system(map, frames, faces[i], energy);
         add(int(i), face, robust.slope(face.value));
     }
-    if (features) add_features();
-    if (attachments) add_attachments();
+    if (relief) add_relief();
+    if (constraints) add_constraints();
     system->scale_diagonal(1 + 1e-8);
 }
 
@@ -142,19 +142,19 @@ void GlobalRelaxation::State::add(int i, const FaceSystem& face, double weight) 
             gradient.segment<2>(2 * row) += weight * face.gradient.segment<2>(2 * k);
 }
 
-void GlobalRelaxation::State::add_features() {
+void GlobalRelaxation::State::add_relief() {
     for (std::size_t i = 0; i < free.size(); ++i) {
-        const auto data = features->derivatives(free[i], frames[std::size_t(free[i])]);
+        const auto data = relief->derivatives(free[i], frames[std::size_t(free[i])]);
         gradient.segment<2>(2 * Eigen::Index(i)) += data.gradient;
         system->add(int(i), data.hessian);
     }
 }
 
-void GlobalRelaxation::State::add_attachments() {
-    for (const Attachment& attachment : *attachments) {
-        const int i = place_of[std::size_t(attachment.from.face)];
+void GlobalRelaxation::State::add_constraints() {
+    for (const SoftConstraint& constraint : *constraints) {
+        const int i = place_of[std::size_t(constraint.from.face)];
         if (i < 0) continue;
-        const auto [gradient, hessian] = derivatives(attachment, map, frames);
+        const auto [gradient, hessian] = derivatives(constraint, map, frames);
         add(i, {0, gradient, hessian}, 1);
     }
 }
@@ -162,14 +162,14 @@ void GlobalRelaxation::State::add_attachments() {
 double GlobalRelaxation::State::total(const FoldEnergy& energy, const RobustExcess& robust) const {
     double sum = 0;
     for (const int f : faces) {
-        const Chord chord = map.chord(f);
-        sum += map.rest(f).area * robust.value(energy.value(chord.q, chord.D));
+        const ImageTriangle image = map.image_triangle(f);
+        sum += map.rest(f).area * robust.value(energy.value(image.q, image.D));
     }
-    if (features)
-        for (const int v : free) sum += features->value(v);
-    if (attachments)
-        for (const Attachment& attachment : *attachments)
-            if (place_of[std::size_t(attachment.from.face)] >= 0) sum += varimap::value(attachment, map);
+    if (relief)
+        for (const int v : free) sum += relief->value(v);
+    if (constraints)
+        for (const SoftConstraint& constraint : *constraints)
+            if (place_of[std::size_t(constraint.from.face)] >= 0) sum += varimap::value(constraint, map);
     return sum;
 }
 
@@ -198,13 +198,13 @@ void GlobalRelaxation::State::walk(double share) {
     for (std::size_t i = 0; i < free.size(); ++i) map.place(free[i], map.walk(start[i], share * steps[i]));
 }
 
-GlobalRelaxation::GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
-                                   const FeatureAgreement* features)
-    : state_(std::make_unique<State>(map, fixed, features)) {}
+GlobalRelaxation::GlobalRelaxation(SlidingMap& map, const std::vector<char>& fixed,
+                                   const ReliefAgreement* relief)
+    : state_(std::make_unique<State>(map, fixed, relief)) {}
 GlobalRelaxation::~GlobalRelaxation() = default;
 
-void GlobalRelaxation::attach(const std::vector<Attachment>& attachments) {
-    state_->attachments = &attachments;
+void GlobalRelaxation::set_constraints(const std::vector<SoftConstraint>& constraints) {
+    state_->constraints = &constraints;
 }
 
 double GlobalRelaxation::step(const FoldEnergy& energy, double robustness) {

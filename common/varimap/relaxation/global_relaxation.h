@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "varimap/relaxation/attachments.h"
-#include "varimap/relaxation/feature_agreement.h"
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/relief_agreement.h"
+#include "varimap/relaxation/sliding_map.h"
+#include "varimap/relaxation/soft_constraints.h"
 
 namespace varimap {
 
@@ -14,14 +14,14 @@ namespace varimap {
 /// local relaxation would need thousands of sweeps for: whole limbs along the target.
 class GlobalRelaxation {
   public:
-    /// Vertices with fixed[v] stay. Keeps references to the map and to `features`, whose energy is added
+    /// Vertices with fixed[v] stay. Keeps references to the map and to `relief`, whose energy is added
     /// where given.
-    GlobalRelaxation(MovingMap& map, const std::vector<char>& fixed,
-                     const FeatureAgreement* features = nullptr);
+    GlobalRelaxation(SlidingMap& map, const std::vector<char>& fixed,
+                     const ReliefAgreement* relief = nullptr);
     ~GlobalRelaxation();
 
-    /// The attachments whose energy is added from now on; keeps a reference.
-    void attach(const std::vector<Attachment>& attachments);
+    /// The constraints whose energy is added from now on; keeps a reference.
+    void set_constraints(const std::vector<SoftConstraint>& constraints);
 
     /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
     /// stays as it is.

@@ -15,30 +15,31 @@ constexpr double longest_step = 2;  ///< of a Newton step, in lengths of the ver
 
 /// Gradient, Hessian and value of the energy of the faces around one vertex, in its tangent plane.
 struct Quadratic {
-    double value = 0, squared_reach = 0;  ///< reach: longest source edge
+    double value = 0, squared_longest_edge = 0;  ///< of the source
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
 
-void add_face(Quadratic& sum, const MovingMap& map, const Eigen::Matrix<double, 3, 2>& frame, int f, int v,
+void add_face(Quadratic& sum, const SlidingMap& map, const Eigen::Matrix<double, 3, 2>& frame, int f, int v,
               const FoldEnergy& energy) {
     const auto corners = map.source().faces.row(f);
     const int i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2, j = (i + 1) % 3, k = (i + 2) % 3;
     const RestTriangle& rest = map.rest(f);
     const Vec3 &x = map.image(v), &y = map.image(corners[j]), &z = map.image(corners[k]);
-    const Chord chord = map.chord(f);
-    const auto d = energy.derivatives(chord.q, chord.D);
+    const ImageTriangle image = map.image_triangle(f);
+    const auto d = energy.derivatives(image.q, image.D);
     const double cj = rest.cotangent[j], ck = rest.cotangent[k];
     const Eigen::Vector2d q = frame.transpose() * (ck * (x - y) + cj * (x - z)) / rest.area;
-    const Eigen::Vector2d D = frame.transpose() * chord.up.cross(z - y) / (2 * rest.area);
+    const Eigen::Vector2d D = frame.transpose() * image.up.cross(z - y) / (2 * rest.area);
     sum.value += rest.area * d.f;
     sum.gradient += rest.area * (d.f_q * q + d.f_D * D);
     sum.hessian +=
         rest.area * (d.f_qD * (q * D.transpose() + D * q.transpose()) + d.f_DD * D * D.transpose());
     sum.hessian.diagonal().array() += d.f_q * (cj + ck);
     const Vec3 here = map.source().vertex(v);
-    sum.squared_reach = std::max({sum.squared_reach, (map.source().vertex(corners[j]) - here).squaredNorm(),
-                                  (map.source().vertex(corners[k]) - here).squaredNorm()});
+    sum.squared_longest_edge =
+        std::max({sum.squared_longest_edge, (map.source().vertex(corners[j]) - here).squaredNorm(),
+                  (map.source().vertex(corners[k]) - here).squaredNorm()});
 }
 
 /// Newton's direction with the Hessian's eigenvalues made positive.
@@ -77,15 +78,15 @@ double LocalRelaxation::star_energy(int v, const FoldEnergy& energy, double limi
     for (const int f : map_.faces_of_vertex()[v]) {
         if (sum >= limit) break;
         if (!map_.is_mapped(f)) continue;
-        const Chord chord = map_.chord(f);
-        sum += map_.rest(f).area * energy.value(chord.q, chord.D);
+        const ImageTriangle image = map_.image_triangle(f);
+        sum += map_.rest(f).area * energy.value(image.q, image.D);
     }
     return sum;
 }
 
 bool LocalRelaxation::has_reversed_face(int v) const {
     for (const int f : map_.faces_of_vertex()[v])
-        if (map_.is_mapped(f) && map_.chord(f).D <= 0) return true;
+        if (map_.is_mapped(f) && map_.image_triangle(f).D <= 0) return true;
     return false;
 }
 
@@ -103,7 +104,7 @@ void LocalRelaxation::newton_step(int v, const FoldEnergy& energy) {
     for (const int f : map_.faces_of_vertex()[v])
         if (map_.is_mapped(f)) add_face(quadratic, map_, frame, f, v, energy);
     Vec3 step = frame * descent(quadratic);
-    const double length = step.norm(), limit = longest_step * std::sqrt(quadratic.squared_reach);
+    const double length = step.norm(), limit = longest_step * std::sqrt(quadratic.squared_longest_edge);
     if (!(length > 1e-12)) return;
     if (length > limit) step *= limit / length;
     for (int i = 0; i <= backtracks; ++i, step /= 2)

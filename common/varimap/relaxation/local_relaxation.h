@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
 
@@ -12,7 +12,7 @@ namespace varimap {
 /// the true energy of the vertex's faces, which therefore never grows.
 class LocalRelaxation {
   public:
-    LocalRelaxation(MovingMap& map, std::uint32_t seed) : map_(map), state_(seed) {}
+    LocalRelaxation(SlidingMap& map, std::uint32_t seed) : map_(map), state_(seed) {}
 
     /// One visit of every vertex of `vertices` (none may be a landmark or without an image); reorders them.
     /// With `leap`, vertices with a reversed face also try the mean of their neighbours' images, and walks
@@ -24,11 +24,11 @@ class LocalRelaxation {
     void newton_step(int v, const FoldEnergy& energy);
     void leap_to_mean(int v, const FoldEnergy& energy);
     bool try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy);
-    /// Of the faces around a vertex; some number from `limit` on if that is reached.
+    /// Of the faces around a vertex; some number from `limit` on if the sum gets there.
     double star_energy(int v, const FoldEnergy& energy, double limit) const;
     bool has_reversed_face(int v) const;
 
-    MovingMap& map_;
+    SlidingMap& map_;
     std::uint32_t state_;
 };
 

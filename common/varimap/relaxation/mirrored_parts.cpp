@@ -7,14 +7,14 @@ namespace varimap {
 
 namespace {
 
-ReversedPatch measure(const MovingMap& map, const Edges& edges, const std::vector<char>& reversed,
+ReversedPatch measure(const SlidingMap& map, const Edges& edges, const std::vector<char>& reversed,
                       std::vector<int> faces) {
     ReversedPatch patch;
     int interior = 0;
     double signed_area = 0;
     for (const int f : faces) {
         patch.area += map.rest(f).area;
-        signed_area += map.rest(f).area * map.chord(f).D;
+        signed_area += map.rest(f).area * map.image_triangle(f).D;
         bool surrounded = true;
         for (int k = 0; k < 3; ++k)
             for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + k)]])
@@ -30,12 +30,12 @@ ReversedPatch measure(const MovingMap& map, const Edges& edges, const std::vecto
 
 }  // namespace
 
-std::vector<ReversedPatch> reversed_patches(const MovingMap& map) {
+std::vector<ReversedPatch> reversed_patches(const SlidingMap& map) {
     const int n = map.source().face_count();
     std::vector<char> reversed(std::size_t(n), 0);
     bool any = false;
     for (int f = 0; f < n; ++f) {
-        reversed[std::size_t(f)] = map.is_mapped(f) && map.chord(f).D <= 0;
+        reversed[std::size_t(f)] = map.is_mapped(f) && map.image_triangle(f).D <= 0;
         any = any || reversed[std::size_t(f)];
     }
     std::vector<ReversedPatch> patches;

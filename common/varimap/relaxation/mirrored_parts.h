@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
 
@@ -22,7 +22,7 @@ struct ReversedPatch {
 };
 
 /// All patches, largest area first.
-std::vector<ReversedPatch> reversed_patches(const MovingMap& map);
+std::vector<ReversedPatch> reversed_patches(const SlidingMap& map);
 
 inline bool is_mirrored_part(const ReversedPatch& patch, const MirrorGate& gate) {
     return patch.area >= gate.area && patch.ratio <= gate.ratio && patch.interior >= gate.interior;

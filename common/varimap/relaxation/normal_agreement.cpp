@@ -34,7 +34,7 @@ void make_set(std::vector<int>& values) {
 
 }  // namespace
 
-NormalAgreement::NormalAgreement(MovingMap& map) : map_(map), closest_(map.target()) {}
+NormalAgreement::NormalAgreement(SlidingMap& map) : map_(map), closest_(map.target()) {}
 
 bool NormalAgreement::disagrees(int f) const {
     const auto c = map_.source().faces.row(f);
@@ -51,7 +51,7 @@ bool NormalAgreement::disagrees(int f) const {
 std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) const {
     std::vector<char> marks(faces.size(), 0);
     parallel_for_each_index(std::size_t(0) + faces.size(), std::size_t(64), [&](std::size_t i) {
-        marks[i] = map_.is_mapped(faces[i]) && (map_.chord(faces[i]).D <= 0 || disagrees(faces[i]));
+        marks[i] = map_.is_mapped(faces[i]) && (map_.image_triangle(faces[i]).D <= 0 || disagrees(faces[i]));
     });
     std::vector<int> found;
     for (std::size_t i = 0; i < faces.size(); ++i)
@@ -70,9 +70,9 @@ double NormalAgreement::cost(int v, double limit) const {
     double sum = 0;
     for (const int f : faces) {
         if (!map_.is_mapped(f)) continue;
-        const Chord chord = map_.chord(f);
-        sum += map_.rest(f).area * robust.value(energy.value(chord.q, chord.D));
-        if (chord.D <= FoldRemoval::flat_limit) sum += reversal;
+        const ImageTriangle image = map_.image_triangle(f);
+        sum += map_.rest(f).area * robust.value(energy.value(image.q, image.D));
+        if (image.D <= FoldRemoval::flat_limit) sum += reversal;
     }
     for (const int f : faces) {
         if (sum >= limit) break;  // what follows asks for many closest points
@@ -82,14 +82,14 @@ double NormalAgreement::cost(int v, double limit) const {
 }
 
 bool NormalAgreement::search(int v) {
-    double reach = 0;
+    double mean_edge = 0;
     int count = 0;
     for (const int f : map_.faces_of_vertex()[v])
         for (int k = 0; k < 3; ++k)
             if (const int u = map_.source().faces(f, k); u != v && map_.has_image(u))
-                reach += (map_.image(u) - map_.image(v)).norm(), ++count;
+                mean_edge += (map_.image(u) - map_.image(v)).norm(), ++count;
     if (count == 0) return false;
-    reach /= count;
+    mean_edge /= count;
     const SurfacePoint start = map_.points()[std::size_t(v)];
     const auto frame = map_.tangents(v);
     SurfacePoint best = start;
@@ -99,7 +99,7 @@ bool NormalAgreement::search(int v) {
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * i / directions;
             const Vec3 step =
-                radius * reach * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
+                radius * mean_edge * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
             map_.place(v, map_.walk(start, step));
             if (const double c = cost(v, least); c < least) least = c, best = map_.points()[std::size_t(v)];
         }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "varimap/mesh/closest_point.h"
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
 
@@ -13,9 +13,10 @@ namespace varimap {
 /// of a fixed set of places around it, where a disagreeing face costs more than any strain worth having.
 class NormalAgreement {
   public:
-    explicit NormalAgreement(MovingMap& map);
+    explicit NormalAgreement(SlidingMap& map);
 
-    /// Reversed faces, and those whose chord does not face the way the target does beneath it, ascending.
+    /// Reversed faces, and those whose image triangle does not face the way the target does beneath it,
+    /// ascending.
     std::vector<int> disagreeing_faces() const;
     /// Turns them; vertices with fixed[v] stay. Returns those that are left.
     std::vector<int> improve(std::vector<int> disagreeing, const std::vector<char>& fixed);
@@ -27,7 +28,7 @@ class NormalAgreement {
     double cost(int v, double limit) const;
     bool search(int v);
 
-    MovingMap& map_;
+    SlidingMap& map_;
     ClosestPoint closest_;
 };
 

@@ -9,7 +9,7 @@
 
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 #include "varimap/relaxation/continuation.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
@@ -41,13 +41,13 @@ constexpr double cell_radius = 2;  ///< edges of the source
 constexpr double doubt = 0.1;
 const FoldEnergy judged_energy{1, 0.1};
 
-double excess(const MovingMap& map, int f) {
-    const Chord chord = map.chord(f);
-    return RobustExcess(judged_energy, 0).excess(judged_energy.value(chord.q, chord.D));
+double excess(const SlidingMap& map, int f) {
+    const ImageTriangle image = map.image_triangle(f);
+    return RobustExcess(judged_energy, 0).excess(judged_energy.value(image.q, image.D));
 }
 
 /// Excess per face, averaged over its surroundings.
-std::vector<double> smoothed_excess(const MovingMap& map) {
+std::vector<double> smoothed_excess(const SlidingMap& map) {
     const TriangleMesh& source = map.source();
     std::vector<double> value(std::size_t(source.face_count()), 0);
     for (int f = 0; f < source.face_count(); ++f)
@@ -71,12 +71,12 @@ std::vector<double> smoothed_excess(const MovingMap& map) {
     return value;
 }
 
-double area_of(const MovingMap& map, const std::vector<int>& faces) {
+double area_of(const SlidingMap& map, const std::vector<int>& faces) {
     return std::accumulate(faces.begin(), faces.end(), 0.0,
                            [&](double sum, int f) { return sum + map.rest(f).area; });
 }
 
-double area_of(const MovingMap& map, const Marks& marked) {
+double area_of(const SlidingMap& map, const Marks& marked) {
     double sum = 0;
     for (std::size_t f = 0; f < marked.size(); ++f)
         if (marked[f]) sum += map.rest(int(f)).area;
@@ -84,7 +84,7 @@ double area_of(const MovingMap& map, const Marks& marked) {
 }
 
 /// The part grown ring by ring to `area`, then with all it cuts off from the largest rest. As marks of faces.
-Marks widened(const MovingMap& map, const Edges& edges, const std::vector<int>& part, double area) {
+Marks widened(const SlidingMap& map, const Edges& edges, const std::vector<int>& part, double area) {
     constexpr std::size_t least_rings = 2;
     Marks inside(std::size_t(map.source().face_count()), 0);
     for (const int f : part) inside[std::size_t(f)] = 1;
@@ -130,10 +130,10 @@ int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
 class Trial {
   public:
     /// inside: faces of the part; its vertices are open, what is relaxed reaches one ring into the
-    /// surroundings; attachments: of the whole map; landmarks: those of them that hold while it relaxes.
+    /// surroundings; constraints: of the whole map; landmarks: those of them that hold while it relaxes.
     /// Leaves the part relaxed: to be followed by a run.
-    Trial(MovingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options,
-          const std::vector<Attachment>& attachments, const std::vector<Attachment>& landmarks,
+    Trial(SlidingMap& map, const Marks& inside, const Marks& fixed, const PartReplacementOptions& options,
+          const std::vector<SoftConstraint>& constraints, const std::vector<SoftConstraint>& landmarks,
           const TargetCells& cells)
         : map_(map),
           cells_(cells),
@@ -158,15 +158,15 @@ class Trial {
         for (std::size_t v = 0; v < free.size(); ++v) free[v] = !held_[v];
         for (int f = 0; f < face_count; ++f)
             if (any(free, f)) faces_.push_back(f);
-        for (const Attachment& attachment : attachments)
-            if (any(free, attachment.from.face)) attachments_.push_back(attachment);
+        for (const SoftConstraint& constraint : constraints)
+            if (any(free, constraint.from.face)) constraints_.push_back(constraint);
         for (std::size_t v = 0; v < fixed.size(); ++v)
             if (open_[v] && fixed[v]) landmarks_.push_back(int(v));
         global_ = std::make_unique<GlobalRelaxation>(map, held_);
-        global_->attach(landmarks);
+        global_->set_constraints(landmarks);
         for (int i = 0; i < relaxations; ++i) relax();
         energy_to_beat_ = (1 - options.gain) * energy();
-        reached_before_ = cells_.reached(map);
+        occupied_before_ = cells_.occupied(map);
         const double area = area_of(map, inside);
         tolerated_loss_ =
             std::max(lost_vertices / double(fixed.size()), std::min(lost_share * area, lost_most));
@@ -200,37 +200,37 @@ class Trial {
         FoldRemoval{fold_sweeps, fold_visits * share}(map_, held_);
     }
     bool covers_as_much() const {
-        return cells_.lost_area(reached_before_, cells_.reached(map_)) <= tolerated_loss_;
+        return cells_.lost_area(occupied_before_, cells_.occupied(map_)) <= tolerated_loss_;
     }
     double energy() const {
         const RobustExcess robust(judged_energy, options_.robustness);
         double sum = 0;
         for (const int f : faces_) {
             if (!map_.is_mapped(f)) continue;
-            const Chord chord = map_.chord(f);
-            sum += map_.rest(f).area * robust.value(judged_energy.value(chord.q, chord.D));
+            const ImageTriangle image = map_.image_triangle(f);
+            sum += map_.rest(f).area * robust.value(judged_energy.value(image.q, image.D));
         }
-        for (const Attachment& attachment : attachments_) sum += value(attachment, map_);
+        for (const SoftConstraint& constraint : constraints_) sum += value(constraint, map_);
         return sum;
     }
 
-    MovingMap& map_;
+    SlidingMap& map_;
     const TargetCells& cells_;
     const PartReplacementOptions& options_;
     Marks open_, held_;  ///< vertices that are placed anew; that stay while the part is relaxed
     PointMap before_;
     std::vector<int> faces_, landmarks_;
-    std::vector<Attachment> attachments_;  ///< of those faces
+    std::vector<SoftConstraint> constraints_;  ///< of those faces
     std::unique_ptr<GlobalRelaxation> global_;
     double energy_to_beat_ = 0;
-    Marks reached_before_;  ///< cells of the target
+    Marks occupied_before_;  ///< cells of the target
     double tolerated_loss_ = 0;
 };
 
 }  // namespace
 
-PartReplacement::PartReplacement(MovingMap& map, const Marks& fixed, const PartReplacementOptions& options,
-                                 const std::vector<Attachment>& landmarks)
+PartReplacement::PartReplacement(SlidingMap& map, const Marks& fixed, const PartReplacementOptions& options,
+                                 const std::vector<SoftConstraint>& landmarks)
     : map_(map),
       fixed_(fixed),
       options_(options),
@@ -266,7 +266,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
         const Marks inside = widened(map_, edges_, part, widening * area_of(map_, part));
         const double area = area_of(map_, inside);
         if (area > largest_part) return false;
-        Trial trial(map_, inside, fixed_, options_, attachments_, landmarks_, cells_);
+        Trial trial(map_, inside, fixed_, options_, constraints_, landmarks_, cells_);
         for (const Proposal& propose : proposals(trial.open())) {
             visits_ += double(std::count(trial.open().begin(), trial.open().end(), 1));
             if (!trial.run(propose)) continue;
@@ -295,7 +295,7 @@ void PartReplacement::replace_parts(const Proposals& proposals) {
 }
 
 /// How much further the target reaches beyond the image of the cut than the source beyond the cut.
-double PartReplacement::reach_ratio(const Marks& open) const {
+double PartReplacement::length_ratio(const Marks& open) const {
     std::vector<int> cut, cut_images, other_images;
     for (int v = 0; v < int(open.size()); ++v) {
         if (open[std::size_t(v)] || !map_.has_image(v)) continue;
@@ -320,15 +320,15 @@ double PartReplacement::reach_ratio(const Marks& open) const {
 }
 
 void PartReplacement::judge_by(const PointMap& back, double weight) {
-    attachments_ = inverse_attachments(map_, back, weight);
-    attachments_.insert(attachments_.end(), landmarks_.begin(), landmarks_.end());
+    constraints_ = inverse_constraints(map_, back, weight);
+    constraints_.insert(constraints_.end(), landmarks_.begin(), landmarks_.end());
 }
 
 void PartReplacement::continue_surroundings(const PointMap& back) {
     judge_by(back, doubt * options_.inverse_weight);
     constexpr double noticeable = 0.03;  ///< difference of scales
     replace_parts([&](const Marks& part) {
-        const double ratio = reach_ratio(part);
+        const double ratio = length_ratio(part);
         std::vector<Proposal> proposals;
         if (std::abs(ratio - 1) > noticeable)
             proposals.push_back([&, ratio](const Marks& open) { continue_map(map_, open, ratio); });
@@ -340,18 +340,18 @@ void PartReplacement::continue_surroundings(const PointMap& back) {
 void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
     judge_by(back, options_.inverse_weight);
     // The target's faces as they lie on the source.
-    const ChordMesh chords(back, map_.target(), map_.source());
-    const ClosestPoint closest(chords.image);
+    const ImageMesh images(back, map_.target(), map_.source());
+    const ClosestPoint closest(images.image);
     const Points normals = vertex_normals(map_.source());
     const Proposal invert = [&](const Marks& open) {
         for (int v = 0; v < int(open.size()); ++v) {
             if (!open[std::size_t(v)] || !map_.has_image(v)) continue;
             const SurfacePoint point = closest(map_.source().vertex(v), normals.row(v).transpose()).point;
-            if (chords.is_mapped(point.face)) map_.place(v, point);
+            if (images.is_mapped(point.face)) map_.place(v, point);
         }
     };
     std::fill(rejected_.begin(), rejected_.end(), 0);
-    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, attachments_, landmarks_, cells_)
+    if (whole && Trial(map_, Marks(rejected_.size(), 1), fixed_, options_, constraints_, landmarks_, cells_)
                      .run(invert)) {
         ++report_.replaced;
         report_.area_percent += 100;

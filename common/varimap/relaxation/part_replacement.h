@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "varimap/mesh/geodesic_graph.h"
-#include "varimap/relaxation/attachments.h"
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
+#include "varimap/relaxation/soft_constraints.h"
 #include "varimap/relaxation/target_cells.h"
 
 namespace varimap {
@@ -16,7 +16,7 @@ struct PartReplacementOptions {
     double contrast = 3;    ///< times the median over all faces that it is at least
     double area = 2e-4;     ///< share of the source's area of the smallest part that is tried
     double robustness = 3;  ///< of the energy by which maps are compared; lower ones think little of spikes
-    /// Of an alternative's being inverse to the other direction (attachments.h), beside its energy: what
+    /// Of an alternative's being inverse to the other direction (soft_constraints.h), beside its energy: what
     /// leaves a part of the target uncovered may be nearer to an isometry. A tenth of it, where parts are
     /// continued from their surroundings, since the other direction may be wrong there too.
     double inverse_weight = 1000;
@@ -38,8 +38,8 @@ struct PartReplacementReport {
 class PartReplacement {
   public:
     /// fixed[v]: landmarks, which keep their images; landmarks: those that are points. Keeps references.
-    PartReplacement(MovingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options,
-                    const std::vector<Attachment>& landmarks = {});
+    PartReplacement(SlidingMap& map, const std::vector<char>& fixed, const PartReplacementOptions& options,
+                    const std::vector<SoftConstraint>& landmarks = {});
 
     /// Maps parts as an isometry would continue the map of their surroundings (continuation.h), at the scale
     /// at which a limb's end meets the limb's end, and at the source's own. `back`: the other direction, or
@@ -58,19 +58,19 @@ class PartReplacement {
     void replace_parts(const Proposals& proposals);
     bool replace_part(const std::vector<int>& part, const Proposals& proposals);
     std::vector<std::vector<int>> strained_parts() const;
-    double reach_ratio(const std::vector<char>& open) const;
+    double length_ratio(const std::vector<char>& open) const;
     void judge_by(const PointMap& back, double weight);
 
-    MovingMap& map_;
+    SlidingMap& map_;
     const std::vector<char>& fixed_;
     PartReplacementOptions options_;
     Edges edges_;
     GeodesicGraph source_graph_, target_graph_;
     TargetCells cells_;
-    const std::vector<Attachment> landmarks_;
-    std::vector<Attachment> attachments_;  ///< also the landmarks: by which alternatives are judged
-    std::vector<char> rejected_;           ///< faces of parts for which nothing better was found
-    double visits_ = 0;                    ///< vertices in trials so far
+    const std::vector<SoftConstraint> landmarks_;
+    std::vector<SoftConstraint> constraints_;  ///< also the landmarks: by which alternatives are judged
+    std::vector<char> rejected_;               ///< faces of parts for which nothing better was found
+    double visits_ = 0;                        ///< vertices in trials so far
     PartReplacementReport report_;
 };
 

@@ -4,7 +4,7 @@
 
 namespace varimap {
 
-TargetCells::TargetCells(const MovingMap& map, const GeodesicGraph& target_graph, double radius)
+TargetCells::TargetCells(const SlidingMap& map, const GeodesicGraph& target_graph, double radius)
     : cell_of_vertex_(std::size_t(target_graph.vertex_count()), -1) {
     const Eigen::VectorXd area = voronoi_masses(map.target());
     GeodesicBall ball(target_graph);
@@ -23,13 +23,13 @@ TargetCells::TargetCells(const MovingMap& map, const GeodesicGraph& target_graph
     }
 }
 
-std::vector<char> TargetCells::reached(const MovingMap& map) const {
-    std::vector<char> reached(area_.size(), 0);
+std::vector<char> TargetCells::occupied(const SlidingMap& map) const {
+    std::vector<char> occupied(area_.size(), 0);
     for (const SurfacePoint& image : map.points())
         for (int k = 0; k < 3; ++k)
             if (image.face >= 0)
-                reached[std::size_t(cell_of_vertex_[std::size_t(map.target().faces(image.face, k))])] = 1;
-    return reached;
+                occupied[std::size_t(cell_of_vertex_[std::size_t(map.target().faces(image.face, k))])] = 1;
+    return occupied;
 }
 
 double TargetCells::lost_area(const std::vector<char>& before, const std::vector<char>& after) const {

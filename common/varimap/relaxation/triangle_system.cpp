@@ -114,7 +114,7 @@ void TriangleSystem::scale_diagonal(double factor) {
 
 /// Fills the end of the pattern with the columns in which row k of L has entries, every one before those it
 /// contributes to; returns where they start.
-int TriangleSystem::reach(int k) {
+int TriangleSystem::row_pattern(int k) {
     int top = int(pattern_.size());
     visited_[k] = k;
     for (int entry = begin_[k]; entry < begin_[k + 1] - 1; ++entry) {
@@ -133,7 +133,7 @@ bool TriangleSystem::factorize() {
     factor_end_.assign(factor_begin_.begin(), factor_begin_.end() - 1);
     std::fill(visited_.begin(), visited_.end(), -1);
     for (int k = 0; k < n; ++k) {
-        int next = reach(k);
+        int next = row_pattern(k);
         for (int entry = begin_[k]; entry < begin_[k + 1] - 1; ++entry)
             present_[row_[entry]] = upper_[entry].transpose();
         Block pivot = diagonal(k);

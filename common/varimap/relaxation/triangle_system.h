@@ -36,7 +36,7 @@ class TriangleSystem {
     void order();
     void find_slots();
     void count_factor();
-    int reach(int k);
+    int row_pattern(int k);
     Block& diagonal(int k) { return upper_[begin_[k + 1] - 1]; }
 
     std::vector<std::array<int, 3>> triangles_;  ///< corners' positions in the order of elimination; or -1

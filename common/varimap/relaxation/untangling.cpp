@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "varimap/quality/quality.h"
-#include "varimap/relaxation/feature_agreement.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
 #include "varimap/relaxation/normal_agreement.h"
+#include "varimap/relaxation/relief_agreement.h"
 
 namespace varimap {
 
@@ -33,9 +33,9 @@ constexpr int least_steps = 2;
 constexpr double least_gain = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
 /// Vertices that local sweeps may move: those of a face that holds a landmark would leave it.
-std::vector<int> free_vertices(const MovingMap& map, std::vector<char> fixed,
-                               const std::vector<Attachment>& landmarks) {
-    for (const Attachment& landmark : landmarks)
+std::vector<int> free_vertices(const SlidingMap& map, std::vector<char> fixed,
+                               const std::vector<SoftConstraint>& landmarks) {
+    for (const SoftConstraint& landmark : landmarks)
         for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(landmark.from.face, k))] = 1;
     std::vector<int> free;
     for (int v = 0; v < int(fixed.size()); ++v)
@@ -46,8 +46,9 @@ std::vector<int> free_vertices(const MovingMap& map, std::vector<char> fixed,
 /// Global steps over the whole map, each followed by a local sweep that lets single vertices out of corners.
 class Relaxation {
   public:
-    Relaxation(MovingMap& map, const std::vector<char>& fixed, const FeatureAgreement* features,
-               const std::vector<Attachment>& landmarks, const Round& round, const UntanglingOptions& options)
+    Relaxation(SlidingMap& map, const std::vector<char>& fixed, const ReliefAgreement* relief,
+               const std::vector<SoftConstraint>& landmarks, const Round& round,
+               const UntanglingOptions& options)
         : map_(map),
           options_(options),
           landmarks_(landmarks),
@@ -55,7 +56,7 @@ class Relaxation {
           last_inverse_(round.last_inverse),
           robustness_(round.robustness_factor * options.robustness),
           vertices_(free_vertices(map, fixed, landmarks)),
-          global_(map, fixed, features),
+          global_(map, fixed, relief),
           local_(map, 99) {
         // A factorisation takes more than linear time; the first steps are those that matter.
         const double affordable = options.global_steps * large / double(vertices_.size() + 1);
@@ -64,12 +65,12 @@ class Relaxation {
 
     /// `back`: the other direction, whose inverse the map is drawn to.
     void step(const PointMap* back) {
-        attachments_ = landmarks_;
+        constraints_ = landmarks_;
         if (back && options_.inverse_weight > 0) {
-            const auto inverse = inverse_attachments(map_, *back, options_.inverse_weight * inverse_share());
-            attachments_.insert(attachments_.end(), inverse.begin(), inverse.end());
+            const auto inverse = inverse_constraints(map_, *back, options_.inverse_weight * inverse_share());
+            constraints_.insert(constraints_.end(), inverse.begin(), inverse.end());
         }
-        global_.attach(attachments_);
+        global_.set_constraints(constraints_);
         const double gain = global_.step(energy_, robustness_);
         local_.sweep(vertices_, energy_, false);
         ++steps_;
@@ -85,21 +86,21 @@ class Relaxation {
         return first_inverse + (last_inverse_ - first_inverse) * progress * progress;
     }
 
-    MovingMap& map_;
+    SlidingMap& map_;
     const UntanglingOptions& options_;
-    const std::vector<Attachment>& landmarks_;
+    const std::vector<SoftConstraint>& landmarks_;
     FoldEnergy energy_;
     double last_inverse_, robustness_;
     std::vector<int> vertices_;
     GlobalRelaxation global_;
     LocalRelaxation local_;
-    std::vector<Attachment> attachments_;
+    std::vector<SoftConstraint> constraints_;
     int most_ = 0, steps_ = 0;
     bool converged_ = false;
 };
 
 /// Vertices that stay: the pinned ones and those of mirrored parts.
-std::vector<char> stay(const MovingMap& map, const std::vector<char>& pinned, const MirrorGate& gate,
+std::vector<char> stay(const SlidingMap& map, const std::vector<char>& pinned, const MirrorGate& gate,
                        UntanglingReport& report) {
     std::vector<char> fixed = pinned;
     report.mirrored_parts = 0;
@@ -125,21 +126,21 @@ class Untangling {
           pinned_(pinned),
           options_(options),
           before_(measure_distortion(map, source, target)),
-          moving_(map, source, target),
-          landmarks_(landmark_attachments(moving_, points)) {
+          sliding_(map, source, target),
+          landmarks_(landmark_constraints(sliding_, points)) {
         report_.flipped_before = report_.flipped_after = before_.flipped_count;
         report_.flipped_area_percent_before = report_.flipped_area_percent_after =
             before_.flipped_area_percent;
-        if (options.feature_weight > 0 && options.global_steps > 0)
-            features_ = std::make_unique<FeatureAgreement>(moving_, options.feature_weight);
+        if (options.relief_weight > 0 && options.global_steps > 0)
+            relief_ = std::make_unique<ReliefAgreement>(sliding_, options.relief_weight);
     }
 
     /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
     void start_relaxation(const Round& round) {
-        fixed_ = stay(moving_, pinned_, options_.gate, report_);
+        fixed_ = stay(sliding_, pinned_, options_.gate, report_);
         if (options_.global_steps > 0)
             relaxation_ =
-                std::make_unique<Relaxation>(moving_, fixed_, features_.get(), landmarks_, round, options_);
+                std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, options_);
     }
     bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
     void relax(const PointMap* back) {
@@ -148,16 +149,16 @@ class Untangling {
     void end_relaxation(const Round& round) {
         if (relaxation_) report_.global_steps += relaxation_->steps();
         relaxation_.reset();
-        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(moving_, held());
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(sliding_, held());
     }
 
     void replace_parts(const PointMap& back) {
         if (!options_.replace_parts) return;
-        replacement_ = std::make_unique<PartReplacement>(moving_, pinned_, options_.parts, landmarks_);
+        replacement_ = std::make_unique<PartReplacement>(sliding_, pinned_, options_.parts, landmarks_);
         replacement_->continue_surroundings(back);
     }
 
-    const PointMap& points() const { return moving_.points(); }
+    const PointMap& points() const { return sliding_.points(); }
     void reconcile(const PointMap& back, bool whole) {
         if (replacement_) replacement_->adopt_inverse(back, whole && double(pinned_.size()) <= large);
     }
@@ -170,9 +171,9 @@ class Untangling {
             report_.parts_replaced = replacement_->report().replaced;
             report_.replaced_area_percent = replacement_->report().area_percent;
         }
-        const Distortion after = measure_distortion(moving_.points(), source_, target_);
+        const Distortion after = measure_distortion(sliding_.points(), source_, target_);
         if (after.flipped_area_percent > before_.flipped_area_percent) return report_;
-        map_ = moving_.points();
+        map_ = sliding_.points();
         report_.flipped_after = after.flipped_count;
         report_.flipped_area_percent_after = after.flipped_area_percent;
         return report_;
@@ -182,13 +183,13 @@ class Untangling {
     /// The fixed vertices, and those that hold a landmark in place, unless their triangle is reversed.
     std::vector<char> held() const {
         std::vector<char> held = fixed_;
-        for (const Attachment& landmark : landmarks_)
-            if (moving_.chord(landmark.from.face).D > 0)
+        for (const SoftConstraint& landmark : landmarks_)
+            if (sliding_.image_triangle(landmark.from.face).D > 0)
                 for (int k = 0; k < 3; ++k) held[std::size_t(source_.faces(landmark.from.face, k))] = 1;
         return held;
     }
     void align_normals() {
-        NormalAgreement agreement(moving_);
+        NormalAgreement agreement(sliding_);
         const std::vector<int> disagreeing = agreement.disagreeing_faces();
         report_.disagreeing_before = int(disagreeing.size());
         report_.disagreeing_after = int(agreement.improve(disagreeing, held()).size());
@@ -199,10 +200,10 @@ class Untangling {
     const std::vector<char>& pinned_;
     const UntanglingOptions& options_;
     Distortion before_;
-    MovingMap moving_;
-    const std::vector<Attachment> landmarks_;  ///< that are points
+    SlidingMap sliding_;
+    const std::vector<SoftConstraint> landmarks_;  ///< that are points
     std::vector<char> fixed_;
-    std::unique_ptr<FeatureAgreement> features_;
+    std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;

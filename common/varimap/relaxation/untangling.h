@@ -15,8 +15,8 @@ struct UntanglingOptions {
     double area_weight = 1;  ///< w of the fold energy: areas against angles
     double robustness =
         0.3;  ///< excess energy at which a face counts half in global steps; 0: all count fully
-    double feature_weight = 2;  ///< of features against the fold energy in global steps (feature_agreement.h)
-    /// Of each direction's attraction to the other's inverse (attachments.h) in the last global steps.
+    double relief_weight = 2;  ///< of features against the fold energy in global steps (relief_agreement.h)
+    /// Of each direction's attraction to the other's inverse (soft_constraints.h) in the last global steps.
     double inverse_weight = 1000;
     int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
     MirrorGate gate;
@@ -41,7 +41,7 @@ struct UntanglingReport {
 
 /// Slides the images of the source's vertices on the target until no triangle of the cross-remeshed source is
 /// reversed or collapsed, the map is as near to an isometry as it gets (fold_energy.h), and features meet
-/// (feature_agreement.h):
+/// (relief_agreement.h):
 ///  1. global relaxation, robust against parts that cannot be isometric, and removal of folds in patches;
 ///  2. strained parts, which are mirrored, twisted or crumpled, mapped anew (part_replacement.h);
 ///  3. the first step once more, with less regularisation;
@@ -59,7 +59,8 @@ struct MapPair {
 };
 struct PinnedPair {
     std::vector<char> A, B;
-    PointPairs points = {};  ///< of both meshes, drawn onto each other (attachments.h) rather than pinned
+    PointPairs points =
+        {};  ///< of both meshes, drawn onto each other (soft_constraints.h) rather than pinned
 };
 struct UntanglingReports {
     UntanglingReport A_to_B, B_to_A;

@@ -25,11 +25,11 @@ Corners corners_of(const TriangleMesh& mesh, int f) {
     return {mesh.vertex(mesh.faces(f, 0)), mesh.vertex(mesh.faces(f, 1)), mesh.vertex(mesh.faces(f, 2))};
 }
 
-/// Whether twice the area is above what rounding leaves of a segment or a point; `scale` is an area.
-bool spans_area(const Corners& p, double scale) {
+/// Whether twice the area is no more than what rounding leaves of a segment or a point; `scale` is an area.
+bool is_degenerate(const Corners& p, double scale) {
     const double longest =
         std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
-    return (p[1] - p[0]).cross(p[2] - p[0]).norm() > 1e-11 * longest + 1e-15 * scale;
+    return !((p[1] - p[0]).cross(p[2] - p[0]).norm() > 1e-11 * longest + 1e-15 * scale);
 }
 
 /// Positions of the images; where there is none, some place on the target.
@@ -66,7 +66,7 @@ int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point) {
     return point.face >= 0 && point.barycentric.maxCoeff(&k) > 1 - 1e-9 ? mesh.faces(point.face, k) : -1;
 }
 
-enum class Verdict : char { left_out, without_area, reversed, upright };
+enum class Verdict : char { left_out, degenerate, reversed, upright };
 
 class Judge {
   public:
@@ -94,11 +94,11 @@ class Judge {
 
     const PointMap& map_;
     const TriangleMesh &source_, &target_;
-    TriangleMesh image_;  ///< the chord triangles
+    TriangleMesh image_;  ///< the image triangles
     ClosestPoint closest_;
     double source_area_, target_area_;
     std::vector<Verdict> verdict_;
-    Points side_;  ///< per face: sum of the target's normals below its chord triangle; 0 where not judged
+    Points side_;  ///< per face: sum of the target's normals below its image triangle; 0 where not judged
 };
 
 bool Judge::has_images(int f) const {
@@ -109,9 +109,9 @@ bool Judge::has_images(int f) const {
 
 Verdict Judge::judge(int f) {
     if (!has_images(f)) return Verdict::left_out;
-    if (!spans_area(corners_of(source_, f), source_area_)) return Verdict::without_area;
+    if (is_degenerate(corners_of(source_, f), source_area_)) return Verdict::degenerate;
     const Corners p = corners_of(image_, f);
-    if (!spans_area(p, target_area_)) return Verdict::reversed;
+    if (is_degenerate(p, target_area_)) return Verdict::reversed;
     Vec3 m = Vec3::Zero();
     int face = -1;
     for (const Vec3& b : inner_points) {

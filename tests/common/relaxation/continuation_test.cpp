@@ -29,7 +29,7 @@ PointMap damaged_identity(const TriangleMesh& mesh, const std::vector<char>& ope
 
 PointMap continued(const TriangleMesh& source, const TriangleMesh& target, const std::vector<char>& open,
                    double scale = 1) {
-    MovingMap map(damaged_identity(source, open), source, target);
+    SlidingMap map(damaged_identity(source, open), source, target);
     continue_map(map, open, scale);
     return map.points();
 }
@@ -94,7 +94,7 @@ TEST(Continuation, GivesNoImageToAVertexThatHadNone) {
     PointMap without = damaged_identity(sphere, open);
     const auto hole = std::size_t(std::find(open.begin(), open.end(), 1) - open.begin());
     without[hole].face = -1;
-    MovingMap map(without, sphere, sphere);
+    SlidingMap map(without, sphere, sphere);
     continue_map(map, open, 1);
     EXPECT_FALSE(map.has_image(int(hole)));
     open[hole] = 0;
@@ -104,7 +104,7 @@ TEST(Continuation, GivesNoImageToAVertexThatHadNone) {
 TEST(Continuation, DoesNotDependOnTheImagesItReplaces) {
     const TriangleMesh torus = shapes::torus(1, 0.4, 40, 16);
     const std::vector<char> open = marks(torus, [](const Vec3& p) { return p.x() > 0.5; });
-    MovingMap from_identity(shapes::at_vertices(torus), torus, torus);
+    SlidingMap from_identity(shapes::at_vertices(torus), torus, torus);
     continue_map(from_identity, open, 1);
     const PointMap from_damage = continued(torus, torus, open);
     for (std::size_t v = 0; v < open.size(); ++v) {

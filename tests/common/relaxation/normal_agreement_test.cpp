@@ -36,27 +36,29 @@ std::vector<char> none(const TriangleMesh& mesh) {
     return std::vector<char>(std::size_t(mesh.vertex_count()), 0);
 }
 
-int reversed_chords(const MovingMap& map) {
+int reversed_images(const SlidingMap& map) {
     int count = 0;
-    for (int f = 0; f < map.source().face_count(); ++f) count += map.chord(f).D <= FoldRemoval::flat_limit;
+    for (int f = 0; f < map.source().face_count(); ++f)
+        count += map.image_triangle(f).D <= FoldRemoval::flat_limit;
     return count;
 }
 
 TEST(NormalAgreement, FindsFacesThatCutThroughARim) {
     const TriangleMesh mesh = plate();
-    const MovingMap map(cut_through(mesh), mesh, mesh);
-    MovingMap copy = map;
+    const SlidingMap map(cut_through(mesh), mesh, mesh);
+    SlidingMap copy = map;
     const std::vector<int> found = NormalAgreement(copy).disagreeing_faces();
     const std::vector<int> reversed = verify_map(map.points(), mesh, mesh).reversed_faces;
     EXPECT_FALSE(reversed.empty());
     EXPECT_TRUE(std::includes(found.begin(), found.end(), reversed.begin(), reversed.end()));
-    EXPECT_TRUE(std::any_of(reversed.begin(), reversed.end(), [&](int f) { return map.chord(f).D > 0; }))
-        << "none is upright by the normals at its corners";
+    EXPECT_TRUE(std::any_of(reversed.begin(), reversed.end(), [&](int f) {
+        return map.image_triangle(f).D > 0;
+    })) << "none is upright by the normals at its corners";
 }
 
 TEST(NormalAgreement, TurnsThem) {
     const TriangleMesh mesh = plate();
-    MovingMap map(cut_through(mesh), mesh, mesh);
+    SlidingMap map(cut_through(mesh), mesh, mesh);
     NormalAgreement agreement(map);
     const std::size_t before = agreement.disagreeing_faces().size();
     const std::vector<int> left = agreement.improve(agreement.disagreeing_faces(), none(mesh));
@@ -67,21 +69,21 @@ TEST(NormalAgreement, TurnsThem) {
 
 TEST(NormalAgreement, HasNothingToDoOnAGoodMap) {
     for (const TriangleMesh& mesh : {plate(), shapes::torus(1, 0.4, 40, 16), shapes::tube(30, 16, true)}) {
-        MovingMap map(shapes::at_vertices(mesh), mesh, mesh);
+        SlidingMap map(shapes::at_vertices(mesh), mesh, mesh);
         NormalAgreement agreement(map);
         EXPECT_TRUE(agreement.disagreeing_faces().empty());
     }
 }
 
-TEST(NormalAgreement, DoesNotAddReversedChords) {
+TEST(NormalAgreement, DoesNotAddReversedImages) {
     const TriangleMesh mesh = plate();
     for (const double noise : {0.3, 0.6}) {
-        MovingMap map(shapes::noisy_identity(mesh, noise), mesh, mesh);
-        const int before = reversed_chords(map);
+        SlidingMap map(shapes::noisy_identity(mesh, noise), mesh, mesh);
+        const int before = reversed_images(map);
         EXPECT_GT(before, 0);
         NormalAgreement agreement(map);
         agreement.improve(agreement.disagreeing_faces(), none(mesh));
-        EXPECT_LE(reversed_chords(map), before);
+        EXPECT_LE(reversed_images(map), before);
     }
 }
 
@@ -90,7 +92,7 @@ TEST(NormalAgreement, KeepsFixedVertices) {
     const PointMap before = cut_through(mesh);
     std::vector<char> fixed = none(mesh);
     for (std::size_t v = 0; v < fixed.size(); v += 2) fixed[v] = 1;
-    MovingMap map(before, mesh, mesh);
+    SlidingMap map(before, mesh, mesh);
     NormalAgreement agreement(map);
     const std::vector<int> disagreeing = agreement.disagreeing_faces();
     EXPECT_LT(agreement.improve(disagreeing, fixed).size(), disagreeing.size());

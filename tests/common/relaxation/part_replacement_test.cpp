@@ -13,7 +13,7 @@ namespace {
 struct LegTrial {
     TriangleMesh rest = shapes::figure(0.15), posed = shapes::figure_pose(0.5)(rest);
     std::vector<char> leg = shapes::on_leg(rest), fixed = std::vector<char>(leg.size(), 0);
-    MovingMap map;
+    SlidingMap map;
     PartReplacement replacement;
 
     explicit LegTrial(PointMap (*damaged)(const TriangleMesh&))
@@ -23,7 +23,7 @@ struct LegTrial {
     int reversed() const {
         int count = 0;
         for (int f = 0; f < rest.face_count(); ++f)
-            count += leg[std::size_t(rest.faces(f, 0))] && map.chord(f).D <= 0;
+            count += leg[std::size_t(rest.faces(f, 0))] && map.image_triangle(f).D <= 0;
         return count;
     }
     void expect_undone() const {
@@ -104,7 +104,7 @@ TEST(PartReplacement, DoesNotTakeAnEqualMapFromTheInverse) {
                        stretched = shapes::ellipsoid(3, {2.4, 1, 0.8});
     const PointMap identity = shapes::at_vertices(egg);
     const std::vector<char> fixed(identity.size(), 0);
-    MovingMap map(identity, egg, stretched);
+    SlidingMap map(identity, egg, stretched);
     PartReplacement replacement(map, fixed, {});
     replacement.adopt_inverse(identity, true);
     EXPECT_EQ(replacement.report().replaced, 0) << "relaxation alone is no gain";
@@ -115,7 +115,7 @@ TEST(PartReplacement, LeavesAPartTooLargeToHaveSurroundings) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
     const PointMap before = shapes::noisy_identity(sphere, 3);
     const std::vector<char> fixed(before.size(), 0);
-    MovingMap map(before, sphere, sphere);
+    SlidingMap map(before, sphere, sphere);
     PartReplacementOptions options;
     options.contrast = 0;  // strained as it is all over
     PartReplacement replacement(map, fixed, options);

@@ -11,9 +11,9 @@ namespace varimap {
 
 /// A map whose images slide on the target: the state that the relaxations of untangling.h work on. Both
 /// meshes are brought to unit area.
-class MovingMap {
+class SlidingMap {
   public:
-    MovingMap(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+    SlidingMap(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
 
     const TriangleMesh& source() const { return source_; }
     const TriangleMesh& target() const { return target_; }
@@ -31,7 +31,7 @@ class MovingMap {
     const Vec3& image(int v) const { return image_[std::size_t(v)]; }
     /// Unit mean of the target's normals at a face's three images; zero where they cancel.
     Vec3 mean_normal(int f) const;
-    Chord chord(int f) const;
+    ImageTriangle image(int f) const;
     /// Two orthonormal directions in the plane of the target's face that holds the image.
     Eigen::Matrix<double, 3, 2> tangents(int v) const;
     /// Walks a vertex's image along a tangent vector, from where it is.

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "varimap/relaxation/moving_map.h"
+#include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
 
@@ -18,10 +18,10 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 /// sliding along limbs or turning about them; features do. With J the gradient of h_B in the tangent frame of
 /// f(v) and u = 1 / (1 + r^2 / c^2), rho has the gradient -u r J and the Gauss-Newton Hessian u J J'.
 /// The scale s is 0.02, or the mean edge of the coarser mesh if that is longer.
-class FeatureAgreement {
+class ReliefAgreement {
   public:
     /// Keeps a reference to the map.
-    FeatureAgreement(const MovingMap& map, double weight);
+    ReliefAgreement(const SlidingMap& map, double weight);
 
     struct Quadratic {
         Eigen::Vector2d gradient;
@@ -34,7 +34,7 @@ class FeatureAgreement {
   private:
     double residual(int v) const;
 
-    const MovingMap& map_;
+    const SlidingMap& map_;
     Eigen::VectorXd weight_, source_, target_;  ///< weight_: with the area; the others: reliefs
 };
 

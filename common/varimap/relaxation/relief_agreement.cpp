@@ -1,4 +1,4 @@
-#include "varimap/relaxation/feature_agreement.h"
+#include "varimap/relaxation/relief_agreement.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -36,7 +36,7 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
     return normalised((mesh.vertices - smooth).cwiseProduct(vertex_normals(mesh)).rowwise().sum());
 }
 
-FeatureAgreement::FeatureAgreement(const MovingMap& map, double weight)
+ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight)
     : map_(map), weight_(weight * voronoi_masses(map.source())) {
     const double scale =
         std::max({finest_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
@@ -44,20 +44,20 @@ FeatureAgreement::FeatureAgreement(const MovingMap& map, double weight)
     target_ = relief(map.target(), scale);
 }
 
-double FeatureAgreement::residual(int v) const {
+double ReliefAgreement::residual(int v) const {
     const SurfacePoint& image = map_.points()[std::size_t(v)];
     double there = 0;
     for (int k = 0; k < 3; ++k) there += image.barycentric[k] * target_[map_.target().faces(image.face, k)];
     return source_[v] - there;
 }
 
-double FeatureAgreement::value(int v) const {
+double ReliefAgreement::value(int v) const {
     const double r = residual(v);
     return weight_[v] * c2 / 2 * std::log1p(r * r / c2);
 }
 
-FeatureAgreement::Quadratic FeatureAgreement::derivatives(int v,
-                                                          const Eigen::Matrix<double, 3, 2>& frame) const {
+ReliefAgreement::Quadratic ReliefAgreement::derivatives(int v,
+                                                        const Eigen::Matrix<double, 3, 2>& frame) const {
     const TriangleMesh& target = map_.target();
     const int face = map_.points()[std::size_t(v)].face;
     const Vec3 n = face_normal(target, face);

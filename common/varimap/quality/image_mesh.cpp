@@ -1,4 +1,4 @@
-#include "varimap/quality/chord_mesh.h"
+#include "varimap/quality/image_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +14,16 @@ TriangleMesh unit_area(const TriangleMesh& mesh) {
     return result;
 }
 
-bool has_area(const TriangleMesh& mesh, int f) {
+bool is_degenerate(const TriangleMesh& mesh, int f) {
     const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
                c = mesh.vertex(mesh.faces(f, 2));
     const double longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
     constexpr double shape = 1e-10, rounding = 1e-4;
-    return face_normal(mesh, f).norm() > shape * longest * (longest + rounding);
+    return !(face_normal(mesh, f).norm() > shape * longest * (longest + rounding));
 }
 
-ChordMesh::ChordMesh(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to)
+ImageMesh::ImageMesh(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to)
     : source(unit_area(from)),
       target(unit_area(to)),
       image{Points::Zero(from.vertex_count(), 3), from.faces},
@@ -39,13 +39,13 @@ ChordMesh::ChordMesh(const PointMap& map, const TriangleMesh& from, const Triang
     }
 }
 
-bool ChordMesh::is_mapped(int f) const {
+bool ImageMesh::is_mapped(int f) const {
     const auto corners = source.faces.row(f);
     return has_image_[std::size_t(corners[0])] && has_image_[std::size_t(corners[1])] &&
            has_image_[std::size_t(corners[2])];
 }
 
-double ChordMesh::facing(int f) const {
+double ImageMesh::facing(int f) const {
     const auto corners = source.faces.row(f);
     const Vec3 m = (normals.row(corners[0]) + normals.row(corners[1]) + normals.row(corners[2])).transpose();
     return face_normal(image, f).dot(m);

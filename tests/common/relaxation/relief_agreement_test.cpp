@@ -1,4 +1,4 @@
-#include "varimap/relaxation/feature_agreement.h"
+#include "varimap/relaxation/relief_agreement.h"
 
 #include <gtest/gtest.h>
 
@@ -40,24 +40,24 @@ TEST(Relief, IsHighOnBumpsAndLowInDents) {
     EXPECT_GT(a.dot(b) / (a.norm() * b.norm()), 0.9);
 }
 
-TEST(FeatureAgreement, HasTheDerivativesOfItsValue) {
+TEST(ReliefAgreement, HasTheDerivativesOfItsValue) {
     const TriangleMesh mesh = bumpy_sphere();
-    MovingMap map(shapes::turned_identity(mesh, 0.1), mesh, mesh);
-    const FeatureAgreement features(map, 3);
+    SlidingMap map(shapes::turned_identity(mesh, 0.1), mesh, mesh);
+    const ReliefAgreement relief_agreement(map, 3);
     const double step = 1e-6;
     double largest = 0;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const SurfacePoint image = map.points()[std::size_t(v)];
         if (image.barycentric.minCoeff() < 0.01) continue;
         const auto frame = map.tangents(v);
-        const Eigen::Vector2d gradient = features.derivatives(v, frame).gradient;
+        const Eigen::Vector2d gradient = relief_agreement.derivatives(v, frame).gradient;
         largest = std::max(largest, gradient.norm());
         for (int axis = 0; axis < 2; ++axis) {
             map.move(v, step * frame.col(axis));
-            const double ahead = features.value(v);
+            const double ahead = relief_agreement.value(v);
             map.place(v, image);
             map.move(v, -step * frame.col(axis));
-            const double behind = features.value(v);
+            const double behind = relief_agreement.value(v);
             map.place(v, image);
             EXPECT_NEAR(gradient[axis], (ahead - behind) / (2 * step), 1e-4 * largest + 1e-9) << v;
         }
@@ -65,7 +65,7 @@ TEST(FeatureAgreement, HasTheDerivativesOfItsValue) {
     EXPECT_GT(largest, 1e-4);
 }
 
-TEST(FeatureAgreement, TurnsAMapBackToWhereItsFeaturesAre) {
+TEST(ReliefAgreement, TurnsAMapBackToWhereItsReliefIs) {
     const TriangleMesh mesh = bumpy_sphere();
     const PointMap start = shapes::turned_identity(mesh, 0.1);
     UntanglingOptions options;
@@ -73,7 +73,7 @@ TEST(FeatureAgreement, TurnsAMapBackToWhereItsFeaturesAre) {
     PointMap with = start, without = start;
     const std::vector<char> pinned(start.size(), 0);
     untangle(with, mesh, mesh, pinned, options);
-    options.feature_weight = 0;
+    options.relief_weight = 0;
     untangle(without, mesh, mesh, pinned, options);
     EXPECT_LT(mean_error(with, mesh), 0.1 * mean_error(start, mesh));
     EXPECT_LT(mean_error(with, mesh), 0.3 * mean_error(without, mesh));

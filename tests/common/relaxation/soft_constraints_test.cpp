@@ -1,4 +1,4 @@
-#include "varimap/relaxation/attachments.h"
+#include "varimap/relaxation/soft_constraints.h"
 
 #include <gtest/gtest.h>
 
@@ -12,25 +12,25 @@
 namespace varimap {
 namespace {
 
-TEST(Attachment, HasTheDerivativesOfItsValue) {
+TEST(SoftConstraint, HasTheDerivativesOfItsValue) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    MovingMap map(shapes::turned_identity(sphere, 0.1), sphere, sphere);
+    SlidingMap map(shapes::turned_identity(sphere, 0.1), sphere, sphere);
     const double step = 1e-6;
     for (int f = 0; f < sphere.face_count(); f += 17) {
-        const Attachment attachment{{f, Vec3(0.2, 0.5, 0.3)}, map.target().vertex(f / 3), 2, 0.2};
+        const SoftConstraint constraint{{f, Vec3(0.2, 0.5, 0.3)}, map.target().vertex(f / 3), 2, 0.2};
         std::vector<Eigen::Matrix<double, 3, 2>> frames;
         for (int v = 0; v < sphere.vertex_count(); ++v) frames.push_back(map.tangents(v));
-        const AttachmentSystem system = derivatives(attachment, map, frames);
+        const SoftConstraintSystem system = derivatives(constraint, map, frames);
         for (int k = 0; k < 3; ++k) {
             const int v = sphere.faces(f, k);
             const SurfacePoint image = map.points()[std::size_t(v)];
             if (image.barycentric.minCoeff() < 0.01) continue;
             for (int axis = 0; axis < 2; ++axis) {
                 map.move(v, step * frames[std::size_t(v)].col(axis));
-                const double ahead = value(attachment, map);
+                const double ahead = value(constraint, map);
                 map.place(v, image);
                 map.move(v, -step * frames[std::size_t(v)].col(axis));
-                const double behind = value(attachment, map);
+                const double behind = value(constraint, map);
                 map.place(v, image);
                 EXPECT_NEAR(system.gradient[2 * k + axis], (ahead - behind) / (2 * step), 1e-6) << f;
             }
@@ -38,19 +38,19 @@ TEST(Attachment, HasTheDerivativesOfItsValue) {
     }
 }
 
-TEST(Attachment, DrawsAPointWithinAFaceToItsPlace) {
+TEST(SoftConstraint, DrawsAPointWithinAFaceToItsPlace) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    MovingMap map(shapes::turned_identity(sphere, 0), sphere, sphere);
+    SlidingMap map(shapes::turned_identity(sphere, 0), sphere, sphere);
     const std::vector<char> fixed(std::size_t(sphere.vertex_count()), 0);
     GlobalRelaxation relaxation(map, fixed);
     const SurfacePoint from{10, Vec3(0.2, 0.5, 0.3)};
     const Vec3 to = position(map.target(), {11, Vec3(0.3, 0.3, 0.4)});
-    const std::vector<Attachment> attachments{{from, to, 1e4, 1}};
-    relaxation.attach(attachments);
-    const double before = value(attachments[0], map);
+    const std::vector<SoftConstraint> constraints{{from, to, 1e4, 1}};
+    relaxation.set_constraints(constraints);
+    const double before = value(constraints[0], map);
     for (int step = 0; step < 10; ++step) relaxation.step({1, 0.1}, 0);
-    // The chord triangle passes below the curved surface, so a distance in the normal direction remains.
-    EXPECT_LT(value(attachments[0], map), 1e-3 * before);
+    // The image triangle passes below the curved surface, so a distance in the normal direction remains.
+    EXPECT_LT(value(constraints[0], map), 1e-3 * before);
 }
 
 /// Mean distance of every vertex from where it arrives by both maps, there and back.
@@ -67,12 +67,12 @@ double round_trip(const MapPair& maps, const TriangleMesh& mesh) {
     return sum / mesh.vertex_count();
 }
 
-TEST(InverseAttachments, MakeTwoMapsInverseToEachOther) {
+TEST(InverseConstraints, MakeTwoMapsInverseToEachOther) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
     const MapPair start{shapes::turned_identity(sphere, 0.1), shapes::turned_identity(sphere, 0.1)};
     const std::vector<char> pinned(std::size_t(sphere.vertex_count()), 0);
     UntanglingOptions options;
-    options.feature_weight = 0;
+    options.relief_weight = 0;
     options.replace_parts = false;
     MapPair with = start, without = start;
     untangle(with, sphere, sphere, {pinned, pinned}, options);

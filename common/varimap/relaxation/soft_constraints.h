@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "varimap/relaxation/sliding_map.h"
+
+namespace varimap {
+
+/// A point of the source (not only a vertex) whose image is drawn to a place in space.
+struct SoftConstraint {
+    SurfacePoint from;
+    Vec3 to;
+    double weight;  ///< w
+    double radius;  ///< c, the distance from which on the pull weakens
+};
+
+/// A data term: the sum over constraints of w rho(d), d the distance of the image of `from` (linear on its
+/// face) from `to`, rho(d) = c^2 / 2 log(1 + d^2 / c^2).
+struct SoftConstraintSystem {
+    Eigen::Matrix<double, 6, 1> gradient;
+    Eigen::Matrix<double, 6, 6> hessian;  ///< Gauss-Newton
+};
+double value(const SoftConstraint& constraint, const SlidingMap& map);
+/// By the coordinates of the images of the corners of the face of `from` in their frames.
+SoftConstraintSystem derivatives(const SoftConstraint& constraint, const SlidingMap& map,
+                                 const std::vector<Eigen::Matrix<double, 3, 2>>& frames);
+
+/// Landmarks that are points, as constraints: the image of each first point, on the source, goes to the
+/// second, on the target. Measured: off by at most 0.001 of sqrt(area), at the tip of a horn by 0.007.
+std::vector<SoftConstraint> landmark_constraints(const SlidingMap& map, const PointPairs& landmarks);
+
+/// What makes a map the inverse of `back`, from its target to its source: every vertex b of the target, of
+/// area n_b, draws the image of back(b) to itself with the weight n_b * weight. An isometry's energy alone
+/// lets images shrink from the ends of limbs; this holds them there, since the other direction has to put the
+/// end of its limb somewhere.
+constexpr double inverse_radius = 0.05;  ///< in sqrt(area)
+std::vector<SoftConstraint> inverse_constraints(const SlidingMap& map, const PointMap& back, double weight);
+
+}  // namespace varimap
