@@ -54,15 +54,15 @@ double measure_coverage(const PointMap& map, const TriangleMesh& source, const T
     const TriangleMesh image = visible_image(images);
     if (image.face_count() == 0) return 0;
     const ClosestPoint on_image(image), on_target(images.target);
-    std::vector<char> hit(std::size_t(target.face_count()));
+    FaceData<bool> hit(target.face_count());
     parallel_for_each_index<int>(target.face_count(), 64, [&](int f) {
-        hit[std::size_t(f)] = is_hit(f, images.target, image, on_image, on_target);
+        hit[f] = is_hit(f, images.target, image, on_image, on_target);
     });
     double hit_area = 0, area = 0;
     for (int f = 0; f < target.face_count(); ++f) {
         const double part = face_normal(images.target, f).norm();
         area += part;
-        if (hit[std::size_t(f)]) hit_area += part;
+        if (hit[f]) hit_area += part;
     }
     return hit_area / area;
 }

@@ -28,12 +28,12 @@ ImageMesh::ImageMesh(const PointMap& map, const TriangleMesh& from, const Triang
       target(unit_area(to)),
       image{Points::Zero(from.vertex_count(), 3), from.faces},
       normals(Points::Zero(from.vertex_count(), 3)),
-      has_image_(std::size_t(from.vertex_count()), false) {
+      has_image_(from.vertex_count()) {
     const TriangleMesh normals_of_target{vertex_normals(target), target.faces};
     for (int v = 0; v < from.vertex_count(); ++v) {
-        const SurfacePoint& point = map[std::size_t(v)];
+        const SurfacePoint& point = map[v];
         if (point.face < 0) continue;
-        has_image_[std::size_t(v)] = true;
+        has_image_[v] = true;
         image.vertices.row(v) = position(target, point).transpose();
         normals.row(v) = position(normals_of_target, point).transpose();
     }
@@ -41,8 +41,7 @@ ImageMesh::ImageMesh(const PointMap& map, const TriangleMesh& from, const Triang
 
 bool ImageMesh::is_mapped(int f) const {
     const auto corners = source.faces.row(f);
-    return has_image_[std::size_t(corners[0])] && has_image_[std::size_t(corners[1])] &&
-           has_image_[std::size_t(corners[2])];
+    return has_image_[corners[0]] && has_image_[corners[1]] && has_image_[corners[2]];
 }
 
 double ImageMesh::facing(int f) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "varimap/core/indexed.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -27,7 +28,7 @@ struct ImageMesh {
     double facing(int f) const;
 
   private:
-    std::vector<bool> has_image_;
+    VertexData<bool> has_image_;
 };
 
 }  // namespace varimap

@@ -50,7 +50,7 @@ TriangleDistortion measure_triangle(const ImageMesh& images, int f) {
     return result;
 }
 
-Distortion summarise(const std::vector<TriangleDistortion>& triangles) {
+Distortion summarise(const FaceData<TriangleDistortion>& triangles) {
     Distortion total;
     std::vector<double> areas, ratios, conformals;
     double area = 0, flipped_area = 0;
@@ -103,12 +103,12 @@ Quantiles weighted_quantiles(const std::vector<double>& values, const std::vecto
             at_share(sorted, 0.99)};
 }
 
-std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
-                                                  const TriangleMesh& target) {
+FaceData<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
+                                               const TriangleMesh& target) {
     const ImageMesh images(map, source, target);
-    std::vector<TriangleDistortion> triangles(std::size_t(source.face_count()));
+    FaceData<TriangleDistortion> triangles(source.face_count());
     parallel_for_each_index<int>(source.face_count(), 1024,
-                                 [&](int f) { triangles[std::size_t(f)] = measure_triangle(images, f); });
+                                 [&](int f) { triangles[f] = measure_triangle(images, f); });
     return triangles;
 }
 
@@ -120,15 +120,16 @@ RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, con
                              const TriangleMesh& B) {
     const TriangleMesh unit = unit_area(A);
     const ImageMesh back(B_to_A, B, A);
-    std::vector<double> weights(std::size_t(A.vertex_count()), 0), distances, used;
+    VertexData<double> weights(A.vertex_count(), 0);
+    std::vector<double> distances, used;
     for (int f = 0; f < A.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) weights[std::size_t(A.faces(f, k))] += face_normal(unit, f).norm() / 6;
+        for (int k = 0; k < 3; ++k) weights[A.faces(f, k)] += face_normal(unit, f).norm() / 6;
     double sum = 0, weight = 0;
     for (int v = 0; v < A.vertex_count(); ++v) {
-        const SurfacePoint& there = A_to_B[std::size_t(v)];
+        const SurfacePoint& there = A_to_B[v];
         if (there.face < 0 || !back.is_mapped(there.face)) continue;
         distances.push_back((position(back.image, there) - unit.vertex(v)).norm());
-        used.push_back(weights[std::size_t(v)]);
+        used.push_back(weights[v]);
         sum += distances.back() * used.back();
         weight += used.back();
     }
@@ -142,7 +143,7 @@ std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& la
     for (const auto& [from, to] : landmarks) {
         Vec3 image = Vec3::Zero();
         for (int k = 0; k < 3; ++k) {
-            const SurfacePoint& corner = map[std::size_t(source.faces(from.face, k))];
+            const SurfacePoint& corner = map[source.faces(from.face, k)];
             if (from.barycentric[k] > 0 && corner.face >= 0)
                 image += from.barycentric[k] * position(target, corner);
         }

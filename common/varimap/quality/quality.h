@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "varimap/core/indexed.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -32,8 +33,8 @@ struct TriangleDistortion {
     double squared_norm = 0;  ///< |J|_F^2
     bool flipped = false, collapsed = false;
 };
-std::vector<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
-                                                  const TriangleMesh& target);
+FaceData<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
+                                               const TriangleMesh& target);
 
 struct Distortion {
     /// Triangles with n . m <= 0: n the normal of the image triangle, m the sum of the target's normals

@@ -1,6 +1,8 @@
 #include "varimap/relaxation/continuation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
@@ -11,11 +13,11 @@ namespace {
 
 constexpr int relaxed_rings = 4;  ///< behind the front
 constexpr int sweeps_per_ring = 2;
-constexpr std::size_t rings_per_step = 3;  ///< between relaxations of all that has been placed
-constexpr double robustness = 1;
+constexpr int rings_per_step = 3;  ///< between relaxations of all that has been placed
 const FoldEnergy front_energy{1, 0.3};
+const RobustEnergy robust_energy{front_energy, 1};
 
-/// Where the target's tangent plane holds the corner opposite a placed side: the face is laid down beside the
+/// Where the target's tangent plane holds the corner opposite a placed side: the face is unfolded beside the
 /// side's image, with its own lengths. False where the side has no length or no side of the target.
 bool unfold(const SlidingMap& map, int f, int corner, double scale, Vec3& position) {
     const auto corners = map.source().faces.row(f);
@@ -47,7 +49,7 @@ bool predict(const SlidingMap& map, int v, double scale, Placement& placement) {
     double least = 0;
     for (const int f : map.faces_of_vertex()[v]) {
         const auto corners = map.source().faces.row(f);
-        const int corner = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+        const int corner = map.corner_of(f, v);
         const int a = corners[(corner + 1) % 3], b = corners[(corner + 2) % 3];
         Vec3 position;
         if (!map.has_image(a) || !map.has_image(b) || !unfold(map, f, corner, scale, position)) continue;
@@ -60,7 +62,7 @@ bool predict(const SlidingMap& map, int v, double scale, Placement& placement) {
     }
     if (count == 0) return false;
     const Vec3 step = sum / count - map.image(nearest);
-    placement = {v, map.walk(map.points()[std::size_t(nearest)], step)};
+    placement = {v, map.walk(map.point(nearest), step)};
     return true;
 }
 
@@ -76,51 +78,74 @@ std::vector<int> front_of(const SlidingMap& map, const std::vector<int>& missing
     return front;
 }
 
-}  // namespace
+/// The placed vertices of a continuation, ring by ring.
+class Front {
+  public:
+    Front(SlidingMap& map, std::vector<int> missing, double scale)
+        : map_(map),
+          missing_(std::move(missing)),
+          scale_(scale),
+          held_(map.source().vertex_count(), true),
+          relaxation_(map, 7) {}
 
-void continue_map(SlidingMap& map, const std::vector<char>& open, double scale) {
-    const PointMap before = map.points();
-    std::vector<int> missing;
-    for (int v = 0; v < int(open.size()); ++v)
-        if (open[std::size_t(v)] && map.has_image(v)) missing.push_back(v);
-    for (const int v : missing) map.clear(v);
+    /// Places one more ring, as far as there is one, and relaxes; false where none is left or can be placed.
+    bool advance() {
+        if (missing_.empty() || !place_ring()) return false;
+        std::vector<int> band = last_rings();
+        for (int s = 0; s < sweeps_per_ring; ++s) relaxation_.sweep(band, front_energy, false);
+        for (const int v : rings_.back()) held_[v] = false;
+        if (int(rings_.size()) % rings_per_step == 0 || missing_.empty())
+            GlobalRelaxation(map_, held_).step(robust_energy);
+        return true;
+    }
+    const std::vector<int>& missing() const { return missing_; }
 
-    std::vector<int> scaled;
-    for (int f = 0; f < map.source().face_count(); ++f)
-        for (int k = 0; k < 3; ++k)
-            if (open[std::size_t(map.source().faces(f, k))]) {
-                scaled.push_back(f);
-                break;
-            }
-    map.scale_rest(scaled, scale * scale);
-    LocalRelaxation relaxation(map, 7);
-    std::vector<std::vector<int>> rings;
-    std::vector<char> held(open.size(), 1);  ///< all but what has been placed
-    while (!missing.empty()) {
+  private:
+    bool place_ring() {
         std::vector<Placement> placements;
         Placement placement;
-        for (const int v : front_of(map, missing))
-            if (predict(map, v, scale, placement)) placements.push_back(placement);
-        if (placements.empty()) break;
-        rings.emplace_back();
+        for (const int v : front_of(map_, missing_))
+            if (predict(map_, v, scale_, placement)) placements.push_back(placement);
+        if (placements.empty()) return false;
+        rings_.emplace_back();
         for (const Placement& p : placements) {
-            map.place(p.vertex, p.point);
-            rings.back().push_back(p.vertex);
+            map_.place(p.vertex, p.point);
+            rings_.back().push_back(p.vertex);
         }
-        std::erase_if(missing, [&](int v) { return map.has_image(v); });
+        std::erase_if(missing_, [&](int v) { return map_.has_image(v); });
+        return true;
+    }
+    std::vector<int> last_rings() const {
         std::vector<int> band;
-        for (std::size_t r = rings.size() > relaxed_rings ? rings.size() - relaxed_rings : 0;
-             r < rings.size(); ++r)
-            band.insert(band.end(), rings[r].begin(), rings[r].end());
-        for (int s = 0; s < sweeps_per_ring; ++s) relaxation.sweep(band, front_energy, false);
-        for (const int v : rings.back()) held[std::size_t(v)] = 0;
-        if (rings.size() % rings_per_step == 0 || missing.empty()) {
-            GlobalRelaxation global(map, held);
-            global.step(front_energy, robustness);
-        }
+        for (int r = std::max(0, int(rings_.size()) - relaxed_rings); r < int(rings_.size()); ++r)
+            band.insert(band.end(), rings_[r].begin(), rings_[r].end());
+        return band;
+    }
+
+    SlidingMap& map_;
+    std::vector<int> missing_;
+    double scale_;
+    VertexData<bool> held_;  ///< all but what has been placed
+    LocalRelaxation relaxation_;
+    std::vector<std::vector<int>> rings_;
+};
+
+}  // namespace
+
+void continue_map(SlidingMap& map, const VertexData<bool>& open, double scale) {
+    const PointMap before = map.points();
+    std::vector<int> missing, scaled;
+    for (int v = 0; v < open.size(); ++v)
+        if (open[v] && map.has_image(v)) missing.push_back(v);
+    for (const int v : missing) map.clear(v);
+    for (int f = 0; f < map.source().face_count(); ++f)
+        if (marked_corners(map.source(), f, open) > 0) scaled.push_back(f);
+    map.scale_rest(scaled, scale * scale);
+    Front front(map, missing, scale);
+    while (front.advance()) {
     }
     map.scale_rest(scaled, 1 / (scale * scale));
-    for (const int v : missing) map.place(v, before[std::size_t(v)]);
+    for (const int v : front.missing()) map.place(v, before[v]);
 }
 
 }  // namespace varimap

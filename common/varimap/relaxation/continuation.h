@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -11,6 +9,6 @@ namespace varimap {
 /// shares with placed vertices put it, unfolded onto the target; then the last rings are relaxed. Orientation
 /// and the turn of a limb about its axis are thus those of the surroundings: flips and twists cannot survive.
 /// Vertices that no front reaches keep their images. `scale`: lengths of the images / those of the source.
-void continue_map(SlidingMap& map, const std::vector<char>& open, double scale);
+void continue_map(SlidingMap& map, const VertexData<bool>& open, double scale);
 
 }  // namespace varimap

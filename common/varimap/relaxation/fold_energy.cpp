@@ -37,21 +37,22 @@ FoldEnergy::Value FoldEnergy::derivatives(double q, double D) const {
     return v;
 }
 
-double RobustExcess::value(double v) const {
-    return robustness > 0 ? robustness * std::log1p(excess(v) / robustness) : excess(v);
+double RobustEnergy::value(double q, double D) const {
+    const double x = excess(energy.value(q, D));
+    return robustness > 0 ? robustness * std::log1p(x / robustness) : x;
 }
 
-std::vector<RestTriangle> rest_triangles(const TriangleMesh& source) {
-    std::vector<RestTriangle> rest(std::size_t(source.face_count()));
+FaceData<RestTriangle> rest_triangles(const TriangleMesh& source) {
+    FaceData<RestTriangle> rest(source.face_count());
     for (int f = 0; f < source.face_count(); ++f) {
         if (is_degenerate(source, f)) continue;
         const double twice = face_normal(source, f).norm();
-        rest[std::size_t(f)].area = twice / 2;
+        rest[f].area = twice / 2;
         for (int k = 0; k < 3; ++k) {
             const Vec3 p = source.vertex(source.faces(f, k));
             const Vec3 a = source.vertex(source.faces(f, (k + 1) % 3)) - p;
             const Vec3 b = source.vertex(source.faces(f, (k + 2) % 3)) - p;
-            rest[std::size_t(f)].cotangent[k] = a.dot(b) / twice;
+            rest[f].cotangent[k] = a.dot(b) / twice;
         }
     }
     return rest;

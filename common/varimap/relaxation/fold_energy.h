@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "varimap/core/indexed.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -27,16 +27,20 @@ struct FoldEnergy {
     Value derivatives(double q, double D) const;
 };
 
-/// The excess x of a face's energy (per area) over an isometry's, and its robust function r log(1 + x / r),
-/// by which faces that cannot be isometric count less; r = 0: x itself.
-struct RobustExcess {
-    double least;       ///< the energy of an isometry
+/// The excess x of a fold energy (per area) over an isometry's, and its robust function r log(1 + x / r), by
+/// which faces that cannot be isometric count less; r = 0: x itself.
+struct RobustEnergy {
+    FoldEnergy energy;
     double robustness;  ///< r
+    double least;       ///< the energy of an isometry
 
-    RobustExcess(const FoldEnergy& energy, double r) : least(energy.value(2, 1)), robustness(r) {}
-    double excess(double value) const { return value > least ? value - least : 0; }
-    double value(double v) const;
+    RobustEnergy(const FoldEnergy& e, double r) : energy(e), robustness(r), least(e.value(2, 1)) {}
+    double value(double q, double D) const;
+    /// Derivative of the value by the fold energy where that is `v`.
     double slope(double v) const { return robustness > 0 ? 1 / (1 + excess(v) / robustness) : 1; }
+
+  private:
+    double excess(double v) const { return v > least ? v - least : 0; }
 };
 
 /// What the energy needs of a source triangle; area 0: left out.
@@ -44,13 +48,12 @@ struct RestTriangle {
     double area = 0;
     Vec3 cotangent = Vec3::Zero();  ///< per corner
 };
-std::vector<RestTriangle> rest_triangles(const TriangleMesh& source);
+FaceData<RestTriangle> rest_triangles(const TriangleMesh& source);
 
-/// A image triangle: q and D. D's gradient by corner i is up x (the opposite edge, from corner i + 1 to i +
-/// 2) / (2 a) for a fixed m.
+/// The q and D of an image triangle with corners x0, x1, x2; face_energy.h has their derivatives.
 struct ImageTriangle {
     double q = 0, D = 0;
-    Vec3 up;
+    Vec3 up;  ///< D = n . up / (2 a)
     ImageTriangle(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& m);
 };
 

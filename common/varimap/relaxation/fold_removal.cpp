@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/local_relaxation.h"
 
 namespace varimap {
@@ -19,28 +19,28 @@ constexpr double least_regularisation = 1e-4;
 constexpr std::array<double, 3> weights{1, 0.2, 0.05};
 constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
 
-/// Vertices that may move to unfold `folded`: those of the faces and of `rings` rings around them.
-std::vector<int> patch_around(const SlidingMap& map, const std::vector<int>& folded, int rings,
-                              const std::vector<char>& fixed) {
-    std::vector<char> inside(map.points().size(), 0);
+/// Vertices that may move to unfold `folded`: those of the faces and of `ring_count` rings around them.
+std::vector<int> patch_around(const SlidingMap& map, const std::vector<int>& folded, int ring_count,
+                              const VertexData<bool>& fixed) {
+    VertexData<bool> inside(map.source().vertex_count());
     std::vector<int> patch, front;
     const auto add_corners = [&](int f, std::vector<int>& to) {
         for (int k = 0; k < 3; ++k) {
             const int v = map.source().faces(f, k);
-            if (!inside[std::size_t(v)] && map.points()[std::size_t(v)].face >= 0) to.push_back(v);
-            inside[std::size_t(v)] = 1;
+            if (!inside[v] && map.has_image(v)) to.push_back(v);
+            inside[v] = true;
         }
     };
     for (const int f : folded) add_corners(f, front);
     for (int ring = 0; !front.empty(); ++ring) {
         patch.insert(patch.end(), front.begin(), front.end());
-        if (ring == rings) break;
+        if (ring == ring_count) break;
         std::vector<int> next;
         for (const int v : front)
             for (const int f : map.faces_of_vertex()[v]) add_corners(f, next);
         front.swap(next);
     }
-    std::erase_if(patch, [&](int v) { return fixed[std::size_t(v)] != 0; });
+    std::erase_if(patch, [&](int v) { return fixed[v] != 0; });
     std::sort(patch.begin(), patch.end());
     return patch;
 }
@@ -61,38 +61,16 @@ struct PatchState {
     int folded = 0;
 };
 
-/// The faces of a patch, as last looked at.
-class PatchFaces {
-  public:
-    PatchFaces(const SlidingMap& map, std::vector<int> faces)
-        : map_(map), faces_(std::move(faces)), shape_(faces_.size()) {}
-
-    PatchState look(const FoldEnergy& energy) {
-        PatchState state;
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            const ImageTriangle image = map_.image_triangle(faces_[i]);
-            shape_[i] = {image.q, image.D};
-            state.worst = std::min(state.worst, image.D);
-            state.folded += image.D <= FoldRemoval::flat_limit;
-        }
-        state.energy = energy_as_seen(energy);
-        return state;
+PatchState state_of(const SlidingMap& map, const std::vector<int>& faces, const FoldEnergy& energy) {
+    PatchState state;
+    for (const int f : faces) {
+        const double D = map.image_triangle(f).D;
+        state.worst = std::min(state.worst, D);
+        state.folded += D <= FoldRemoval::flat_limit;
     }
-    double energy_as_seen(const FoldEnergy& energy) const {
-        double sum = 0;
-        for (std::size_t i = 0; i < faces_.size(); ++i)
-            sum += map_.rest(faces_[i]).area * energy.value(shape_[i].q, shape_[i].D);
-        return sum;
-    }
-
-  private:
-    struct Shape {
-        double q, D;
-    };
-    const SlidingMap& map_;
-    std::vector<int> faces_;
-    std::vector<Shape> shape_;
-};
+    state.energy = total_energy(map, faces, energy);
+    return state;
+}
 
 /// The schedule of foldover-free maps: e falls with the energy's progress, never faster than the worst face
 /// allows.
@@ -109,15 +87,15 @@ void lower_regularisation(FoldEnergy& energy, double before, const PatchState& n
 /// Sweeps one patch until nothing in it is folded; returns the number of sweeps.
 int unfold_patch(SlidingMap& map, LocalRelaxation& relax, std::vector<int> patch, double weight,
                  int most_sweeps) {
-    PatchFaces faces(map, faces_of(map, patch));
+    const std::vector<int> faces = faces_of(map, patch);
     FoldEnergy energy{weight, 1};
-    PatchState best = faces.look(energy);
+    PatchState best = state_of(map, faces, energy);
     int sweeps = 0, idle = 0, clean = 0;
     while (sweeps < most_sweeps && idle < patience && clean < polishing) {
-        const double before = faces.energy_as_seen(energy);
+        const double before = total_energy(map, faces, energy);
         relax.sweep(patch, energy, sweeps % leap_period == leap_period - 1);
         ++sweeps;
-        const PatchState now = faces.look(energy);
+        const PatchState now = state_of(map, faces, energy);
         const bool better = now.folded < best.folded || (now.folded == best.folded && now.worst > best.worst);
         idle = better ? 0 : idle + 1;
         clean = now.folded == 0 ? clean + 1 : 0;
@@ -128,23 +106,20 @@ int unfold_patch(SlidingMap& map, LocalRelaxation& relax, std::vector<int> patch
 }
 
 /// Folded faces that can move, ascending.
-std::vector<int> folded_faces(const SlidingMap& map, const std::vector<char>& fixed) {
+std::vector<int> folded_faces(const SlidingMap& map, const VertexData<bool>& fixed) {
     std::vector<int> folded;
-    const auto is_free = [&](int v) { return !fixed[std::size_t(v)]; };
-    for (int f = 0; f < map.source().face_count(); ++f) {
-        const auto corners = map.source().faces.row(f);
-        const bool movable = is_free(corners[0]) || is_free(corners[1]) || is_free(corners[2]);
-        if (movable && map.is_mapped(f) && map.image_triangle(f).D <= FoldRemoval::flat_limit)
+    for (int f = 0; f < map.source().face_count(); ++f)
+        if (marked_corners(map.source(), f, fixed) < 3 && map.is_mapped(f) &&
+            map.image_triangle(f).D <= FoldRemoval::flat_limit)
             folded.push_back(f);
-    }
     return folded;
 }
 
 }  // namespace
 
-int FoldRemoval::operator()(SlidingMap& map, const std::vector<char>& fixed) const {
+int FoldRemoval::operator()(SlidingMap& map, const VertexData<bool>& fixed) const {
     int sweeps = 0;
-    double visits = most_visits * double(map.points().size());
+    double visits = most_visits * double(map.source().vertex_count());
     std::uint32_t seed = 1;
     for (const int ring_count : rings)
         for (const double weight : weights) {

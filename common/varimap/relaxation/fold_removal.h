@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -15,7 +13,7 @@ struct FoldRemoval {
     double most_visits = 150;  ///< of all vertices in the mean, over all patch sizes: bounds the time
 
     /// Returns the number of sweeps done, over all patch sizes; 0 where nothing is folded.
-    int operator()(SlidingMap& map, const std::vector<char>& fixed) const;
+    int operator()(SlidingMap& map, const VertexData<bool>& fixed) const;
 };
 
 }  // namespace varimap

@@ -16,8 +16,7 @@ class GlobalRelaxation {
   public:
     /// Vertices with fixed[v] stay. Keeps references to the map and to `relief`, whose energy is added
     /// where given.
-    GlobalRelaxation(SlidingMap& map, const std::vector<char>& fixed,
-                     const ReliefAgreement* relief = nullptr);
+    GlobalRelaxation(SlidingMap& map, const VertexData<bool>& fixed, const ReliefAgreement* relief = nullptr);
     ~GlobalRelaxation();
 
     /// The constraints whose energy is added from now on; keeps a reference.
@@ -25,10 +24,7 @@ class GlobalRelaxation {
 
     /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
     /// stays as it is.
-    /// Robust: what is summed is area * r log(1 + x / r) with the excess x of a face's energy (per area) over
-    /// an isometry's and r = `robustness`, so that faces that cannot be isometric count less; for r = 0 that
-    /// is area * x.
-    double step(const FoldEnergy& energy, double robustness);
+    double step(const RobustEnergy& energy);
 
   private:
     struct State;

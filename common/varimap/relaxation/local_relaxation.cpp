@@ -3,8 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "varimap/relaxation/face_energy.h"
 
 namespace varimap {
 
@@ -20,26 +21,24 @@ struct Quadratic {
     Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
 
-void add_face(Quadratic& sum, const SlidingMap& map, const Eigen::Matrix<double, 3, 2>& frame, int f, int v,
+void add_face(Quadratic& sum, const SlidingMap& map, const TangentFrame& frame, int f, int v,
               const FoldEnergy& energy) {
-    const auto corners = map.source().faces.row(f);
-    const int i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2, j = (i + 1) % 3, k = (i + 2) % 3;
+    const int i = map.corner_of(f, v), j = (i + 1) % 3, k = (i + 2) % 3;
     const RestTriangle& rest = map.rest(f);
-    const Vec3 &x = map.image(v), &y = map.image(corners[j]), &z = map.image(corners[k]);
     const ImageTriangle image = map.image_triangle(f);
     const auto d = energy.derivatives(image.q, image.D);
-    const double cj = rest.cotangent[j], ck = rest.cotangent[k];
-    const Eigen::Vector2d q = frame.transpose() * (ck * (x - y) + cj * (x - z)) / rest.area;
-    const Eigen::Vector2d D = frame.transpose() * image.up.cross(z - y) / (2 * rest.area);
+    const CornerGradient gradient = corner_gradient(map, f, i, image);
+    const Eigen::Vector2d q = frame.transpose() * gradient.q / rest.area;
+    const Eigen::Vector2d D = frame.transpose() * gradient.D / (2 * rest.area);
     sum.value += rest.area * d.f;
     sum.gradient += rest.area * (d.f_q * q + d.f_D * D);
-    sum.hessian +=
-        rest.area * (d.f_qD * (q * D.transpose() + D * q.transpose()) + d.f_DD * D * D.transpose());
-    sum.hessian.diagonal().array() += d.f_q * (cj + ck);
-    const Vec3 here = map.source().vertex(v);
-    sum.squared_longest_edge =
-        std::max({sum.squared_longest_edge, (map.source().vertex(corners[j]) - here).squaredNorm(),
-                  (map.source().vertex(corners[k]) - here).squaredNorm()});
+    sum.hessian += rest.area * gradient_products(q, D, d.f_qD, d.f_DD);
+    sum.hessian.diagonal().array() += d.f_q * (rest.cotangent[j] + rest.cotangent[k]);
+    const TriangleMesh& source = map.source();
+    for (const int corner : {j, k})
+        sum.squared_longest_edge =
+            std::max(sum.squared_longest_edge,
+                     (source.vertex(source.faces(f, corner)) - source.vertex(v)).squaredNorm());
 }
 
 /// Newton's direction with the Hessian's eigenvalues made positive.
@@ -73,17 +72,6 @@ void LocalRelaxation::shuffle(std::vector<int>& vertices) {
     }
 }
 
-double LocalRelaxation::star_energy(int v, const FoldEnergy& energy, double limit) const {
-    double sum = 0;
-    for (const int f : map_.faces_of_vertex()[v]) {
-        if (sum >= limit) break;
-        if (!map_.is_mapped(f)) continue;
-        const ImageTriangle image = map_.image_triangle(f);
-        sum += map_.rest(f).area * energy.value(image.q, image.D);
-    }
-    return sum;
-}
-
 bool LocalRelaxation::has_reversed_face(int v) const {
     for (const int f : map_.faces_of_vertex()[v])
         if (map_.is_mapped(f) && map_.image_triangle(f).D <= 0) return true;
@@ -91,9 +79,9 @@ bool LocalRelaxation::has_reversed_face(int v) const {
 }
 
 bool LocalRelaxation::try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy) {
-    const SurfacePoint old = map_.points()[std::size_t(v)];
+    const SurfacePoint old = map_.point(v);
     map_.move(v, step);
-    if (star_energy(v, energy, before) < before) return true;
+    if (total_energy(map_, map_.faces_of_vertex()[v], energy, before) < before) return true;
     map_.place(v, old);
     return false;
 }
@@ -117,13 +105,13 @@ void LocalRelaxation::leap_to_mean(int v, const FoldEnergy& energy) {
     for (const int f : map_.faces_of_vertex()[v])
         for (int k = 0; k < 3; ++k) {
             const int other = map_.source().faces(f, k);
-            if (other == v || map_.points()[std::size_t(other)].face < 0) continue;
+            if (other == v || !map_.has_image(other)) continue;
             mean += map_.image(other);
             ++count;
         }
     if (count == 0) return;
     const Vec3 step = mean / count - map_.image(v);
-    const double before = star_energy(v, energy, std::numeric_limits<double>::infinity());
+    const double before = total_energy(map_, map_.faces_of_vertex()[v], energy);
     for (const double share : {1.0, 0.5, 0.25, 2.0})
         if (try_walk(v, share * step, before, energy)) return;
 }

@@ -24,8 +24,6 @@ class LocalRelaxation {
     void newton_step(int v, const FoldEnergy& energy);
     void leap_to_mean(int v, const FoldEnergy& energy);
     bool try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy);
-    /// Of the faces around a vertex; some number from `limit` on if the sum gets there.
-    double star_energy(int v, const FoldEnergy& energy, double limit) const;
     bool has_reversed_face(int v) const;
 
     SlidingMap& map_;

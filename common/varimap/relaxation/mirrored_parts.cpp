@@ -7,7 +7,7 @@ namespace varimap {
 
 namespace {
 
-ReversedPatch measure(const SlidingMap& map, const Edges& edges, const std::vector<char>& reversed,
+ReversedPatch measure(const SlidingMap& map, const Edges& edges, const FaceData<bool>& reversed,
                       std::vector<int> faces) {
     ReversedPatch patch;
     int interior = 0;
@@ -17,8 +17,8 @@ ReversedPatch measure(const SlidingMap& map, const Edges& edges, const std::vect
         signed_area += map.rest(f).area * map.image_triangle(f).D;
         bool surrounded = true;
         for (int k = 0; k < 3; ++k)
-            for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + k)]])
-                surrounded = surrounded && reversed[std::size_t(side / 3)];
+            for (const int side : edges.sides[edges.of_side[3 * f + k]])
+                surrounded = surrounded && reversed[side / 3];
         interior += surrounded;
     }
     patch.ratio = signed_area / patch.area;
@@ -31,12 +31,11 @@ ReversedPatch measure(const SlidingMap& map, const Edges& edges, const std::vect
 }  // namespace
 
 std::vector<ReversedPatch> reversed_patches(const SlidingMap& map) {
-    const int n = map.source().face_count();
-    std::vector<char> reversed(std::size_t(n), 0);
+    FaceData<bool> reversed(map.source().face_count());
     bool any = false;
-    for (int f = 0; f < n; ++f) {
-        reversed[std::size_t(f)] = map.is_mapped(f) && map.image_triangle(f).D <= 0;
-        any = any || reversed[std::size_t(f)];
+    for (int f = 0; f < reversed.size(); ++f) {
+        reversed[f] = map.is_mapped(f) && map.image_triangle(f).D <= 0;
+        any = any || reversed[f];
     }
     std::vector<ReversedPatch> patches;
     if (!any) return patches;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "varimap/core/parallel.h"
+#include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 
 namespace varimap {
@@ -19,8 +20,7 @@ constexpr int directions = 12;
 constexpr std::array<double, 5> radii{0.1, 0.3, 0.7, 1.3, 2.2};  ///< in mean edges of the vertex's image
 constexpr double disagreement = 10;                              ///< cost per area
 constexpr double reversal = 100;                                 ///< cost per face: above all else
-const FoldEnergy energy{1, 0.03};
-const RobustExcess robust{energy, 0.3};
+const RobustEnergy energy{{1, 0.03}, 0.3};
 
 const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  Vec3(.15, .7, .15),
                                        Vec3(.15, .15, .7), Vec3(.08, .46, .46), Vec3(.46, .08, .46),
@@ -50,17 +50,17 @@ bool NormalAgreement::disagrees(int f) const {
 
 std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) const {
     std::vector<char> marks(faces.size(), 0);
-    parallel_for_each_index(std::size_t(0) + faces.size(), std::size_t(64), [&](std::size_t i) {
+    parallel_for_each_index(int(faces.size()), 64, [&](int i) {
         marks[i] = map_.is_mapped(faces[i]) && (map_.image_triangle(faces[i]).D <= 0 || disagrees(faces[i]));
     });
     std::vector<int> found;
-    for (std::size_t i = 0; i < faces.size(); ++i)
+    for (int i = 0; i < int(faces.size()); ++i)
         if (marks[i]) found.push_back(faces[i]);
     return found;
 }
 
 std::vector<int> NormalAgreement::disagreeing_faces() const {
-    std::vector<int> all(std::size_t(map_.source().face_count()));
+    std::vector<int> all(map_.source().face_count());
     std::iota(all.begin(), all.end(), 0);
     return disagreeing_among(all);
 }
@@ -70,9 +70,8 @@ double NormalAgreement::cost(int v, double limit) const {
     double sum = 0;
     for (const int f : faces) {
         if (!map_.is_mapped(f)) continue;
-        const ImageTriangle image = map_.image_triangle(f);
-        sum += map_.rest(f).area * robust.value(energy.value(image.q, image.D));
-        if (image.D <= FoldRemoval::flat_limit) sum += reversal;
+        sum += face_energy(map_, f, energy);
+        if (map_.image_triangle(f).D <= FoldRemoval::flat_limit) sum += reversal;
     }
     for (const int f : faces) {
         if (sum >= limit) break;  // what follows asks for many closest points
@@ -90,7 +89,7 @@ bool NormalAgreement::search(int v) {
                 mean_edge += (map_.image(u) - map_.image(v)).norm(), ++count;
     if (count == 0) return false;
     mean_edge /= count;
-    const SurfacePoint start = map_.points()[std::size_t(v)];
+    const SurfacePoint start = map_.point(v);
     const auto frame = map_.tangents(v);
     SurfacePoint best = start;
     const double before = cost(v, std::numeric_limits<double>::infinity());
@@ -101,18 +100,18 @@ bool NormalAgreement::search(int v) {
             const Vec3 step =
                 radius * mean_edge * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
             map_.place(v, map_.walk(start, step));
-            if (const double c = cost(v, least); c < least) least = c, best = map_.points()[std::size_t(v)];
+            if (const double c = cost(v, least); c < least) least = c, best = map_.point(v);
         }
     map_.place(v, best);
     return least < before;
 }
 
-std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const std::vector<char>& fixed) {
+std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const VertexData<bool>& fixed) {
     for (int pass = 0; pass < passes && !disagreeing.empty(); ++pass) {
         std::vector<int> vertices;
         for (const int f : disagreeing)
             for (int k = 0; k < 3; ++k)
-                if (const int v = map_.source().faces(f, k); !fixed[std::size_t(v)]) vertices.push_back(v);
+                if (const int v = map_.source().faces(f, k); !fixed[v]) vertices.push_back(v);
         make_set(vertices);
         bool moved = false;
         for (const int v : vertices) moved = search(v) || moved;

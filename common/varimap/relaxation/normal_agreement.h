@@ -19,7 +19,7 @@ class NormalAgreement {
     /// ascending.
     std::vector<int> disagreeing_faces() const;
     /// Turns them; vertices with fixed[v] stay. Returns those that are left.
-    std::vector<int> improve(std::vector<int> disagreeing, const std::vector<char>& fixed);
+    std::vector<int> improve(std::vector<int> disagreeing, const VertexData<bool>& fixed);
 
   private:
     std::vector<int> disagreeing_among(const std::vector<int>& faces) const;

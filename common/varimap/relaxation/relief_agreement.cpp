@@ -45,7 +45,7 @@ ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight)
 }
 
 double ReliefAgreement::residual(int v) const {
-    const SurfacePoint& image = map_.points()[std::size_t(v)];
+    const SurfacePoint& image = map_.point(v);
     double there = 0;
     for (int k = 0; k < 3; ++k) there += image.barycentric[k] * target_[map_.target().faces(image.face, k)];
     return source_[v] - there;
@@ -56,10 +56,9 @@ double ReliefAgreement::value(int v) const {
     return weight_[v] * c2 / 2 * std::log1p(r * r / c2);
 }
 
-ReliefAgreement::Quadratic ReliefAgreement::derivatives(int v,
-                                                        const Eigen::Matrix<double, 3, 2>& frame) const {
+ReliefAgreement::Quadratic ReliefAgreement::derivatives(int v, const TangentFrame& frame) const {
     const TriangleMesh& target = map_.target();
-    const int face = map_.points()[std::size_t(v)].face;
+    const int face = map_.point(v).face;
     const Vec3 n = face_normal(target, face);
     if (!(n.squaredNorm() > 0)) return {Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
     Vec3 slope = Vec3::Zero();

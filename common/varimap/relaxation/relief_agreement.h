@@ -8,14 +8,14 @@ namespace varimap {
 
 /// Relief h of a surface of unit area, one value per vertex: the normal part of x - (M + s^2 L)^-1 M x, of an
 /// implicit step of diffusion with time s^2, which is s^2 times twice the mean curvature smoothed at scale s.
-/// It shows features of about size s and leaves out the broader shape, which changes with the pose. Less its
-/// median, in units of 1.5 median deviations, and bounded to [-2, 2].
+/// It shows bumps and hollows of about size s and leaves out the broader shape, which changes with the pose.
+/// Less its median, in units of 1.5 median deviations, and bounded to [-2, 2].
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 
-/// A data term that holds features in place: the sum over the source's vertices v, of area a_v, of
+/// A data term that holds relief in place: the sum over the source's vertices v, of area a_v, of
 ///     weight a_v rho(r),   r = h_A(v) - h_B(f(v)),   rho(r) = c^2 / 2 log(1 + r^2 / c^2)
 /// with the reliefs h of both surfaces, linear on the target's faces. An isometry's energy hardly resists
-/// sliding along limbs or turning about them; features do. With J the gradient of h_B in the tangent frame of
+/// sliding along limbs or turning about them; relief does. With J the gradient of h_B in the tangent frame of
 /// f(v) and u = 1 / (1 + r^2 / c^2), rho has the gradient -u r J and the Gauss-Newton Hessian u J J'.
 /// The scale s is 0.02, or the mean edge of the coarser mesh if that is longer.
 class ReliefAgreement {
@@ -29,7 +29,7 @@ class ReliefAgreement {
     };
     double value(int v) const;
     /// By the coordinates of the image of v in `frame`, which spans the plane of the face that holds it.
-    Quadratic derivatives(int v, const Eigen::Matrix<double, 3, 2>& frame) const;
+    Quadratic derivatives(int v, const TangentFrame& frame) const;
 
   private:
     double residual(int v) const;

@@ -11,22 +11,21 @@ SlidingMap::SlidingMap(const PointMap& map, const TriangleMesh& source, const Tr
       rest_(rest_triangles(source_)),
       faces_of_vertex_(vertex_faces(source_)),
       walk_(target_),
-      points_(map.size()),
-      image_(map.size(), Vec3::Zero()),
-      normal_(map.size(), Vec3::Zero()) {
-    for (int v = 0; v < int(map.size()); ++v)
-        if (map[std::size_t(v)].face >= 0) place(v, map[std::size_t(v)]);
+      points_(int(map.size())),
+      image_(points_.size(), Vec3::Zero()),
+      normal_(points_.size(), Vec3::Zero()) {
+    for (int v = 0; v < points_.size(); ++v)
+        if (map[v].face >= 0) place(v, map[v]);
 }
 
 void SlidingMap::place(int v, const SurfacePoint& point) {
-    points_[std::size_t(v)] = point;
-    image_[std::size_t(v)] = position(target_, point);
-    normal_[std::size_t(v)] = position(normals_, point);
+    points_[v] = point;
+    image_[v] = position(target_, point);
+    normal_[v] = position(normals_, point);
 }
 
 Vec3 SlidingMap::mean_normal(int f) const {
-    return (normal_[std::size_t(source_.faces(f, 0))] + normal_[std::size_t(source_.faces(f, 1))] +
-            normal_[std::size_t(source_.faces(f, 2))])
+    return (normal_[source_.faces(f, 0)] + normal_[source_.faces(f, 1)] + normal_[source_.faces(f, 2)])
         .normalized();
 }
 
@@ -35,10 +34,10 @@ ImageTriangle SlidingMap::image_triangle(int f) const {
             mean_normal(f)};
 }
 
-Eigen::Matrix<double, 3, 2> SlidingMap::tangents(int v) const {
-    const int face = points_[std::size_t(v)].face;
+TangentFrame SlidingMap::tangents(int v) const {
+    const int face = points_[v].face;
     const Vec3 edge = target_.vertex(target_.faces(face, 1)) - target_.vertex(target_.faces(face, 0));
-    Eigen::Matrix<double, 3, 2> frame;
+    TangentFrame frame;
     frame.col(0) = edge.normalized();
     frame.col(1) = face_normal(target_, face).normalized().cross(frame.col(0));
     return frame;

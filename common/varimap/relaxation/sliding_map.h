@@ -2,12 +2,16 @@
 
 #include <vector>
 
+#include "varimap/core/indexed.h"
 #include "varimap/mesh/surface_walk.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/relaxation/fold_energy.h"
 
 namespace varimap {
+
+/// Two orthonormal directions in a face's plane, as columns.
+using TangentFrame = Eigen::Matrix<double, 3, 2>;
 
 /// A map whose images slide on the target: the state that the relaxations of untangling.h work on. Both
 /// meshes are brought to unit area.
@@ -18,43 +22,58 @@ class SlidingMap {
     const TriangleMesh& source() const { return source_; }
     const TriangleMesh& target() const { return target_; }
     const PointMap& points() const { return points_; }
+    const SurfacePoint& point(int v) const { return points_[v]; }
     const Adjacency& faces_of_vertex() const { return faces_of_vertex_; }
-    const RestTriangle& rest(int f) const { return rest_[std::size_t(f)]; }
-    bool has_image(int v) const { return points_[std::size_t(v)].face >= 0; }
+    const RestTriangle& rest(int f) const { return rest_[f]; }
+    bool has_image(int v) const { return points_[v].face >= 0; }
     /// Whether a face counts: it has area, and all its corners have an image.
     bool is_mapped(int f) const {
         const auto corners = source_.faces.row(f);
-        return rest_[std::size_t(f)].area > 0 && has_image(corners[0]) && has_image(corners[1]) &&
-               has_image(corners[2]);
+        return rest_[f].area > 0 && has_image(corners[0]) && has_image(corners[1]) && has_image(corners[2]);
+    }
+    /// Which corner of a face of the source a vertex is.
+    int corner_of(int f, int v) const {
+        const auto corners = source_.faces.row(f);
+        return corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
     }
     /// Position in space of a vertex's image.
-    const Vec3& image(int v) const { return image_[std::size_t(v)]; }
+    const Vec3& image(int v) const { return image_[v]; }
     /// Unit mean of the target's normals at a face's three images; zero where they cancel.
     Vec3 mean_normal(int f) const;
-    ImageTriangle image(int f) const;
-    /// Two orthonormal directions in the plane of the target's face that holds the image.
-    Eigen::Matrix<double, 3, 2> tangents(int v) const;
+    ImageTriangle image_triangle(int f) const;
+    /// Of the target's face that holds the image.
+    TangentFrame tangents(int v) const;
     /// Walks a vertex's image along a tangent vector, from where it is.
-    void move(int v, const Vec3& step) { place(v, walk_(points_[std::size_t(v)], step)); }
+    void move(int v, const Vec3& step) { place(v, walk_(points_[v], step)); }
     void place(int v, const SurfacePoint& point);
     /// Rest areas of faces times `factor`: the relaxations then aim at lengths times its root.
     void scale_rest(const std::vector<int>& faces, double factor) {
-        for (const int f : faces) rest_[std::size_t(f)].area *= factor;
+        for (const int f : faces) rest_[f].area *= factor;
     }
     /// Takes a vertex's image away.
-    void clear(int v) { points_[std::size_t(v)].face = -1; }
+    void clear(int v) { points_[v].face = -1; }
     /// Where a walk from a point of the target ends.
     SurfacePoint walk(const SurfacePoint& from, const Vec3& step) const { return walk_(from, step); }
     /// Interpolated normal of the target at a vertex's image; not of unit length.
-    const Vec3& normal(int v) const { return normal_[std::size_t(v)]; }
+    const Vec3& normal(int v) const { return normal_[v]; }
 
   private:
     TriangleMesh source_, target_, normals_;  ///< normals_: the target's, as a mesh to interpolate on
-    std::vector<RestTriangle> rest_;
+    FaceData<RestTriangle> rest_;
     Adjacency faces_of_vertex_;
     SurfaceWalk walk_;
-    PointMap points_;
-    std::vector<Vec3> image_, normal_;
+    VertexData<SurfacePoint> points_;
+    VertexData<Vec3> image_, normal_;
 };
+
+/// How many corners of a face are marked.
+inline int marked_corners(const TriangleMesh& mesh, int f, const VertexData<bool>& marks) {
+    int count = 0;
+    for (int k = 0; k < 3; ++k) count += marks[mesh.faces(f, k)] != 0;
+    return count;
+}
+inline void mark_corners(const TriangleMesh& mesh, int f, VertexData<bool>& marks) {
+    for (int k = 0; k < 3; ++k) marks[mesh.faces(f, k)] = true;
+}
 
 }  // namespace varimap

@@ -22,13 +22,12 @@ double value(const SoftConstraint& constraint, const SlidingMap& map) {
     return constraint.weight * c2 / 2 * std::log1p(offset(constraint, map).squaredNorm() / c2);
 }
 
-SoftConstraintSystem derivatives(const SoftConstraint& constraint, const SlidingMap& map,
-                                 const std::vector<Eigen::Matrix<double, 3, 2>>& frames) {
+FaceDerivatives derivatives(const SoftConstraint& constraint, const SlidingMap& map,
+                            const VertexData<TangentFrame>& frames) {
     const auto corners = map.source().faces.row(constraint.from.face);
     const Vec3 d = offset(constraint, map);
     Eigen::Matrix<double, 3, 6> J;
-    for (int k = 0; k < 3; ++k)
-        J.middleCols<2>(2 * k) = constraint.from.barycentric[k] * frames[std::size_t(corners[k])];
+    for (int k = 0; k < 3; ++k) J.middleCols<2>(2 * k) = constraint.from.barycentric[k] * frames[corners[k]];
     const double u = constraint.weight / (1 + d.squaredNorm() / (constraint.radius * constraint.radius));
     return {u * J.transpose() * d, u * J.transpose() * J};
 }
@@ -47,7 +46,7 @@ std::vector<SoftConstraint> inverse_constraints(const SlidingMap& map, const Poi
     std::vector<SoftConstraint> constraints;
     constraints.reserve(back.size());
     for (int b = 0; b < int(back.size()); ++b) {
-        const SurfacePoint& point = back[std::size_t(b)];
+        const SurfacePoint& point = back[b];
         if (point.face >= 0 && map.is_mapped(point.face))
             constraints.push_back({point, map.target().vertex(b), weight * areas[b], inverse_radius});
     }

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "varimap/relaxation/sliding_map.h"
+#include "varimap/relaxation/face_energy.h"
 
 namespace varimap {
 
@@ -17,14 +16,10 @@ struct SoftConstraint {
 
 /// A data term: the sum over constraints of w rho(d), d the distance of the image of `from` (linear on its
 /// face) from `to`, rho(d) = c^2 / 2 log(1 + d^2 / c^2).
-struct SoftConstraintSystem {
-    Eigen::Matrix<double, 6, 1> gradient;
-    Eigen::Matrix<double, 6, 6> hessian;  ///< Gauss-Newton
-};
 double value(const SoftConstraint& constraint, const SlidingMap& map);
-/// By the coordinates of the images of the corners of the face of `from` in their frames.
-SoftConstraintSystem derivatives(const SoftConstraint& constraint, const SlidingMap& map,
-                                 const std::vector<Eigen::Matrix<double, 3, 2>>& frames);
+/// Of the face of `from`, in the frames of its corners' images; the Hessian is that of Gauss and Newton.
+FaceDerivatives derivatives(const SoftConstraint& constraint, const SlidingMap& map,
+                            const VertexData<TangentFrame>& frames);
 
 /// Landmarks that are points, as constraints: the image of each first point, on the source, goes to the
 /// second, on the target. Measured: off by at most 0.001 of sqrt(area), at the tip of a horn by 0.007.

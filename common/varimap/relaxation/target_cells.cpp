@@ -5,17 +5,17 @@
 namespace varimap {
 
 TargetCells::TargetCells(const SlidingMap& map, const GeodesicGraph& target_graph, double radius)
-    : cell_of_vertex_(std::size_t(target_graph.vertex_count()), -1) {
+    : cell_of_vertex_(target_graph.vertex_count(), -1) {
     const Eigen::VectorXd area = voronoi_masses(map.target());
     GeodesicBall ball(target_graph);
     for (int seed = 0; seed < target_graph.vertex_count(); ++seed) {
-        if (cell_of_vertex_[std::size_t(seed)] >= 0) continue;
+        if (cell_of_vertex_[seed] >= 0) continue;
         const int cell = int(area_.size());
         area_.push_back(0);
         ball.grow({seed}, [&](int v, double distance) {
             if (distance > radius) return false;
-            if (cell_of_vertex_[std::size_t(v)] < 0) {
-                cell_of_vertex_[std::size_t(v)] = cell;
+            if (cell_of_vertex_[v] < 0) {
+                cell_of_vertex_[v] = cell;
                 area_.back() += area[v];
             }
             return true;
@@ -27,8 +27,7 @@ std::vector<char> TargetCells::occupied(const SlidingMap& map) const {
     std::vector<char> occupied(area_.size(), 0);
     for (const SurfacePoint& image : map.points())
         for (int k = 0; k < 3; ++k)
-            if (image.face >= 0)
-                occupied[std::size_t(cell_of_vertex_[std::size_t(map.target().faces(image.face, k))])] = 1;
+            if (image.face >= 0) occupied[cell_of_vertex_[map.target().faces(image.face, k)]] = 1;
     return occupied;
 }
 

@@ -7,7 +7,7 @@
 
 namespace varimap {
 
-/// The target in cells a few source edges wide: tells at little cost which parts of it a map reaches. (What
+/// The target in cells a few source edges wide: tells at little cost which parts of it a map enters. (What
 /// images of triangles cover is costly to know, and image triangles cut through the root of a limb that no
 /// vertex enters.)
 class TargetCells {
@@ -21,7 +21,7 @@ class TargetCells {
     double lost_area(const std::vector<char>& before, const std::vector<char>& after) const;
 
   private:
-    std::vector<int> cell_of_vertex_;
+    VertexData<int> cell_of_vertex_;
     std::vector<double> area_;
 };
 

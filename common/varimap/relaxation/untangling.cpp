@@ -33,28 +33,26 @@ constexpr int least_steps = 2;
 constexpr double least_gain = 1e-5;  ///< share of the energy that a step must win to be followed by another
 
 /// Vertices that local sweeps may move: those of a face that holds a landmark would leave it.
-std::vector<int> free_vertices(const SlidingMap& map, std::vector<char> fixed,
+std::vector<int> free_vertices(const SlidingMap& map, VertexData<bool> fixed,
                                const std::vector<SoftConstraint>& landmarks) {
-    for (const SoftConstraint& landmark : landmarks)
-        for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(landmark.from.face, k))] = 1;
+    for (const SoftConstraint& landmark : landmarks) mark_corners(map.source(), landmark.from.face, fixed);
     std::vector<int> free;
-    for (int v = 0; v < int(fixed.size()); ++v)
-        if (!fixed[std::size_t(v)] && map.has_image(v)) free.push_back(v);
+    for (int v = 0; v < fixed.size(); ++v)
+        if (!fixed[v] && map.has_image(v)) free.push_back(v);
     return free;
 }
 
 /// Global steps over the whole map, each followed by a local sweep that lets single vertices out of corners.
 class Relaxation {
   public:
-    Relaxation(SlidingMap& map, const std::vector<char>& fixed, const ReliefAgreement* relief,
+    Relaxation(SlidingMap& map, const VertexData<bool>& fixed, const ReliefAgreement* relief,
                const std::vector<SoftConstraint>& landmarks, const Round& round,
                const UntanglingOptions& options)
         : map_(map),
           options_(options),
           landmarks_(landmarks),
-          energy_{options.area_weight, round.regularisation},
+          energy_({options.area_weight, round.regularisation}, round.robustness_factor * options.robustness),
           last_inverse_(round.last_inverse),
-          robustness_(round.robustness_factor * options.robustness),
           vertices_(free_vertices(map, fixed, landmarks)),
           global_(map, fixed, relief),
           local_(map, 99) {
@@ -64,15 +62,15 @@ class Relaxation {
     }
 
     /// `back`: the other direction, whose inverse the map is drawn to.
-    void step(const PointMap* back) {
+    void step(const PointMap& back) {
         constraints_ = landmarks_;
-        if (back && options_.inverse_weight > 0) {
-            const auto inverse = inverse_constraints(map_, *back, options_.inverse_weight * inverse_share());
+        if (options_.inverse_weight > 0) {
+            const auto inverse = inverse_constraints(map_, back, options_.inverse_weight * inverse_share());
             constraints_.insert(constraints_.end(), inverse.begin(), inverse.end());
         }
         global_.set_constraints(constraints_);
-        const double gain = global_.step(energy_, robustness_);
-        local_.sweep(vertices_, energy_, false);
+        const double gain = global_.step(energy_);
+        local_.sweep(vertices_, energy_.energy, false);
         ++steps_;
         converged_ = gain < least_gain && steps_ > 3;
     }
@@ -89,8 +87,8 @@ class Relaxation {
     SlidingMap& map_;
     const UntanglingOptions& options_;
     const std::vector<SoftConstraint>& landmarks_;
-    FoldEnergy energy_;
-    double last_inverse_, robustness_;
+    RobustEnergy energy_;
+    double last_inverse_;
     std::vector<int> vertices_;
     GlobalRelaxation global_;
     LocalRelaxation local_;
@@ -100,17 +98,16 @@ class Relaxation {
 };
 
 /// Vertices that stay: the pinned ones and those of mirrored parts.
-std::vector<char> stay(const SlidingMap& map, const std::vector<char>& pinned, const MirrorGate& gate,
-                       UntanglingReport& report) {
-    std::vector<char> fixed = pinned;
+VertexData<bool> stay(const SlidingMap& map, const VertexData<bool>& pinned, const MirrorGate& gate,
+                      UntanglingReport& report) {
+    VertexData<bool> fixed = pinned;
     report.mirrored_parts = 0;
     report.gated_area_percent = 0;
     for (const ReversedPatch& patch : reversed_patches(map)) {
         if (!is_mirrored_part(patch, gate)) continue;
         ++report.mirrored_parts;
         report.gated_area_percent += 100 * patch.area;
-        for (const int f : patch.faces)
-            for (int k = 0; k < 3; ++k) fixed[std::size_t(map.source().faces(f, k))] = 1;
+        for (const int f : patch.faces) mark_corners(map.source(), f, fixed);
     }
     return fixed;
 }
@@ -119,7 +116,7 @@ std::vector<char> stay(const SlidingMap& map, const std::vector<char>& pinned, c
 class Untangling {
   public:
     Untangling(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-               const std::vector<char>& pinned, const PointPairs& points, const UntanglingOptions& options)
+               const VertexData<bool>& pinned, const PointPairs& points, const UntanglingOptions& options)
         : map_(map),
           source_(source),
           target_(target),
@@ -143,7 +140,7 @@ class Untangling {
                 std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, options_);
     }
     bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
-    void relax(const PointMap* back) {
+    void relax(const PointMap& back) {
         if (!is_relaxed()) relaxation_->step(back);
     }
     void end_relaxation(const Round& round) {
@@ -181,11 +178,11 @@ class Untangling {
 
   private:
     /// The fixed vertices, and those that hold a landmark in place, unless their triangle is reversed.
-    std::vector<char> held() const {
-        std::vector<char> held = fixed_;
+    VertexData<bool> held() const {
+        VertexData<bool> held = fixed_;
         for (const SoftConstraint& landmark : landmarks_)
             if (sliding_.image_triangle(landmark.from.face).D > 0)
-                for (int k = 0; k < 3; ++k) held[std::size_t(source_.faces(landmark.from.face, k))] = 1;
+                mark_corners(source_, landmark.from.face, held);
         return held;
     }
     void align_normals() {
@@ -197,23 +194,17 @@ class Untangling {
 
     PointMap& map_;
     const TriangleMesh &source_, &target_;
-    const std::vector<char>& pinned_;
+    const VertexData<bool>& pinned_;
     const UntanglingOptions& options_;
     Distortion before_;
     SlidingMap sliding_;
     const std::vector<SoftConstraint> landmarks_;  ///< that are points
-    std::vector<char> fixed_;
+    VertexData<bool> fixed_;
     std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;
 };
-
-void run(Untangling& map, const Round& round) {
-    map.start_relaxation(round);
-    while (!map.is_relaxed()) map.relax(nullptr);
-    map.end_relaxation(round);
-}
 
 /// Calls body for both, side by side, with what the other's images are before.
 template <class Body>
@@ -226,7 +217,7 @@ void with_each_other(Untangling& there, Untangling& back, const Body& body) {
 void run(Untangling& there, Untangling& back, const Round& round) {
     tbb::parallel_invoke([&] { there.start_relaxation(round); }, [&] { back.start_relaxation(round); });
     while (!there.is_relaxed() || !back.is_relaxed())
-        with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.relax(&inverse); });
+        with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.relax(inverse); });
     tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
 }
 
@@ -237,16 +228,6 @@ PointPairs swapped(const PointPairs& points) {
 }
 
 }  // namespace
-
-UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-                          const std::vector<char>& pinned, const UntanglingOptions& options) {
-    Untangling untangling(map, source, target, pinned, {}, options);
-    if (!options.enabled) return untangling.report();
-    run(untangling, rounds[0]);
-    untangling.replace_parts({});
-    run(untangling, rounds[1]);
-    return untangling.finish();
-}
 
 UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
                            const PinnedPair& pinned, const UntanglingOptions& options) {

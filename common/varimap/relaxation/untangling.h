@@ -10,12 +10,12 @@ namespace varimap {
 
 struct UntanglingOptions {
     bool enabled = true;
-    int global_steps =
-        10;  ///< of relaxation over the whole map, each of two times; fewer from 20'000 vertices on
+    /// Of relaxation over the whole map, each of two times; fewer from 20'000 vertices on.
+    int global_steps = 10;
     double area_weight = 1;  ///< w of the fold energy: areas against angles
-    double robustness =
-        0.3;  ///< excess energy at which a face counts half in global steps; 0: all count fully
-    double relief_weight = 2;  ///< of features against the fold energy in global steps (relief_agreement.h)
+    /// Excess energy at which a face counts half in global steps; 0: all count fully.
+    double robustness = 0.3;
+    double relief_weight = 2;  ///< of relief against the fold energy in global steps (relief_agreement.h)
     /// Of each direction's attraction to the other's inverse (soft_constraints.h) in the last global steps.
     double inverse_weight = 1000;
     int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
@@ -39,32 +39,30 @@ struct UntanglingReport {
         disagreeing_after = 0;  ///< faces that cut through a feature (normal_agreement.h)
 };
 
-/// Slides the images of the source's vertices on the target until no triangle of the cross-remeshed source is
-/// reversed or collapsed, the map is as near to an isometry as it gets (fold_energy.h), and features meet
-/// (relief_agreement.h):
-///  1. global relaxation, robust against parts that cannot be isometric, and removal of folds in patches;
-///  2. strained parts, which are mirrored, twisted or crumpled, mapped anew (part_replacement.h);
-///  3. the first step once more, with less regularisation;
-///  4. faces that cut through thin features turned the target's way (normal_agreement.h).
-/// Vertices with pinned[v] (landmarks) stay. Parts that are mirrored in the end stay too: a map that is made
-/// flip-free there would be wrong all the same. A map that would not gain is left as it was. Deterministic
-/// and serial. Vertices without an image keep none.
-UntanglingReport untangle(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-                          const std::vector<char>& pinned, const UntanglingOptions& options);
-
-/// Both directions, in parallel; in global steps each is drawn to the other's inverse, and after the second
-/// step each tries the other's inverse, for itself and for its strained parts.
 struct MapPair {
     PointMap A_to_B, B_to_A;
 };
+/// Landmarks of both meshes.
 struct PinnedPair {
-    std::vector<char> A, B;
+    VertexData<bool> A, B;  ///< vertices that stay where they are
     PointPairs points =
         {};  ///< of both meshes, drawn onto each other (soft_constraints.h) rather than pinned
 };
 struct UntanglingReports {
     UntanglingReport A_to_B, B_to_A;
 };
+
+/// Slides the images of both meshes' vertices on the other mesh until no image triangle is reversed or
+/// collapsed, the maps are as near to isometries as they get (fold_energy.h), inverse to each other
+/// (soft_constraints.h), and like relief meets (relief_agreement.h):
+///  1. global relaxation, robust against parts that cannot be isometric, and removal of folds in patches;
+///  2. strained parts, which are mirrored, twisted or crumpled, mapped anew (part_replacement.h), as their
+///     surroundings or the other direction's inverse have it;
+///  3. the first step once more, with less regularisation;
+///  4. faces that cut through thin features turned the target's way (normal_agreement.h).
+/// Parts that are mirrored in the end stay so: a map that is made flip-free there would be wrong all the
+/// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic: the
+/// two directions run side by side, each serial.
 UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
                            const PinnedPair& pinned, const UntanglingOptions& options);
 

@@ -27,13 +27,13 @@ PointMap cut_through(const TriangleMesh& mesh) {
     for (int v = 0; v < mesh.vertex_count(); v += 5) {
         const Vec3 p = mesh.vertex(v);
         if (std::hypot(p.x(), p.y()) > 0.95 && p.z() > 0)
-            map[std::size_t(v)] = closest(Vec3(0.95 * p.x(), 0.95 * p.y(), -0.05)).point;
+            map[v] = closest(Vec3(0.95 * p.x(), 0.95 * p.y(), -0.05)).point;
     }
     return map;
 }
 
-std::vector<char> none(const TriangleMesh& mesh) {
-    return std::vector<char>(std::size_t(mesh.vertex_count()), 0);
+VertexData<bool> none(const TriangleMesh& mesh) {
+    return VertexData<bool>(mesh.vertex_count());
 }
 
 int reversed_images(const SlidingMap& map) {
@@ -90,15 +90,15 @@ TEST(NormalAgreement, DoesNotAddReversedImages) {
 TEST(NormalAgreement, KeepsFixedVertices) {
     const TriangleMesh mesh = plate();
     const PointMap before = cut_through(mesh);
-    std::vector<char> fixed = none(mesh);
-    for (std::size_t v = 0; v < fixed.size(); v += 2) fixed[v] = 1;
+    VertexData<bool> fixed = none(mesh);
+    for (int v = 0; v < fixed.size(); v += 2) fixed[v] = 1;
     SlidingMap map(before, mesh, mesh);
     NormalAgreement agreement(map);
     const std::vector<int> disagreeing = agreement.disagreeing_faces();
     EXPECT_LT(agreement.improve(disagreeing, fixed).size(), disagreeing.size());
-    for (std::size_t v = 0; v < fixed.size(); v += 2) {
-        EXPECT_EQ(map.points()[v].face, before[v].face);
-        EXPECT_EQ(map.points()[v].barycentric, before[v].barycentric);
+    for (int v = 0; v < fixed.size(); v += 2) {
+        EXPECT_EQ(map.point(v).face, before[v].face);
+        EXPECT_EQ(map.point(v).barycentric, before[v].barycentric);
     }
 }
 

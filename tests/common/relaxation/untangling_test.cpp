@@ -42,27 +42,49 @@ TEST(FoldEnergy, HasTheDerivativesOfItsValue) {
         }
 }
 
-void expect_untangled(PointMap map, const TriangleMesh& source, const TriangleMesh& target) {
-    std::vector<char> pinned(map.size(), 0);
-    const PointMap truth = shapes::at_vertices(target);
-    for (const std::size_t v : {std::size_t(0), map.size() / 2, map.size() - 1}) {
-        pinned[v] = 1;
-        map[v] = truth[v];
-    }
-    const double before = mean_error(map, target);
-    const UntanglingReport report = untangle(map, source, target, pinned, {});
+/// Both directions of a map between meshes of the same connectivity, damaged alike: none helps the other.
+MapPair both_ways(const PointMap& map) {
+    return {map, map};
+}
+
+PinnedPair none_pinned(const PointMap& map) {
+    return {VertexData<bool>(int(map.size())), VertexData<bool>(int(map.size()))};
+}
+
+UntanglingReports untangle_both(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
+                                const UntanglingOptions& options = {}) {
+    return untangle(maps, A, B, none_pinned(maps.A_to_B), options);
+}
+
+void expect_clean(const UntanglingReport& report, const PointMap& map, const TriangleMesh& source,
+                  const TriangleMesh& target) {
     EXPECT_GT(report.flipped_before, 50);
     EXPECT_EQ(report.flipped_after, 0);
     EXPECT_EQ(report.mirrored_parts, 0);
     const Distortion after = measure_distortion(map, source, target);
     EXPECT_EQ(after.flipped_count, 0);
     EXPECT_EQ(after.collapsed_count, 0);
-    EXPECT_LT(mean_error(map, target), before / 2);
-    for (std::size_t v = 0; v < map.size(); ++v) {
-        if (!pinned[v]) continue;
-        EXPECT_EQ(map[v].face, truth[v].face);
-        EXPECT_EQ(map[v].barycentric, truth[v].barycentric);
+}
+
+void expect_untangled(PointMap map, const TriangleMesh& A, const TriangleMesh& B) {
+    PinnedPair pinned = none_pinned(map);
+    const PointMap truth = shapes::at_vertices(B);
+    const int last = int(map.size()) - 1;
+    for (const int v : {0, last / 2, last}) {
+        pinned.A[v] = pinned.B[v] = true;
+        map[v] = truth[v];
     }
+    MapPair maps = both_ways(map);
+    const UntanglingReports reports = untangle(maps, A, B, pinned, {});
+    expect_clean(reports.A_to_B, maps.A_to_B, A, B);
+    expect_clean(reports.B_to_A, maps.B_to_A, B, A);
+    EXPECT_LT(mean_error(maps.A_to_B, B), mean_error(map, B) / 2);
+    EXPECT_LT(mean_error(maps.B_to_A, A), mean_error(map, A) / 2);
+    for (const PointMap& image : {maps.A_to_B, maps.B_to_A})
+        for (const int v : {0, last / 2, last}) {
+            EXPECT_EQ(image[v].face, truth[v].face);
+            EXPECT_EQ(image[v].barycentric, truth[v].barycentric);
+        }
 }
 
 TEST(Untangling, RemovesNoiseAndFoldedPatchesBetweenPoses) {
@@ -88,30 +110,36 @@ TEST(Untangling, WorksWithBoundaries) {
 
 TEST(Untangling, LeavesAMirroredPartAndReportsItWhenPartsAreNotReplaced) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    PointMap map = shapes::at_vertices(sphere);
-    mirror_patch(map, sphere, 7, 0.9);
-    const PointMap mirrored = map;
+    PointMap mirrored = shapes::at_vertices(sphere);
+    mirror_patch(mirrored, sphere, 7, 0.9);
+    MapPair maps = both_ways(mirrored);
     UntanglingOptions options;
     options.replace_parts = false;
-    const UntanglingReport report = untangle(map, sphere, sphere, std::vector<char>(map.size(), 0), options);
+    const UntanglingReport report = untangle_both(maps, sphere, sphere, options).A_to_B;
     EXPECT_EQ(report.mirrored_parts, 1);
     EXPECT_GT(report.gated_area_percent, 5);
     EXPECT_GT(report.flipped_after, 50);
-    EXPECT_EQ(map[7].face, mirrored[7].face);
+    EXPECT_EQ(maps.A_to_B[7].face, mirrored[7].face);
     EXPECT_EQ(report.parts_tried, 0);
 }
 
-/// Without a pinned vertex; judged by the true map and by code that shares nothing with untangling.
-void expect_undone(PointMap map, const TriangleMesh& source, const TriangleMesh& target) {
-    const double before = mean_error(map, target);
-    const UntanglingReport report = untangle(map, source, target, std::vector<char>(map.size(), 0), {});
+void expect_undone(const UntanglingReport& report, const PointMap& map, const TriangleMesh& source,
+                   const TriangleMesh& target) {
     EXPECT_GT(report.parts_replaced, 0);
     EXPECT_EQ(report.mirrored_parts, 0);
     EXPECT_EQ(report.flipped_after, 0);
     const Verification found = verify_map(map, source, target);
     EXPECT_TRUE(found.reversed_faces.empty());
     EXPECT_TRUE(found.branch_vertices.empty());
-    EXPECT_LT(mean_error(map, target), 0.1 * longest_edge(target)) << "before: " << before;
+    EXPECT_LT(mean_error(map, target), 0.1 * longest_edge(target));
+}
+
+/// Without a pinned vertex; judged by the true map and by code that shares nothing with untangling.
+void expect_undone(const PointMap& map, const TriangleMesh& A, const TriangleMesh& B) {
+    MapPair maps = both_ways(map);
+    const UntanglingReports reports = untangle_both(maps, A, B);
+    expect_undone(reports.A_to_B, maps.A_to_B, A, B);
+    expect_undone(reports.B_to_A, maps.B_to_A, B, A);
 }
 
 TEST(Untangling, UndoesAMirroredCap) {
@@ -128,31 +156,37 @@ TEST(Untangling, UndoesAMirroredLimb) {
 
 TEST(Untangling, LeavesAnIsometryNearlyWhereItIs) {
     const TriangleMesh figure = shapes::figure(0.15);
-    PointMap map = shapes::at_vertices(figure);
-    const UntanglingReport report =
-        untangle(map, figure, figure, std::vector<char>(map.size(), 0), UntanglingOptions{});
-    EXPECT_EQ(report.flipped_after, 0);
-    EXPECT_LT(mean_error(map, figure), 0.02 * longest_edge(figure));
+    MapPair maps = both_ways(shapes::at_vertices(figure));
+    const UntanglingReports reports = untangle_both(maps, figure, figure);
+    EXPECT_EQ(reports.A_to_B.flipped_after, 0);
+    EXPECT_EQ(reports.B_to_A.flipped_after, 0);
+    EXPECT_LT(mean_error(maps.A_to_B, figure), 0.02 * longest_edge(figure));
+    EXPECT_LT(mean_error(maps.B_to_A, figure), 0.02 * longest_edge(figure));
 }
 
 TEST(Untangling, GivesTheSameMapAgain) {
     const TriangleMesh torus = shapes::torus(1, 0.4, 40, 16);
-    PointMap first = noisy_identity(torus, 0.8), second = first;
-    const std::vector<char> pinned(first.size(), 0);
-    untangle(first, torus, torus, pinned, UntanglingOptions{});
-    untangle(second, torus, torus, pinned, UntanglingOptions{});
-    for (std::size_t v = 0; v < first.size(); ++v) EXPECT_EQ(first[v].barycentric, second[v].barycentric);
+    MapPair first = both_ways(noisy_identity(torus, 0.8)), second = first;
+    untangle_both(first, torus, torus);
+    untangle_both(second, torus, torus);
+    for (int v = 0; v < torus.vertex_count(); ++v) {
+        EXPECT_EQ(first.A_to_B[v].barycentric, second.A_to_B[v].barycentric);
+        EXPECT_EQ(first.B_to_A[v].barycentric, second.B_to_A[v].barycentric);
+    }
 }
 
 TEST(Untangling, DoesNothingWhenDisabled) {
     const TriangleMesh torus = shapes::torus(1, 0.4, 40, 16);
-    PointMap map = noisy_identity(torus, 0.8);
-    const PointMap before = map;
+    const PointMap before = noisy_identity(torus, 0.8);
+    MapPair maps = both_ways(before);
     UntanglingOptions options;
     options.enabled = false;
-    const UntanglingReport report = untangle(map, torus, torus, std::vector<char>(map.size(), 0), options);
+    const UntanglingReport report = untangle_both(maps, torus, torus, options).A_to_B;
     EXPECT_EQ(report.flipped_after, report.flipped_before);
-    for (std::size_t v = 0; v < map.size(); ++v) EXPECT_EQ(map[v].barycentric, before[v].barycentric);
+    for (int v = 0; v < torus.vertex_count(); ++v) {
+        EXPECT_EQ(maps.A_to_B[v].barycentric, before[v].barycentric);
+        EXPECT_EQ(maps.B_to_A[v].barycentric, before[v].barycentric);
+    }
 }
 
 TEST(Untangling, KeepsVerticesWithoutAnImage) {
@@ -161,10 +195,12 @@ TEST(Untangling, KeepsVerticesWithoutAnImage) {
     torus.vertices.conservativeResize(torus.vertex_count() + 1, 3);
     torus.vertices.bottomRows(1) << 9, 9, 9;
     map.emplace_back();
-    const UntanglingReport report =
-        untangle(map, torus, torus, std::vector<char>(map.size(), 0), UntanglingOptions{});
-    EXPECT_EQ(report.flipped_after, 0);
-    EXPECT_EQ(map.back().face, -1);
+    MapPair maps = both_ways(map);
+    const UntanglingReports reports = untangle_both(maps, torus, torus);
+    EXPECT_EQ(reports.A_to_B.flipped_after, 0);
+    EXPECT_EQ(reports.B_to_A.flipped_after, 0);
+    EXPECT_EQ(maps.A_to_B.back().face, -1);
+    EXPECT_EQ(maps.B_to_A.back().face, -1);
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <limits>
+
+#include "varimap/relaxation/sliding_map.h"
+
+namespace varimap {
+
+/// Energy of a mapped face: its rest area times what `density` (FoldEnergy or RobustEnergy) says of its image
+/// triangle.
+template <class Density>
+double face_energy(const SlidingMap& map, int f, const Density& density) {
+    const ImageTriangle image = map.image_triangle(f);
+    return map.rest(f).area * density.value(image.q, image.D);
+}
+
+/// The sum over those of `faces` (a range of int) that are mapped. Once it gets to `limit`, faces that follow
+/// are left out.
+template <class FaceRange, class Density>
+double total_energy(const SlidingMap& map, const FaceRange& faces, const Density& density,
+                    double limit = std::numeric_limits<double>::infinity()) {
+    double sum = 0;
+    for (const int f : faces) {
+        if (sum >= limit) break;
+        if (map.is_mapped(f)) sum += face_energy(map, f, density);
+    }
+    return sum;
+}
+
+/// Derivatives of a face's q and D by the position x_i of its corner i's image, j and k the corners after it:
+///     a dq/dx_i = c_k (x_i - x_j) + c_j (x_i - x_k),   2a dD/dx_i = up x (x_k - x_j)
+/// with the rest area a and cotangents c, for a fixed mean normal. The second derivatives of q are
+/// (c_j + c_k) / a by x_i twice and -c_k / a by x_i and x_j, times the identity; D is taken as linear.
+struct CornerGradient {
+    Vec3 q, D;  ///< a dq/dx_i and 2a dD/dx_i
+};
+inline CornerGradient corner_gradient(const SlidingMap& map, int f, int i, const ImageTriangle& image) {
+    const auto corners = map.source().faces.row(f);
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const RestTriangle& rest = map.rest(f);
+    const Vec3 &x = map.image(corners[i]), &y = map.image(corners[j]), &z = map.image(corners[k]);
+    const double cj = rest.cotangent[j], ck = rest.cotangent[k];
+    return {ck * (x - y) + cj * (x - z), image.up.cross(z - y)};
+}
+
+/// What the gradients of q and D add to the Hessian of an energy f(q, D):
+///     f_qD (q D' + D q') + f_DD D D'.
+template <class Vector>
+auto gradient_products(const Vector& q, const Vector& D, double f_qD, double f_DD) {
+    return (f_qD * (q * D.transpose() + D * q.transpose()) + f_DD * D * D.transpose()).eval();
+}
+
+/// Gradient and Hessian of a term by the tangent coordinates of the images of a face's corners, two each.
+struct FaceDerivatives {
+    Eigen::Matrix<double, 6, 1> gradient;
+    Eigen::Matrix<double, 6, 6> hessian;
+};
+
+}  // namespace varimap
