@@ -13,6 +13,18 @@ cmake -S "$work" -B "$work/found" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH
 cmake --build "$work/found"
 "$work/found/transport"
 
+# In memory and through files: the same map.
+for how in landmarks explore; do
+    mkdir "$work/$how"
+    "$work/found/map" "$work/$how" "$how" 2>"$work/log" || { cat "$work/log"; exit 1; }
+    arguments=("$work/$how/A.ply" "$work/$how/B.ply" -o "$work/$how/out")
+    [[ $how == explore ]] || arguments+=(--landmarks "$work/$how/landmarks.txt")
+    VARIMAP_BIN=$work/prefix/bin "$source/pipelines/varimap" map "${arguments[@]}" >"$work/log" 2>&1 ||
+        { cat "$work/log"; exit 1; }
+    cmp "$work/$how/A_to_B.csv" "$work/$how/out/source_to_target.csv"
+    cmp "$work/$how/B_to_A.csv" "$work/$how/out/target_to_source.csv"
+done
+
 version=$("$work/prefix/bin/varimap-preprocess" --version)
 [[ -n $version ]] || { echo "FAILED: the installed varimap-preprocess names no version"; exit 1; }
 

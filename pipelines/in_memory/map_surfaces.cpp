@@ -1,0 +1,73 @@
+#include "varimap/map_surfaces.h"
+
+#include <optional>
+
+#include "stages/diffuse/diffuse.h"
+#include "stages/explore/exploration.h"
+#include "stages/explore/params.h"
+#include "stages/preprocess/preprocess.h"
+#include "stages/refine/refine.h"
+#include "stages/remesh/remesh.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/pair_stage/pair_inputs.h"
+
+namespace varimap {
+
+namespace {
+
+/// The stages of one surface.
+SurfaceData surface_data(const TriangleMesh& input, const char* name, bool mirror) {
+    require_manifold(input, name);
+    PreprocessParams params;
+    params.mirror = mirror;
+    SurfaceData data;
+    data.surface = preprocess(input, params);
+    data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
+    data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
+    return data;
+}
+
+std::optional<Candidates> found_candidates(const PairContext& context, const MapOptions& options) {
+    if (!options.explore && !options.landmarks.empty()) return {};
+    const ExploreParams params;
+    return explore(context, params.exploration, params.alternation, params.ironing);
+}
+
+/// The stages that solve for a plan.
+Plan solve(const PairContext& context, const MapOptions& options) {
+    DiffuseParams coarse;
+    coarse.candidate = options.candidate;
+    coarse.landmark_weight = options.landmark_weight;
+    RefineParams fine;
+    coarse.alternation.area_bound = fine.alternation.area_bound = options.area_bound;
+    return refine(context, diffuse(context, coarse, found_candidates(context, options)), fine);
+}
+
+DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+    return {measure_distortion(map, source, target), measure_coverage(map, source, target)};
+}
+
+/// Fills in the quality, measured where both surfaces have the same handedness.
+void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
+    const PointMap onto_A = A.mirrored ? on_reversed_faces(mapped.B_to_A) : mapped.B_to_A;
+    mapped.A_to_B_quality = measure(mapped.A_to_B, A.input, B.input);
+    mapped.B_to_A_quality = measure(onto_A, B.input, A.input);
+    mapped.round_trip = measure_round_trip(mapped.A_to_B, onto_A, A.input, B.input);
+}
+
+}  // namespace
+
+MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options) {
+    SurfaceData data_A = surface_data(A, "A", options.mirror), data_B = surface_data(B, "B", false);
+    const auto landmarks = to_mesh_vertices(options.landmarks, data_A.surface, data_B.surface);
+    const PairContext context(std::move(data_A), std::move(data_B), landmarks, options.landmark_weight);
+    const Surface &surface_A = context.A().surface, &surface_B = context.B().surface;
+    SurfaceMap map = remesh(surface_A, surface_B, solve(context, options));
+    MappedSurfaces mapped;
+    mapped.A_to_B = std::move(map.A_to_B);
+    mapped.B_to_A = std::move(map.B_to_A);
+    measure(mapped, surface_A, surface_B);
+    return mapped;
+}
+
+}  // namespace varimap

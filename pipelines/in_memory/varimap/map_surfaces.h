@@ -1,0 +1,44 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "varimap/mesh/triangle_mesh.h"
+#include "varimap/quality/quality.h"
+
+namespace varimap {
+
+/// What may be said of a pair of surfaces; all else is as the stages have it by default.
+struct MapOptions {
+    /// Pairs of vertices, of A and of B, from 0. Without any, the map is looked for (varimap-explore).
+    std::vector<std::pair<int, int>> landmarks;
+    double landmark_weight = 1;  ///< how firmly landmarks hold, in (0, 1]; 1: mapped exactly
+    bool explore = false;        ///< looks for the map even with (few) landmarks
+    int candidate = 1;           ///< which of the maps that were found is continued; 1: the best
+    bool mirror = false;         ///< the surfaces are of opposite handedness
+    double area_bound = 2;       ///< areas change by at most this factor, measured on the masses (Sec. 3.4)
+};
+
+/// How good the map is in one direction (quality.h).
+struct DirectionQuality {
+    Distortion distortion;
+    double coverage = 0;  ///< share of the other surface's area that is hit
+};
+
+/// The map between two meshes in both directions, and its quality; lengths in units of sqrt(area).
+struct MappedSurfaces {
+    PointMap A_to_B;  ///< per vertex of A, in A's order, on faces of B; face -1 where no face uses the vertex
+    PointMap B_to_A;
+    DirectionQuality A_to_B_quality, B_to_A_quality;
+    RoundTrip round_trip;  ///< A -> B -> A
+};
+
+/// Maps two surfaces onto each other: what `varimap map` does (Mandad et al. 2017, Alg. 5 and Sec. 5), in
+/// memory, with the same result to the last bit. Each mesh must be connected, oriented and manifold, with or
+/// without boundary. Deterministic, for any number of threads; logs go to stderr. Minutes of time for 20'000
+/// vertices.
+/// Throws Error (error.h): InputError for meshes or landmarks that the method cannot serve, UsageError for a
+/// candidate there is none of, ConvergenceError.
+MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options = {});
+
+}  // namespace varimap
