@@ -62,7 +62,8 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     const auto landmarks = to_mesh_vertices(options.landmarks, data_A.surface, data_B.surface);
     const PairContext context(std::move(data_A), std::move(data_B), landmarks, options.landmark_weight);
     const Surface &surface_A = context.A().surface, &surface_B = context.B().surface;
-    SurfaceMap map = remesh(surface_A, surface_B, solve(context, options));
+    const Plan plan = solve(context, options);
+    SurfaceMap map = remesh(surface_A, surface_B, plan, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);
     mapped.B_to_A = std::move(map.B_to_A);

@@ -38,9 +38,11 @@ Solution solve(const std::vector<LevelPair>& levels, const AlternationOptions& o
 }
 
 /// Pins a landmark on all levels, or lets it go.
-void set_pinned(std::vector<LevelPair>& levels, const std::pair<int, int>& landmark, bool pinned) {
+void set_pinned(std::vector<LevelPair>& levels, const std::pair<MeshVertex, MeshVertex>& landmark,
+                bool pinned) {
     for (LevelPair& pair : levels) {
-        const int i = pair.A.level.cell[landmark.first], j = pair.B.level.cell[landmark.second];
+        const int i = pair.A.level.cell[std::size_t(landmark.first.index)],
+                  j = pair.B.level.cell[std::size_t(landmark.second.index)];
         pair.A.side.partner[i] = pinned ? j : -1;
         pair.B.side.partner[j] = pinned ? i : -1;
     }
@@ -75,9 +77,9 @@ std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const Alt
         set_pinned(levels, landmark, false);
         const Solution without = solve(levels, options);
         const LevelPair& last = levels.back();
-        const int there = image(last, without, last.A.level.cell[std::size_t(landmark.first)], context);
-        checks.push_back(
-            {geodesic_distance(landmark.second, there, context.graph_B()), 1 - without.step.energy / energy});
+        const int there = image(last, without, last.A.level.cell[std::size_t(landmark.first.index)], context);
+        checks.push_back({geodesic_distance(landmark.second.index, there, context.graph_B()),
+                          1 - without.step.energy / energy});
         set_pinned(levels, landmark, true);
     }
     return checks;

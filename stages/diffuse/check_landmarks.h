@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "varimap/multilevel/pair_context.h"
-#include "varimap/results/plan.h"
+#include "varimap/results/landmark_check.h"
 
 namespace varimap {
 

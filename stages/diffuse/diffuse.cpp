@@ -47,23 +47,23 @@ Start coarsest_start(const LevelPair& pair, const PairContext& context, const Di
     return start;
 }
 
-Plan to_plan(const LevelPair& pair, const Solution& solution, const PairContext& context) {
-    Plan plan;
+Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const PairContext& context) {
+    Diffusion diffusion;
+    SamplePlan& plan = diffusion.plan;
     plan.samples_A = pair.A.level.samples;
     plan.samples_B = pair.B.level.samples;
     plan.mass_A = pair.A.side.mass;
     plan.mass_B = pair.B.side.mass;
     plan.transported_A = row_sums(solution.plan);
     plan.transported_B = column_sums(solution.plan);
-    plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
-    plan.position_A = context.B().surface.mesh.vertices(
-        vertex_images(pair.A, pair.B, solution.step.row_image, plan.plan, context.graph_B()), Eigen::all);
-    plan.position_B = context.A().surface.mesh.vertices(
-        vertex_images(pair.B, pair.A, solution.step.column_image, plan.plan.transpose(), context.graph_A()),
-        Eigen::all);
-    plan.landmarks = context.landmarks();
-    plan.landmark_weight = context.landmark_weight();
-    return plan;
+    plan.entries = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
+    diffusion.image_vertex_A =
+        vertex_images(pair.A, pair.B, solution.step.row_image, plan.entries, context.graph_B());
+    diffusion.image_vertex_B = vertex_images(pair.B, pair.A, solution.step.column_image,
+                                             plan.entries.transpose(), context.graph_A());
+    diffusion.record.landmarks = context.landmarks();
+    diffusion.record.landmark_weight = context.landmark_weight();
+    return diffusion;
 }
 
 /// Where the levels go on: a solved level and the index of the next.
@@ -88,11 +88,11 @@ Solved chosen_candidate(const PairContext& context, const Candidates& candidates
 
 }  // namespace
 
-Plan diffuse(const PairContext& context, const DiffuseParams& params,
-             const std::optional<Candidates>& candidates) {
+Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
+                  const std::optional<Candidates>& candidates) {
     const int levels =
         params.levels > 0 ? std::min(params.levels, context.diffusion_levels()) : context.diffusion_levels();
-    std::vector<TraceRow> trace;
+    Trace trace;
     Solved coarse;
     if (candidates) coarse = chosen_candidate(context, *candidates, params.candidate);
     Solution solution;
@@ -110,15 +110,16 @@ Plan diffuse(const PairContext& context, const DiffuseParams& params,
             solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
         coarse = {std::move(pair), solution.plan, l + 1};
     }
-    Plan plan = to_plan(coarse.pair, solution, context);
-    plan.area_bound = params.alternation.area_bound;
-    plan.trace = std::move(trace);
-    if (params.check_landmarks) plan.landmark_checks = check_landmarks(context, params.alternation);
+    Diffusion diffusion = to_diffusion(coarse.pair, solution, context);
+    diffusion.plan.area_bound = params.alternation.area_bound;
+    diffusion.trace = std::move(trace);
+    if (params.check_landmarks)
+        diffusion.record.landmark_checks = check_landmarks(context, params.alternation);
     if (candidates) {
-        plan.candidates = candidates->list;
-        plan.candidate = params.candidate;
+        diffusion.record.candidates = candidates->list;
+        diffusion.record.candidate = params.candidate;
     }
-    return plan;
+    return diffusion;
 }
 
 }  // namespace varimap

@@ -5,16 +5,15 @@
 #include "stages/diffuse/params.h"
 #include "varimap/multilevel/pair_context.h"
 #include "varimap/results/candidates.h"
-#include "varimap/results/plan.h"
+#include "varimap/results/diffusion.h"
 
 namespace varimap {
 
 /// Diffusion levels of Alg. 5: the coarsest level in full, then level by level down to the last one at which
-/// diffusion distances discern. `position_A/B` of the result are the vertices whose diffusion coordinates are
-/// nearest to the centres.
+/// diffusion distances discern.
 /// With candidates of varimap-explore, the one chosen by the parameters is continued from its coarse level.
 /// Throws UsageError if there is no such candidate, ArtifactError if their level is none of the pair's.
-Plan diffuse(const PairContext& context, const DiffuseParams& params,
-             const std::optional<Candidates>& candidates = {});
+Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
+                  const std::optional<Candidates>& candidates = {});
 
 }  // namespace varimap

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     PairInputs inputs(stage);
     const std::string& out =
-        stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "plan to write");
+        stage.output(ArtifactType<Diffusion>::kind, ArtifactType<Diffusion>::schema, "artifact to write");
     const auto& landmark_files = stage.list_option(
         "landmarks",
         "one file of vertex pairs, or a source list and a target list; numbers of INPUT vertices", 1, 2);
@@ -43,13 +43,14 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);
-        const PairContext context(std::move(A), std::move(B), landmarks.vertices, params.landmark_weight);
+        auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
+        const PairContext context(std::move(A), std::move(B), std::move(vertices), params.landmark_weight);
         const auto candidates = read_candidates(stage, inputs, candidates_in);
-        Plan plan = diffuse(context, params, candidates);
-        plan.landmark_points = landmarks.points;
-        report(plan.landmark_checks);
-        stage.record_number("levels", plan.trace.back().level + 1);
-        stage.record_number("alternations", double(plan.trace.size()));
-        stage.write(out, plan);
+        Diffusion diffusion = diffuse(context, params, candidates);
+        diffusion.record.landmark_points = landmarks.points;
+        report(diffusion.record.landmark_checks);
+        stage.record_number("levels", diffusion.trace.back().level + 1);
+        stage.record_number("alternations", double(diffusion.trace.size()));
+        stage.write(out, diffusion);
     });
 }

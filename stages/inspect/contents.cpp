@@ -6,6 +6,8 @@
 
 #include "varimap/core/error.h"
 #include "varimap/mesh/surface.h"
+#include "varimap/results/candidates.h"
+#include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/eigenbasis.h"
@@ -66,7 +68,7 @@ void visit(const Hierarchy& hierarchy, ContentsVisitor& visitor) {
         visit(hierarchy.levels[i], fmt::format("level_{:02}", i), visitor);
 }
 
-std::string trace_csv(const std::vector<TraceRow>& trace) {
+std::string trace_csv(const Trace& trace) {
     std::string text =
         "level,euclidean,iteration,samples_A,samples_B,sinkhorn_iterations,entries,gamma,energy,marginal_"
         "error\n";
@@ -125,31 +127,50 @@ std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::Vec
                             : "none";
 }
 
-void visit(const Plan& plan, ContentsVisitor& visitor) {
-    std::vector<int> landmarks_A, landmarks_B;
-    for (const auto& [a, b] : plan.landmarks) landmarks_A.push_back(a), landmarks_B.push_back(b);
-    visitor.fact("landmarks", fmt::format("{}", plan.landmarks.size()));
-    visitor.fact("landmarks given as points", fmt::format("{}", plan.landmark_points.size()));
-    visitor.fact("landmark weight", fmt::format("{}", plan.landmark_weight));
+void visit_plan(const SamplePlan& plan, ContentsVisitor& visitor) {
     visitor.fact("area bound", fmt::format("{}", plan.area_bound));
     visitor.fact("transported / mass, A", range_of_ratios(plan.transported_A, plan.mass_A));
     visitor.fact("transported / mass, B", range_of_ratios(plan.transported_B, plan.mass_B));
-    visitor.fact("total of the entries", fmt::format("{}", plan.plan.sum()));
-    if (plan.candidate > 0) visitor.fact("continues candidate", fmt::format("{}", plan.candidate));
-    visit_candidates(plan.candidates, visitor);
-    visitor.sparse("plan", plan.plan);
+    visitor.fact("total of the entries", fmt::format("{}", plan.entries.sum()));
+    visitor.sparse("plan", plan.entries);
     visitor.array("samples_A", view(plan.samples_A));
     visitor.array("samples_B", view(plan.samples_B));
     visitor.array("mass_A", view(plan.mass_A));
     visitor.array("mass_B", view(plan.mass_B));
     visitor.array("transported_A", view(plan.transported_A));
     visitor.array("transported_B", view(plan.transported_B));
-    visitor.array("position_A", view(plan.position_A));
-    visitor.array("position_B", view(plan.position_B));
+}
+
+void visit_record(const PairRecord& record, ContentsVisitor& visitor) {
+    std::vector<int> landmarks_A, landmarks_B;
+    for (const auto& [a, b] : record.landmarks)
+        landmarks_A.push_back(a.index), landmarks_B.push_back(b.index);
+    visitor.fact("landmarks", fmt::format("{}", record.landmarks.size()));
+    visitor.fact("landmarks given as points", fmt::format("{}", record.landmark_points.size()));
+    visitor.fact("landmark weight", fmt::format("{}", record.landmark_weight));
+    if (record.candidate > 0) visitor.fact("continues candidate", fmt::format("{}", record.candidate));
+    visit_candidates(record.candidates, visitor);
     visitor.array("landmarks_A", view(landmarks_A));
     visitor.array("landmarks_B", view(landmarks_B));
-    visit_landmark_points(plan.landmark_points, visitor);
-    visitor.text("trace.csv", trace_csv(plan.trace));
+    visit_landmark_points(record.landmark_points, visitor);
+}
+
+void visit_solved(const SolvedPair& pair, ContentsVisitor& visitor) {
+    visit_record(pair.record, visitor);
+    visit_plan(pair.plan, visitor);
+    visitor.text("trace.csv", trace_csv(pair.trace));
+}
+
+void visit(const Diffusion& diffusion, ContentsVisitor& visitor) {
+    visit_solved(diffusion, visitor);
+    visitor.array("image_vertex_A", view(diffusion.image_vertex_A));
+    visitor.array("image_vertex_B", view(diffusion.image_vertex_B));
+}
+
+void visit(const Plan& plan, ContentsVisitor& visitor) {
+    visit_solved(plan, visitor);
+    visitor.array("centre_A", view(plan.centre_A));
+    visitor.array("centre_B", view(plan.centre_B));
 }
 
 std::string share_mapped(const PointMap& map) {
@@ -186,9 +207,9 @@ std::pair<const std::string, Kind> kind_of() {
 }
 
 const std::map<std::string, Kind>& kinds() {
-    static const std::map<std::string, Kind> table{kind_of<Surface>(),   kind_of<Basis>(),
-                                                   kind_of<Hierarchy>(), kind_of<Candidates>(),
-                                                   kind_of<Plan>(),      kind_of<SurfaceMap>()};
+    static const std::map<std::string, Kind> table{
+        kind_of<Surface>(),   kind_of<Basis>(), kind_of<Hierarchy>(), kind_of<Candidates>(),
+        kind_of<Diffusion>(), kind_of<Plan>(),  kind_of<SurfaceMap>()};
     return table;
 }
 

@@ -9,15 +9,15 @@ int main(int argc, char** argv) {
     Stage stage("refine", "Transport plan through the Euclidean levels, down to every vertex (Sec. 4.5)");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     PairInputs inputs(stage);
-    const std::string& diffusion_in = stage.input("diffusion", "plan of varimap-diffuse");
+    const std::string& diffusion_in = stage.input("diffusion", "artifact of varimap-diffuse");
     const std::string& out =
-        stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "plan to write");
+        stage.output(ArtifactType<Plan>::kind, ArtifactType<Plan>::schema, "artifact to write");
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
-        const auto diffusion = stage.read<Plan>("diffusion", diffusion_in);
+        const auto diffusion = stage.read<Diffusion>("diffusion", diffusion_in);
         inputs.require_same(diffusion.header, diffusion_in);
-        const PairContext context(std::move(A), std::move(B), diffusion.value.landmarks,
-                                  diffusion.value.landmark_weight);
+        const PairContext context(std::move(A), std::move(B), diffusion.value.record.landmarks,
+                                  diffusion.value.record.landmark_weight);
         const Plan plan = refine(context, diffusion.value, params);
         stage.record_number("levels", plan.trace.back().level - diffusion.value.trace.back().level);
         stage.record_number("alternations", double(plan.trace.size() - diffusion.value.trace.size()));

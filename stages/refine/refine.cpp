@@ -11,7 +11,7 @@ namespace varimap {
 namespace {
 
 /// The level that the diffusion plan lives on, rebuilt from its samples (cells are all a level switch needs).
-LevelPair diffusion_levels_of(const PairContext& context, const Plan& diffusion) {
+LevelPair diffusion_levels_of(const PairContext& context, const SamplePlan& diffusion) {
     for (int l = context.diffusion_levels() - 1; l >= 0; --l) {
         LevelPair pair = context.diffusion_level(l);
         if (pair.A.level.samples == diffusion.samples_A && pair.B.level.samples == diffusion.samples_B)
@@ -25,30 +25,30 @@ Points space_part(const RowMatrix& centres) {
     return centres.leftCols<3>();
 }
 
-Plan to_plan(const LevelPair& pair, const Solution& solution) {
-    Plan plan;
+SamplePlan to_plan(const LevelPair& pair, const Solution& solution) {
+    SamplePlan plan;
     plan.samples_A = pair.A.level.samples;
     plan.samples_B = pair.B.level.samples;
     plan.mass_A = pair.A.side.mass;
     plan.mass_B = pair.B.side.mass;
     plan.transported_A = row_sums(solution.plan);
     plan.transported_B = column_sums(solution.plan);
-    plan.plan = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
+    plan.entries = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
     return plan;
 }
 
 }  // namespace
 
-Plan refine(const PairContext& context, const Plan& diffusion, const RefineParams& params) {
+Plan refine(const PairContext& context, const Diffusion& diffusion, const RefineParams& params) {
     const int all = context.euclidean_levels();
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
-    std::vector<TraceRow> trace = diffusion.trace;
+    Trace trace = diffusion.trace;
     const int first_index = trace.empty() ? 0 : trace.back().level + 1;
 
-    LevelPair coarse = diffusion_levels_of(context, diffusion);
+    LevelPair coarse = diffusion_levels_of(context, diffusion.plan);
     const FeatureTerm features(context, params.feature_weight);
     Solution solution;
-    solution.plan = to_coupling(diffusion.plan);
+    solution.plan = to_coupling(diffusion.plan.entries);
     for (int l = 0; l < levels; ++l) {
         LevelPair pair =
             context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
@@ -61,7 +61,9 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
                                l + 1 == levels, trace);
         coarse = std::move(pair);
     }
-    Plan plan = to_plan(coarse, solution);
+    Plan plan;
+    plan.plan = to_plan(coarse, solution);
+    plan.plan.area_bound = params.alternation.area_bound;
     // Stopped early, the plan is spread to every vertex as a level switch would do it.
     const Centres centres = levels == all
                                 ? solution.step.centres
@@ -69,16 +71,12 @@ Plan refine(const PairContext& context, const Plan& diffusion, const RefineParam
                                             context.euclidean_level(all - 1, params.last_metric_weight),
                                             params.alternation.support_threshold)
                                       .centres;
-    plan.position_A = space_part(centres.row);
-    plan.position_B = space_part(centres.column);
-    plan.landmarks = diffusion.landmarks;
-    plan.landmark_points = diffusion.landmark_points;
-    plan.landmark_weight = diffusion.landmark_weight;
-    plan.landmark_checks = diffusion.landmark_checks;
-    plan.candidates = diffusion.candidates;
-    plan.candidate = diffusion.candidate;
-    plan.area_bound = params.alternation.area_bound;
+    plan.centre_A = space_part(centres.row);
+    plan.centre_B = space_part(centres.column);
+    if (!plan.centre_A.allFinite() || !plan.centre_B.allFinite())
+        throw ConvergenceError("centres are not finite; rerun varimap-refine with a larger gamma");
     plan.trace = std::move(trace);
+    plan.record = diffusion.record;
     return plan;
 }
 

@@ -10,7 +10,7 @@ namespace {
 using namespace varimap;
 
 /// Everything but quality.json, which comes last and so tells that the rest is there.
-void export_map(const std::string& folder, const SurfaceMap& map, const Plan& plan, const Surface& A,
+void export_map(const std::string& folder, const SurfaceMap& map, const SamplePlan& plan, const Surface& A,
                 const Surface& B) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
@@ -23,6 +23,18 @@ void export_map(const std::string& folder, const SurfaceMap& map, const Plan& pl
                           masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
     write_file_atomically(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
     write_file_atomically(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
+}
+
+/// What remeshing needs of the artifact of varimap-refine or varimap-diffuse.
+struct ImagesOfPair {
+    SolvedPair pair;
+    VertexMaps images;
+};
+
+template <class Solved>
+ImagesOfPair read_images(Stage& stage, const std::string& path, const Surface& A, const Surface& B) {
+    const Solved solved = stage.read<Solved>("plan", path).value;
+    return {solved, read_out(solved, A, B)};
 }
 
 }  // namespace
@@ -44,14 +56,17 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);
         const auto B = stage.read<Surface>("B.surface", surface_B);
-        const auto plan = stage.read<Plan>("plan", plan_file);
-        Stage::require_lineage(plan.header, plan_file, "A.surface", A.header, surface_A);
-        Stage::require_lineage(plan.header, plan_file, "B.surface", B.header, surface_B);
+        const Header plan = read_header(plan_file);
+        Stage::require_lineage(plan, plan_file, "A.surface", A.header, surface_A);
+        Stage::require_lineage(plan, plan_file, "B.surface", B.header, surface_B);
+        auto [pair, images] = plan.kind == ArtifactType<Diffusion>::kind
+                                  ? read_images<Diffusion>(stage, plan_file, A.value, B.value)
+                                  : read_images<Plan>(stage, plan_file, A.value, B.value);
         log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
-        const SurfaceMap map = remesh(A.value, B.value, plan.value, params);
+        const SurfaceMap map = remesh(A.value, B.value, pair, std::move(images), params);
         stage.write(out, map);
         if (folder.empty()) return;
-        export_map(folder, map, plan.value, A.value, B.value);
+        export_map(folder, map, pair.plan, A.value, B.value);
         const std::string own_name = "remesh " + std::filesystem::path(out).stem().string();
         write_file_atomically(folder + "/quality.json",
                               with_stages(map.quality, runs, own_name, stage.usage()));

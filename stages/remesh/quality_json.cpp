@@ -67,7 +67,7 @@ Json sizes(const Surface& surface) {
             {"vertices", surface.mesh.vertex_count()}};
 }
 
-Json levels(const std::vector<TraceRow>& trace) {
+Json levels(const Trace& trace) {
     Json list = Json::array();
     for (const TraceRow& row : trace) {
         if (list.empty() || list.back()["level"] != row.level)
@@ -114,16 +114,16 @@ Json to_json(const std::vector<LandmarkCheck>& checks) {
 }
 
 /// Landmarks as points of the input meshes.
-PointPairs input_landmarks(const Plan& plan, const Surface& A, const Surface& B) {
-    if (!plan.landmark_points.empty()) return plan.landmark_points;
-    const auto on_input = [](const Surface& surface, int vertex) {
+PointPairs input_landmarks(const PairRecord& record, const Surface& A, const Surface& B) {
+    if (!record.landmark_points.empty()) return record.landmark_points;
+    const auto on_input = [](const Surface& surface, MeshVertex vertex) {
         const auto& vertices = surface.vertex_of_input;
-        const auto input = std::find(vertices.begin(), vertices.end(), vertex);
+        const auto input = std::find(vertices.begin(), vertices.end(), vertex.index);
         return input == vertices.end() ? SurfacePoint{}
                                        : point_at_vertex(surface.input, int(input - vertices.begin()));
     };
     PointPairs pairs;
-    for (const auto& [a, b] : plan.landmarks) {
+    for (const auto& [a, b] : record.landmarks) {
         const SurfacePoint from = on_input(A, a), to = on_input(B, b);
         if (from.face >= 0 && to.face >= 0) pairs.emplace_back(from, to);
     }
@@ -160,17 +160,19 @@ bool add_run(Json& stages, const std::string& path) {
 
 }  // namespace
 
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan,
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
                          const UntanglingReports& untangling) {
+    const SamplePlan& plan = pair.plan;
+    const PairRecord& record = pair.record;
     Json quality;
-    if (!plan.trace.empty()) quality["energy"] = plan.trace.back().energy;
+    if (!pair.trace.empty()) quality["energy"] = pair.trace.back().energy;
     quality["area_bound"] = plan.area_bound;
     quality["mass_ratio"] = {{"source", mass_ratios(plan.transported_A, plan.mass_A)},
                              {"target", mass_ratios(plan.transported_B, plan.mass_B)}};
-    quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(plan, A, B), A.input, B.input);
-    if (!plan.landmarks.empty()) quality["landmark_weight"] = plan.landmark_weight;
-    if (!plan.landmark_checks.empty()) quality["landmark_checks"] = to_json(plan.landmark_checks);
-    if (!plan.candidates.empty()) quality["exploration"] = to_json(plan.candidates, plan.candidate);
+    quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(record, A, B), A.input, B.input);
+    if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
+    if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
+    if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);
     quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
     quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);
     quality["source_to_target"]["untangling"] = to_json(untangling.A_to_B);
@@ -179,7 +181,7 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     quality["round_trip"] = {{"mean", round_trip.mean}, {"p95", round_trip.p95}};
     quality["source"] = sizes(A);
     quality["target"] = sizes(B);
-    quality["levels"] = levels(plan.trace);
+    quality["levels"] = levels(pair.trace);
     remove_not_finite(quality);
     return quality.dump(2);
 }

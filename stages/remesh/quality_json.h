@@ -5,7 +5,7 @@
 
 #include "varimap/mesh/surface.h"
 #include "varimap/relaxation/untangling.h"
-#include "varimap/results/plan.h"
+#include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
 
@@ -37,7 +37,7 @@ namespace varimap {
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const Plan& plan,
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
                          const UntanglingReports& untangling);
 
 /// The whole quality.json: `quality` and `stages`, one entry for each run file (<artifact>.run.json), named

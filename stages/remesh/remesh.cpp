@@ -37,17 +37,18 @@ bool is_coarse(const Surface& surface) {
     return double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
 }
 
-PinnedPair pinned_vertices(const Plan& plan, const Surface& A, const Surface& B) {
+PinnedPair pinned_vertices(const PairRecord& record, const Surface& A, const Surface& B) {
     PinnedPair pinned{std::vector<char>(std::size_t(A.mesh.vertex_count()), 0),
                       std::vector<char>(std::size_t(B.mesh.vertex_count()), 0)};
-    if (!plan.pins_landmarks()) return pinned;
-    for (const auto& [a, b] : plan.landmarks) pinned.A[std::size_t(a)] = pinned.B[std::size_t(b)] = 1;
+    if (!record.pins_landmarks()) return pinned;
+    for (const auto& [a, b] : record.landmarks)
+        pinned.A[std::size_t(a.index)] = pinned.B[std::size_t(b.index)] = 1;
     return pinned;
 }
 
 /// Landmarks that are points lie between vertices: none of these is where its image has to be.
-PinnedPair with_points(PinnedPair vertices, const PointPairs& points, const Plan& plan) {
-    if (!plan.pins_landmarks() || points.empty()) return vertices;
+PinnedPair with_points(PinnedPair vertices, const PointPairs& points, const PairRecord& record) {
+    if (!record.pins_landmarks() || points.empty()) return vertices;
     std::fill(vertices.A.begin(), vertices.A.end(), 0);
     std::fill(vertices.B.begin(), vertices.B.end(), 0);
     vertices.points = points;
@@ -66,8 +67,8 @@ PointPairs on_meshes(const PointPairs& points, const Surface& A, const Surface& 
     return result;
 }
 
-void require_on_inputs(const Plan& plan, const Surface& A, const Surface& B) {
-    for (const auto& [a, b] : plan.landmark_points)
+void require_on_inputs(const PairRecord& record, const Surface& A, const Surface& B) {
+    for (const auto& [a, b] : record.landmark_points)
         if (a.face >= A.input.face_count() || b.face >= B.input.face_count())
             throw ArtifactError(
                 "the plan has landmarks on faces that the surfaces lack; rerun varimap-diffuse");
@@ -89,20 +90,21 @@ void log_untangling(const char* name, const UntanglingReport& report) {
 
 }  // namespace
 
-SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const RemeshParams& params) {
-    require_on_inputs(plan, A, B);
-    VertexMaps images = read_out(plan, A, B);
+SurfaceMap remesh(const Surface& A, const Surface& B, const SolvedPair& pair, VertexMaps images,
+                  const RemeshParams& params) {
+    const PairRecord& record = pair.record;
+    require_on_inputs(record, A, B);
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
-    const PinnedPair pinned = pinned_vertices(plan, A, B);
+    const PinnedPair pinned = pinned_vertices(record, A, B);
     UntanglingOptions options = params.untangling;
     if (is_coarse(A) || is_coarse(B)) {
-        const PointPairs points = on_meshes(plan.landmark_points, A, B);
-        untangle(maps, A.mesh, B.mesh, with_points(pinned, points, plan), options);
+        const PointPairs points = on_meshes(record.landmark_points, A, B);
+        untangle(maps, A.mesh, B.mesh, with_points(pinned, points, record), options);
         options.global_steps = 0;
         options.replace_parts = false;
     }
     const PinnedPair pinned_input =
-        with_points({on_input(pinned.A, A), on_input(pinned.B, B)}, plan.landmark_points, plan);
+        with_points({on_input(pinned.A, A), on_input(pinned.B, B)}, record.landmark_points, record);
     MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
     const UntanglingReports reports = untangle(inputs, A.input, B.input, pinned_input, options);
     if (options.enabled) {
@@ -110,7 +112,7 @@ SurfaceMap remesh(const Surface& A, const Surface& B, const Plan& plan, const Re
         log_untangling("target to source", reports.B_to_A);
     }
     SurfaceMap map{std::move(inputs.A_to_B), std::move(inputs.B_to_A), {}};
-    map.quality = quality_json(map, A, B, plan, reports);
+    map.quality = quality_json(map, A, B, pair, reports);
     if (B.mirrored) map.A_to_B = on_reversed_faces(std::move(map.A_to_B));
     if (A.mirrored) map.B_to_A = on_reversed_faces(std::move(map.B_to_A));
     return map;

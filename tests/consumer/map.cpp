@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
     std::string lines;
     if (std::string(argv[2]) == "landmarks")
         for (const Vec3& limb : limbs) {
-            options.landmarks.emplace_back(tip(A, limb), tip(A, limb));
+            options.landmarks.emplace_back(InputVertex{tip(A, limb)}, InputVertex{tip(A, limb)});
             lines += std::to_string(tip(A, limb)) + " " + std::to_string(tip(A, limb)) + "\n";
         }
     const MappedSurfaces mapped = map_surfaces(A, B, options);

@@ -37,36 +37,37 @@ TEST(Diffuse, GivesAPlanOfTheLastLevel) {
     const PairContext context = pair.context();
     DiffuseParams params;
     params.alternation.area_bound = 1;  // exact marginals
-    const Plan plan = diffuse(context, params);
-    EXPECT_LT(mean_error(plan, pair), .02);  // measured .0134
+    const Diffusion found = diffuse(context, params);
+    const SamplePlan& plan = found.plan;
+    EXPECT_LT(mean_error(found, pair), .02);  // measured .0134
     const LevelPair last = context.diffusion_level(context.diffusion_levels() - 1);
     EXPECT_EQ(plan.samples_A, last.A.level.samples);
     EXPECT_EQ(plan.samples_B, last.B.level.samples);
     EXPECT_EQ(plan.mass_A, last.A.level.mass);
-    EXPECT_EQ(plan.landmarks, pair.landmarks);
-    const Eigen::VectorXd rows = plan.plan * Eigen::VectorXd::Ones(plan.plan.cols());
+    EXPECT_EQ(found.record.landmarks, pair.landmarks);
+    const Eigen::VectorXd rows = plan.entries * Eigen::VectorXd::Ones(plan.entries.cols());
     EXPECT_LT((rows - plan.mass_A).lpNorm<1>(), .02);
-    EXPECT_NEAR(plan.plan.sum(), 1, .01);
-    ASSERT_EQ(plan.position_A.rows(), pair.A.surface.mesh.vertex_count());
-    ASSERT_EQ(plan.position_B.rows(), pair.B.surface.mesh.vertex_count());
+    EXPECT_NEAR(plan.entries.sum(), 1, .01);
+    ASSERT_EQ(int(found.image_vertex_A.size()), pair.A.surface.mesh.vertex_count());
+    ASSERT_EQ(int(found.image_vertex_B.size()), pair.B.surface.mesh.vertex_count());
 }
 
 TEST(Diffuse, TracesEveryAlternation) {
     const KnownPair pair = ellipsoids_with_landmarks();
-    const Plan plan = diffuse(pair.context(), {});
-    ASSERT_FALSE(plan.trace.empty());
-    for (std::size_t i = 0; i < plan.trace.size(); ++i) {
-        const TraceRow& row = plan.trace[i];
-        const bool new_level = i == 0 || row.level != plan.trace[i - 1].level;
-        EXPECT_EQ(row.level, i == 0 ? 0 : plan.trace[i - 1].level + new_level);
-        EXPECT_EQ(row.iteration, new_level ? 0 : plan.trace[i - 1].iteration + 1);
+    const Diffusion found = diffuse(pair.context(), {});
+    ASSERT_FALSE(found.trace.empty());
+    for (std::size_t i = 0; i < found.trace.size(); ++i) {
+        const TraceRow& row = found.trace[i];
+        const bool new_level = i == 0 || row.level != found.trace[i - 1].level;
+        EXPECT_EQ(row.level, i == 0 ? 0 : found.trace[i - 1].level + new_level);
+        EXPECT_EQ(row.iteration, new_level ? 0 : found.trace[i - 1].iteration + 1);
         EXPECT_EQ(row.euclidean, 0);
         EXPECT_GT(row.energy, 0);
         EXPECT_GT(row.gamma, 0);
         EXPECT_LE(row.marginal_error, .011);
         EXPECT_LE(row.entries, double(row.samples_A) * row.samples_B);
     }
-    EXPECT_EQ(plan.trace.back().samples_A, int(plan.samples_A.size()));
+    EXPECT_EQ(found.trace.back().samples_A, int(found.plan.samples_A.size()));
 }
 
 TEST(Diffuse, StopsAfterTheLevelsAskedFor) {
@@ -74,9 +75,9 @@ TEST(Diffuse, StopsAfterTheLevelsAskedFor) {
     const PairContext context = pair.context();
     DiffuseParams params;
     params.levels = 3;
-    const Plan plan = diffuse(context, params);
-    EXPECT_EQ(plan.trace.back().level, 2);
-    EXPECT_EQ(plan.samples_A, context.diffusion_level(2).A.level.samples);
+    const Diffusion found = diffuse(context, params);
+    EXPECT_EQ(found.trace.back().level, 2);
+    EXPECT_EQ(found.plan.samples_A, context.diffusion_level(2).A.level.samples);
 }
 
 TEST(Diffuse, TellsSymmetriesOfAlignedSurfacesApartByWassersteinDistance) {
@@ -102,11 +103,11 @@ TEST(Diffuse, IgnoresTheSignsOfEigenfunctions) {
     KnownPair pair = ellipsoids_with_landmarks();
     DiffuseParams params;
     params.levels = 6;
-    const Plan before = diffuse(pair.context(), params);
+    const Diffusion before = diffuse(pair.context(), params);
     for (int k = 1; k < pair.B.basis.functions.cols(); k += 2) pair.B.basis.functions.col(k) *= -1;
-    const Plan after = diffuse(pair.context(), params);
-    EXPECT_EQ(before.samples_B, after.samples_B);
-    EXPECT_LT((before.plan - after.plan).norm(), 1e-9 * before.plan.norm());
+    const Diffusion after = diffuse(pair.context(), params);
+    EXPECT_EQ(before.plan.samples_B, after.plan.samples_B);
+    EXPECT_LT((before.plan.entries - after.plan.entries).norm(), 1e-9 * before.plan.entries.norm());
 }
 
 TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
@@ -115,9 +116,8 @@ TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
         KnownPair changed = pair;
         changed.B = shapes::surface_data(shapes::unit_surface(other), 60);
         for (auto& [a, b] : changed.landmarks)
-            b = int(std::find(old_vertex.begin(), old_vertex.end(), b) - old_vertex.begin());
-        const Plan plan = diffuse(changed.context(), {});
-        return plan.trace.back().energy;
+            b.index = int(std::find(old_vertex.begin(), old_vertex.end(), b.index) - old_vertex.begin());
+        return diffuse(changed.context(), {}).trace.back().energy;
     };
     const TriangleMesh& B = pair.B.surface.mesh;
     std::vector<int> old_vertex;
@@ -131,26 +131,26 @@ TEST(Diffuse, DoesNotDependOnPlaceAndScaleNorOnTheOrderOfVertices) {
 /// The landmark at the left hind foot, put beside the left forefoot.
 void move_landmark(KnownPair& pair) {
     const TriangleMesh& B = pair.B.surface.mesh;
-    pair.landmarks[2].second =
-        shapes::nearest_vertex(B, B.vertex(pair.landmarks[0].second) + Vec3(.05, 0, 0));
+    pair.landmarks[2].second = {
+        shapes::nearest_vertex(B, B.vertex(pair.landmarks[0].second.index) + Vec3(.05, 0, 0))};
     ASSERT_NE(pair.landmarks[2].second, pair.landmarks[0].second);
 }
 
 TEST(Diffuse, OverrulesASoftLandmarkThatIsFarOff) {
     KnownPair pair = shapes::figure_pair(1, true);
     move_landmark(pair);
-    const auto error_at_landmark = [&](const Plan& plan) {
-        const std::size_t v = std::size_t(pair.landmarks[2].first);
-        const SurfacePoint image = read_out(plan, pair.A.surface, pair.B.surface).A_to_B[v];
+    const auto error_at_landmark = [&](const Diffusion& found) {
+        const std::size_t v = std::size_t(pair.landmarks[2].first.index);
+        const SurfacePoint image = read_out(found, pair.A.surface, pair.B.surface).A_to_B[v];
         return (position(pair.B.surface.mesh, image) - Vec3(pair.A_on_B.row(Eigen::Index(v)))).norm();
     };
     EXPECT_GT(error_at_landmark(diffuse(pair.context(), {})), .4);
-    const Plan soft = diffuse(pair.context(.1), {});
+    const Diffusion soft = diffuse(pair.context(.1), {});
     EXPECT_LT(error_at_landmark(soft), .05);
-    EXPECT_EQ(soft.landmark_weight, .1);
-    EXPECT_FALSE(soft.pins_landmarks());
+    EXPECT_EQ(soft.record.landmark_weight, .1);
+    EXPECT_FALSE(soft.record.pins_landmarks());
     EXPECT_LT(mean_error(soft, pair), .025);
-    EXPECT_EQ(contradicted_landmark(soft.landmark_checks), 2);
+    EXPECT_EQ(contradicted_landmark(soft.record.landmark_checks), 2);
 }
 
 TEST(Diffuse, NamesTheLandmarkThatTheOthersContradict) {
@@ -178,17 +178,17 @@ TEST(Diffuse, ContinuesTheCandidateAskedFor) {
                           {}};
     DiffuseParams params;
     params.levels = 4;
-    const SparseMatrix right = diffuse(context, params).plan;
+    const SparseMatrix right = diffuse(context, params).plan.entries;
     SparseMatrix wrong = right;  // spread evenly, it says nothing
     for (double& value : wrong.coeffs()) value = 1;
     candidates.plans = {wrong, right};
     params.levels = 0;
     params.candidate = 2;
-    const Plan plan = diffuse(context, params, candidates);
-    EXPECT_EQ(plan.candidate, 2);
-    EXPECT_EQ(plan.candidates.size(), 2u);
-    EXPECT_EQ(plan.trace.front().level, 4);
-    EXPECT_LT(mean_error(plan, pair), .02);
+    const Diffusion found = diffuse(context, params, candidates);
+    EXPECT_EQ(found.record.candidate, 2);
+    EXPECT_EQ(found.record.candidates.size(), 2u);
+    EXPECT_EQ(found.trace.front().level, 4);
+    EXPECT_LT(mean_error(found, pair), .02);
     params.candidate = 3;
     EXPECT_THROW(diffuse(context, params, candidates), UsageError);
     candidates.samples_A.pop_back();

@@ -8,6 +8,8 @@
 #include "fixtures/temporary_folder.h"
 #include "stages/inspect/formats.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/results/candidates.h"
+#include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/hierarchy.h"
@@ -19,21 +21,29 @@ using testing::HasSubstr;
 
 /// Two samples on a surface of three vertices, each mapped to the other side's same vertex.
 Plan small_plan() {
-    Plan plan;
+    Plan small;
+    SamplePlan& plan = small.plan;
     plan.samples_A = plan.samples_B = {0, 2};
     plan.mass_A = plan.mass_B = Eigen::Vector2d(0.25, 0.75);
     plan.transported_A = Eigen::Vector2d(0.3, 0.7);
     plan.transported_B = plan.mass_B;
     plan.area_bound = 2;
-    plan.plan.resize(2, 2);
-    plan.plan.insert(0, 0) = 0.25;
-    plan.plan.insert(1, 1) = 0.75;
-    plan.plan.makeCompressed();
-    plan.position_A = plan.position_B = Points::Random(3, 3);
-    plan.landmarks = {{0, 0}};
-    plan.landmark_points = {{SurfacePoint{0, Vec3(1, 0, 0)}, SurfacePoint{4, Vec3(.25, .25, .5)}}};
-    plan.trace = {TraceRow{}};
-    return plan;
+    plan.entries.resize(2, 2);
+    plan.entries.insert(0, 0) = 0.25;
+    plan.entries.insert(1, 1) = 0.75;
+    plan.entries.makeCompressed();
+    small.centre_A = small.centre_B = Points::Random(3, 3);
+    small.record.landmarks = {{{0}, {0}}};
+    small.record.landmark_points = {{SurfacePoint{0, Vec3(1, 0, 0)}, SurfacePoint{4, Vec3(.25, .25, .5)}}};
+    small.trace = {TraceRow{}};
+    return small;
+}
+
+Diffusion small_diffusion() {
+    Diffusion diffusion;
+    static_cast<SolvedPair&>(diffusion) = small_plan();
+    diffusion.image_vertex_A = diffusion.image_vertex_B = {0, 1, 2};
+    return diffusion;
 }
 
 template <class T>
@@ -99,9 +109,10 @@ TEST(Inspect, CheckAcceptsEveryKindAndRefusesDamage) {
     hierarchy.levels[0].weights.resize(1, 1);
     hierarchy.levels[0].weights.insert(0, 0) = 1;
     write_sample(folder / "A.hierarchy", hierarchy);
+    write_sample(folder / "AB.diffusion", small_diffusion());
     write_sample(folder / "AB.plan", small_plan());
     write_sample(folder / "AB.map", SurfaceMap{{SurfacePoint{0, Vec3(1, 0, 0)}}, {SurfacePoint{}}, "{}"});
-    for (const char* name : {"A.hierarchy", "AB.plan", "AB.map"}) {
+    for (const char* name : {"A.hierarchy", "AB.diffusion", "AB.plan", "AB.map"}) {
         const auto failure = check(folder / name);
         EXPECT_FALSE(failure) << failure->what();
         const std::string bytes = read_file(folder / name);
@@ -132,7 +143,7 @@ TEST(Inspect, ExportWritesWhatTheArtifactHolds) {
     EXPECT_EQ(npy_doubles(read_file(folder / "deep/out/mass_A.npy")), (std::vector<double>{0.25, 0.75}));
     EXPECT_EQ(npy_doubles(read_file(folder / "deep/out/landmark_points_B_barycentric.npy")),
               (std::vector<double>{.25, .25, .5}));
-    EXPECT_EQ(read_file(folder / "deep/out/plan.mtx"), to_matrix_market(plan.plan));
+    EXPECT_EQ(read_file(folder / "deep/out/plan.mtx"), to_matrix_market(plan.plan.entries));
     EXPECT_TRUE(read_file(folder / "deep/out/trace.csv").starts_with("level,euclidean,iteration,"));
 }
 

@@ -22,17 +22,18 @@ KnownPair ellipsoids() {
 /// truth on average, nearer than the diffusion levels leave it.
 void expect_refined(const KnownPair& pair, double bound) {
     const PairContext context = pair.context();
-    const Plan coarse = diffuse(context, {}), plan = refine(context, coarse, {});
+    const Diffusion coarse = diffuse(context, {});
+    const Plan plan = refine(context, coarse, {});
     const double before = mean_error(coarse, pair), after = mean_error(plan, pair);
     EXPECT_LT(after, before);
     EXPECT_LT(after, bound) << "from " << before;
-    EXPECT_EQ(int(plan.samples_A.size()), pair.A.surface.mesh.vertex_count());
-    EXPECT_EQ(int(plan.samples_B.size()), pair.B.surface.mesh.vertex_count());
-    EXPECT_EQ(plan.mass_A, pair.A.surface.mass);
-    EXPECT_EQ(plan.landmarks, pair.landmarks);
+    EXPECT_EQ(int(plan.plan.samples_A.size()), pair.A.surface.mesh.vertex_count());
+    EXPECT_EQ(int(plan.plan.samples_B.size()), pair.B.surface.mesh.vertex_count());
+    EXPECT_EQ(plan.plan.mass_A, pair.A.surface.mass);
+    EXPECT_EQ(plan.record.landmarks, pair.landmarks);
     for (const auto& [a, b] : pair.landmarks) {
-        EXPECT_LT((plan.position_A.row(a) - pair.B.surface.mesh.vertices.row(b)).norm(), 1e-12);
-        EXPECT_LT((plan.position_B.row(b) - pair.A.surface.mesh.vertices.row(a)).norm(), 1e-12);
+        EXPECT_LT((plan.centre_A.row(a.index) - pair.B.surface.mesh.vertices.row(b.index)).norm(), 1e-12);
+        EXPECT_LT((plan.centre_B.row(b.index) - pair.A.surface.mesh.vertices.row(a.index)).norm(), 1e-12);
     }
 }
 
@@ -57,7 +58,7 @@ TEST(Refine, MapsABentTubeWithOpenEnds) {
 TEST(Refine, GoesOnWithTheTrace) {
     const KnownPair pair = ellipsoids();
     const PairContext context = pair.context();
-    const Plan coarse = diffuse(context, {});
+    const Diffusion coarse = diffuse(context, {});
     RefineParams params;
     params.levels = 1;
     const Plan plan = refine(context, coarse, params);
@@ -82,14 +83,14 @@ TEST(Refine, KeepsTheAreaBoundInBothStages) {
                 options->area_energy = energy;
                 options->mass_penalty = 0;
             }
-            const Plan coarse = diffuse(context, coarse_params);
-            for (const Plan& plan : {coarse, refine(context, coarse, params)}) {
+            const Diffusion coarse = diffuse(context, coarse_params);
+            for (const SamplePlan& plan : {coarse.plan, refine(context, coarse, params).plan}) {
                 EXPECT_EQ(plan.area_bound, bound);
                 const double D = std::sqrt(bound);
                 EXPECT_LT(MassBounds::around(plan.mass_A, D).excess(plan.transported_A), 1e-3);
                 EXPECT_LT(MassBounds::around(plan.mass_B, D).excess(plan.transported_B), 1e-3);
                 EXPECT_NEAR((plan.transported_A.array() / plan.mass_A.array()).maxCoeff(), D, 1e-3);
-                const Eigen::VectorXd rows = plan.plan * Eigen::VectorXd::Ones(plan.plan.cols());
+                const Eigen::VectorXd rows = plan.entries * Eigen::VectorXd::Ones(plan.entries.cols());
                 EXPECT_LT((rows - plan.transported_A).lpNorm<1>(), .03);
             }
         }
@@ -101,9 +102,9 @@ TEST(Refine, StoppedEarlyStillHasACentreForEveryVertex) {
     RefineParams params;
     params.levels = 1;
     const Plan plan = refine(context, diffuse(context, {}), params);
-    EXPECT_EQ(plan.samples_A, context.euclidean_level(0, 1).A.level.samples);
-    EXPECT_EQ(plan.position_A.rows(), pair.A.surface.mesh.vertex_count());
-    EXPECT_EQ(plan.position_B.rows(), pair.B.surface.mesh.vertex_count());
+    EXPECT_EQ(plan.plan.samples_A, context.euclidean_level(0, 1).A.level.samples);
+    EXPECT_EQ(plan.centre_A.rows(), pair.A.surface.mesh.vertex_count());
+    EXPECT_EQ(plan.centre_B.rows(), pair.B.surface.mesh.vertex_count());
     EXPECT_LT(mean_error(plan, pair), .03);
 }
 
@@ -112,15 +113,15 @@ TEST(Refine, RefusesThePlanOfOtherSurfaces) {
     const PairContext context = pair.context();
     DiffuseParams coarse;
     coarse.levels = 3;
-    Plan plan = diffuse(context, coarse);
-    plan.samples_B.back() = plan.samples_B.front();
-    EXPECT_THROW(refine(context, plan, {}), ArtifactError);
+    Diffusion diffusion = diffuse(context, coarse);
+    diffusion.plan.samples_B.back() = diffusion.plan.samples_B.front();
+    EXPECT_THROW(refine(context, diffusion, {}), ArtifactError);
 }
 
 TEST(Refine, IsTheSameToTheLastBitForAnyThreads) {
     const KnownPair pair = ellipsoids();
     const PairContext context = pair.context();
-    const Plan coarse = diffuse(context, {});
+    const Diffusion coarse = diffuse(context, {});
     const auto bytes = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return encode(refine(context, coarse, {}));

@@ -44,23 +44,27 @@ class Remesh : public ::testing::Test {
     SurfaceMap read_only() const {
         RemeshParams params;
         params.untangling.enabled = false;
-        return remesh(A_, B_, plan_, params);
+        return made(params);
+    }
+    SurfaceMap made(const RemeshParams& params = {}) const {
+        return remesh(A_, B_, plan_, read_out(plan_, A_, B_), params);
     }
 
     Plan identity_plan() const {
-        Plan plan;
+        Plan identity;
+        SamplePlan& plan = identity.plan;
         const int n = A_.mesh.vertex_count();
         for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
         plan.samples_B = plan.samples_A;
         plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = A_.mass;
-        plan.plan.resize(n, n);
-        plan.plan.setIdentity();
-        plan.position_A = plan.position_B = A_.mesh.vertices;
-        plan.landmarks = {{5, 5}};
-        plan.trace = {{0, 0, 0, 10, 12, 5, 120, 1e-2, 0.9, 1e-3},
-                      {0, 0, 1, 10, 12, 5, 120, 1e-2, 0.8, 1e-3},
-                      {1, 1, 0, n, n, 9, 500, 1e-3, 0.25, 1e-3}};
-        return plan;
+        plan.entries.resize(n, n);
+        plan.entries.setIdentity();
+        identity.centre_A = identity.centre_B = A_.mesh.vertices;
+        identity.record.landmarks = {{{5}, {5}}};
+        identity.trace = {{0, 0, 0, 10, 12, 5, 120, 1e-2, 0.9, 1e-3},
+                          {0, 0, 1, 10, 12, 5, 120, 1e-2, 0.8, 1e-3},
+                          {1, 1, 0, n, n, 9, 500, 1e-3, 0.25, 1e-3}};
+        return identity;
     }
 };
 
@@ -84,10 +88,10 @@ TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
 }
 
 TEST_F(Remesh, PinsLandmarksUnlessTheyAreSoft) {
-    plan_.landmarks = {{5, 9}};  // a wrong one
+    plan_.record.landmarks = {{{5}, {9}}};  // a wrong one
     SurfaceMap map = read_only();
     EXPECT_NEAR(Json::parse(map.quality)["landmarks"][0], 0, 1e-12);
-    plan_.landmark_weight = .5;
+    plan_.record.landmark_weight = .5;
     map = read_only();
     const Json quality = Json::parse(map.quality);
     EXPECT_EQ(quality["landmark_weight"], .5);
@@ -95,15 +99,14 @@ TEST_F(Remesh, PinsLandmarksUnlessTheyAreSoft) {
 }
 
 TEST_F(Remesh, MapsLandmarksThatArePointsOntoEachOther) {
-    plan_.landmarks = {{A_.mesh.faces(3, 0), B_.mesh.faces(3, 0)}};
-    plan_.landmark_points = {{{3, Vec3(.5, .3, .2)}, {3, Vec3(.3, .2, .5)}}};
+    plan_.record.landmarks = {{{A_.mesh.faces(3, 0)}, {B_.mesh.faces(3, 0)}}};
+    plan_.record.landmark_points = {{{3, Vec3(.5, .3, .2)}, {3, Vec3(.3, .2, .5)}}};
     const auto residual = [](const SurfaceMap& map) {
         return Json::parse(map.quality)["landmarks"][0].get<double>();
     };
     const double before = residual(read_only());
     EXPECT_GT(before, .02);
-    EXPECT_LT(residual(remesh(A_, B_, plan_, {})), .3 * before)
-        << "the rest: the triangle lies below the sphere";
+    EXPECT_LT(residual(made()), .3 * before) << "the rest: the triangle lies below the sphere";
 }
 
 void expect_finite_numbers(const Json& json, const std::string& where) {
@@ -148,9 +151,10 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
 }
 
 TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {
-    plan_.transported_A[3] = 1.25 * plan_.mass_A[3];
+    plan_.plan.transported_A[3] = 1.25 * plan_.plan.mass_A[3];
     EXPECT_NEAR(double(Json::parse(read_only().quality)["mass_ratio"]["source"]["max"]), 1.25, 1e-12);
-    std::istringstream lines(masses_csv(A_, plan_.samples_A, plan_.transported_A, plan_.mass_A));
+    std::istringstream lines(
+        masses_csv(A_, plan_.plan.samples_A, plan_.plan.transported_A, plan_.plan.mass_A));
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line, "vertex,ratio");
@@ -165,17 +169,17 @@ TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {
 }
 
 TEST_F(Remesh, Untangles) {
-    for (int v = 40; v < 60; ++v) plan_.position_A.row(v).swap(plan_.position_A.row(v + 60));
-    plan_.samples_A.pop_back();  // so that the centres alone decide
-    plan_.plan.conservativeResize(int(plan_.samples_A.size()), plan_.plan.cols());
+    for (int v = 40; v < 60; ++v) plan_.centre_A.row(v).swap(plan_.centre_A.row(v + 60));
+    plan_.plan.samples_A.pop_back();  // so that the centres alone decide
+    plan_.plan.entries.conservativeResize(int(plan_.plan.samples_A.size()), plan_.plan.entries.cols());
     const Json tangled = Json::parse(read_only().quality)["source_to_target"];
     EXPECT_GT(tangled["flipped_count"], 50);
     EXPECT_EQ(tangled["untangling"]["flipped_after"], tangled["flipped_count"]);
-    const Json quality = Json::parse(remesh(A_, B_, plan_).quality)["source_to_target"];
+    const Json quality = Json::parse(made().quality)["source_to_target"];
     EXPECT_EQ(quality["untangling"]["flipped_before"], tangled["flipped_count"]);
     EXPECT_EQ(quality["untangling"]["flipped_after"], 0);
     EXPECT_EQ(quality["flipped_count"], 0);
-    EXPECT_LT((position(B_.input, remesh(A_, B_, plan_).A_to_B[6]) - B_.input.vertex(6)).norm(), 1e-12)
+    EXPECT_LT((position(B_.input, made().A_to_B[6]) - B_.input.vertex(6)).norm(), 1e-12)
         << "the landmark, behind the spare vertex";
 }
 
@@ -199,9 +203,9 @@ TEST_F(Remesh, QualityHoldsFiniteNumbersOnly) {
 }
 
 TEST_F(Remesh, CollapsedMapsHaveFiniteQuality) {
-    plan_.position_A.setZero();
-    plan_.samples_A.pop_back();
-    plan_.plan.conservativeResize(int(plan_.samples_A.size()), plan_.plan.cols());
+    plan_.centre_A.setZero();
+    plan_.plan.samples_A.pop_back();
+    plan_.plan.entries.conservativeResize(int(plan_.plan.samples_A.size()), plan_.plan.entries.cols());
     const Json quality = Json::parse(read_only().quality);
     expect_finite_numbers(quality, "");
     EXPECT_GT(quality["source_to_target"]["flipped_area_percent"], 90);
@@ -227,7 +231,7 @@ TEST_F(Remesh, GivesPointsOnTheFacesOfTheFilesOfMirroredSurfaces) {
     // A is the mirror image of B, with its faces as the file has them: inside out until it is mirrored.
     A_.mesh.vertices.col(0) *= -1;
     A_.input.vertices.col(0) *= -1;
-    plan_.position_B = A_.mesh.vertices;
+    plan_.centre_B = A_.mesh.vertices;
     const TriangleMesh file = with_reversed_orientation(A_).input;  // counter-clockwise from outside
     Surface A = A_;
     A.mirrored = true;

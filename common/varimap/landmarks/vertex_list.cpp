@@ -273,13 +273,6 @@ std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const
     return vertices;
 }
 
-std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path) {
-    const auto sources = read_column(path, 0, nullptr), targets = read_column(path, 1, nullptr);
-    std::vector<std::pair<int, int>> pairs;
-    for (size_t i = 0; i < sources.size(); ++i) pairs.emplace_back(sources[i].vertex, targets[i].vertex);
-    return pairs;
-}
-
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
                          const TriangleMesh& target_input) {
     if (files.size() != 1 && files.size() != 2)
@@ -296,7 +289,7 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
     Landmarks landmarks;
     bool picked = false;
     for (const auto& [source, target] : matched(lists, files)) {
-        landmarks.vertices.emplace_back(source.vertex, target.vertex);
+        landmarks.vertices.emplace_back(InputVertex{source.vertex}, InputVertex{target.vertex});
         landmarks.points.emplace_back(place_of(source, source_input), place_of(target, target_input));
         picked = picked || source.point || target.point;
     }

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh/vertex_index.h"
 
 namespace varimap {
 
@@ -19,13 +19,10 @@ IndexBase index_base_from(const std::string& text);
 /// it is given. Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
 
-/// Reads lines of two 0-based vertex numbers (source, target); `#` starts a comment. Errors as above.
-std::vector<std::pair<int, int>> read_landmark_pairs(const std::string& path);
-
 /// Landmarks of the source and the target, row by row.
 struct Landmarks {
-    std::vector<std::pair<int, int>> vertices;  ///< they are, or are nearest to the points
-    PointPairs points;                          ///< where they are, if a file holds points; else empty
+    VertexPairs<InputVertex> vertices;  ///< they are, or are nearest to the points
+    PointPairs points;                  ///< where they are, if a file holds points; else empty
 };
 
 /// Landmarks from one file of pairs, or from two lists matched row by row (in

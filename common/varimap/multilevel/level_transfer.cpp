@@ -40,10 +40,10 @@ LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::Vec
     return {std::move(level), std::move(vertex_points), vertex_mass, std::move(side)};
 }
 
-void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks, double weight) {
+void set_landmarks(LevelPair& pair, const VertexPairs<MeshVertex>& landmarks, double weight) {
     pair.A.side.landmark_weight = pair.B.side.landmark_weight = weight;
     for (const auto& [a, b] : landmarks) {
-        const int i = pair.A.level.cell[a], j = pair.B.level.cell[b];
+        const int i = pair.A.level.cell[std::size_t(a.index)], j = pair.B.level.cell[std::size_t(b.index)];
         pair.A.side.partner[i] = j;
         pair.B.side.partner[j] = i;
     }

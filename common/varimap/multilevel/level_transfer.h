@@ -1,8 +1,8 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
+#include "varimap/mesh/vertex_index.h"
 #include "varimap/spectral/hierarchy.h"
 #include "varimap/transport/alternating_minimization.h"
 
@@ -27,7 +27,7 @@ LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::Vec
 
 /// Makes landmarks (pairs of mesh vertices, samples of both levels) pull at each other with this weight
 /// (cost.h).
-void set_landmarks(LevelPair& pair, const std::vector<std::pair<int, int>>& landmarks, double weight);
+void set_landmarks(LevelPair& pair, const VertexPairs<MeshVertex>& landmarks, double weight);
 
 /// Where a level starts: centres, and the kept entries of the plan before it.
 struct Start {

@@ -76,7 +76,7 @@ RowMatrix sample_positions(const Surface& surface, const Level& level) {
     return surface.mesh.vertices(level.samples, Eigen::all);
 }
 
-PairContext::PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks,
+PairContext::PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks,
                          double landmark_weight)
     : A_(std::move(A)),
       B_(std::move(B)),
@@ -87,8 +87,8 @@ PairContext::PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int
       landmarks_(std::move(landmarks)),
       landmark_weight_(landmark_weight) {
     for (const auto& [a, b] : landmarks_) {
-        landmarks_A_.push_back(a);
-        landmarks_B_.push_back(b);
+        landmarks_A_.push_back(a.index);
+        landmarks_B_.push_back(b.index);
     }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "varimap/multilevel/level_transfer.h"
@@ -15,8 +14,7 @@ RowMatrix sample_positions(const Surface& surface, const Level& level);
 /// stages work on.
 class PairContext {
   public:
-    PairContext(SurfaceData A, SurfaceData B, std::vector<std::pair<int, int>> landmarks,
-                double landmark_weight = 1);
+    PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks, double landmark_weight = 1);
 
     const SurfaceData& A() const { return A_; }
     const SurfaceData& B() const { return B_; }
@@ -25,7 +23,7 @@ class PairContext {
     /// The same for long distances between samples of diffusion levels (sample_graph.h).
     const GeodesicGraph& sample_graph_A() const { return sample_graph_A_; }
     const GeodesicGraph& sample_graph_B() const { return sample_graph_B_; }
-    const std::vector<std::pair<int, int>>& landmarks() const { return landmarks_; }
+    const VertexPairs<MeshVertex>& landmarks() const { return landmarks_; }
     double landmark_weight() const { return landmark_weight_; }
 
     /// Number of diffusion levels of the pair; the surface with fewer stays at its last one meanwhile.
@@ -48,7 +46,7 @@ class PairContext {
 
     SurfaceData A_, B_;
     GeodesicGraph graph_A_, graph_B_, sample_graph_A_, sample_graph_B_;
-    std::vector<std::pair<int, int>> landmarks_;
+    VertexPairs<MeshVertex> landmarks_;
     double landmark_weight_;
     std::vector<int> landmarks_A_, landmarks_B_;
 };

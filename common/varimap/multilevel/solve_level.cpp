@@ -9,7 +9,7 @@ namespace {
 /// Appends a row to the trace and writes it to the log.
 class Recorder {
   public:
-    Recorder(const LevelPair& pair, int level_index, std::vector<TraceRow>& trace) : trace_(trace) {
+    Recorder(const LevelPair& pair, int level_index, Trace& trace) : trace_(trace) {
         row_.level = level_index;
         row_.euclidean = pair.A.level.kind == LevelKind::euclidean;
         row_.iteration = -1;
@@ -33,14 +33,14 @@ class Recorder {
 
   private:
     TraceRow row_;
-    std::vector<TraceRow>& trace_;
+    Trace& trace_;
 };
 
 }  // namespace
 
 Solution solve_level(const PairContext& context, LevelPair& pair, const Start& start, int level_index,
                      const AlternationOptions& options, const IroningOptions& ironing, bool last,
-                     std::vector<TraceRow>& trace) {
+                     Trace& trace) {
     Recorder record(pair, level_index, trace);
     const auto observe = [&](const Alternation& step) { record(step); };
     AlternatingMinimization minimization(pair.A.side, pair.B.side, options);

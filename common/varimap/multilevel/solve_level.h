@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "varimap/multilevel/ironing.h"
-#include "varimap/results/plan.h"
+#include "varimap/results/trace.h"
 
 namespace varimap {
 
@@ -11,7 +11,7 @@ namespace varimap {
 /// the trace per alternation. The `last` level of a stage ends with a plan that keeps the area bound tightly.
 Solution solve_level(const PairContext& context, LevelPair& pair, const Start& start, int level_index,
                      const AlternationOptions& options, const IroningOptions& ironing, bool last,
-                     std::vector<TraceRow>& trace);
+                     Trace& trace);
 
 /// The plan's entries that are at least a thousandth of their row's or column's mass, as a matrix.
 SparseMatrix to_matrix(const Coupling& plan, const Eigen::VectorXd& row_mass,

@@ -4,7 +4,6 @@
 
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/multilevel/level_transfer.h"
-#include "varimap/results/plan.h"
 
 namespace varimap {
 

@@ -8,12 +8,12 @@ namespace varimap {
 
 namespace {
 
-int mesh_vertex(const Surface& surface, int input_vertex, const char* which) {
-    const int v = surface.vertex_of_input[input_vertex];
+MeshVertex mesh_vertex(const Surface& surface, InputVertex vertex, const char* which) {
+    const int v = surface.vertex_of_input[std::size_t(vertex.index)];
     if (v < 0)
         throw InputError(fmt::format("landmark vertex {} of the {} belongs to no face; choose another vertex",
-                                     input_vertex, which));
-    return v;
+                                     vertex.index, which));
+    return {v};
 }
 
 }  // namespace
@@ -47,16 +47,15 @@ void PairInputs::require_same(const Header& plan, const std::string& plan_path) 
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B) {
     if (files.empty()) return {};
-    Landmarks landmarks = read_landmarks(files, A.input, B.input);
+    const Landmarks landmarks = read_landmarks(files, A.input, B.input);
     for (size_t i = 0; i < files.size(); ++i)
         stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);
-    landmarks.vertices = to_mesh_vertices(landmarks.vertices, A, B);
     return landmarks;
 }
 
-std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks,
-                                                  const Surface& A, const Surface& B) {
-    std::vector<std::pair<int, int>> result;
+VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
+                                         const Surface& B) {
+    VertexPairs<MeshVertex> result;
     for (const auto& [a, b] : landmarks)
         result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
     return result;

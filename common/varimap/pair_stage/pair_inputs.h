@@ -30,13 +30,11 @@ class PairInputs {
     std::vector<std::pair<std::string, Header>> hierarchies_;  ///< role, header
 };
 
-/// Reads landmarks (vertex_list.h), vertices as those of the preprocessed meshes, points as places on the
-/// input meshes, and records their files as inputs.
+/// Reads landmarks (vertex_list.h) and records their files as inputs.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B);
-/// Landmarks from input vertices to vertices of the preprocessed meshes. Throws InputError for vertices no
-/// face uses.
-std::vector<std::pair<int, int>> to_mesh_vertices(const std::vector<std::pair<int, int>>& landmarks,
-                                                  const Surface& A, const Surface& B);
+/// The vertices that landmarks became on the preprocessed meshes. Throws InputError for those no face uses.
+VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
+                                         const Surface& B);
 
 }  // namespace varimap

@@ -1,37 +1,36 @@
 #include "varimap/results/candidates.h"
 
-#include <fmt/format.h>
+#include <limits>
+
+#include "varimap/results/checks.h"
+#include "varimap/results/serialization.h"
 
 namespace varimap {
 
-bool is_mirrored(const Candidate& candidate) {
-    // A right map reads up to a tenth reversed on coarse levels, a mirrored one nearly all.
-    return candidate.reversed_mass > 0.4;
+template <class Archive>
+void serialize(Archive& archive, Candidates& c) {
+    archive(c.samples_A, c.samples_B, c.mass_A, c.mass_B, c.list, c.plans, c.previews);
 }
 
-Confidence confidence_of(const std::vector<Candidate>& candidates) {
-    constexpr double least_margin = 0.015;
-    constexpr double detail = 0.05;  // what differs on less, a foot or an ear, is no other map
-    Confidence result;
-    if (candidates.empty()) return result;
-    const Candidate& best = candidates.front();
-    result.margin = 1;
-    for (size_t k = 1; k < candidates.size(); ++k) {
-        if (is_mirrored(candidates[k])) continue;
-        if (candidates[k].moved_mass > 0 && candidates[k].moved_mass <= detail) continue;
-        result.margin = std::min(result.margin, candidates[k].score - best.score);
-        result.levels_agree &= best.diffusion_energy <= candidates[k].diffusion_energy &&
-                               best.euclidean_energy <= candidates[k].euclidean_energy;
-    }
-    result.confident = !is_mirrored(best) && result.levels_agree && result.margin >= least_margin;
-    return result;
+std::string encode(const Candidates& candidates) {
+    return cereal_encode(candidates);
 }
 
-std::string relation(const Candidate& candidate) {
-    if (is_mirrored(candidate)) return "mirrored";
-    if (candidate.moved_mass == 0) return "the best";
-    return fmt::format("{:.0f}% of the surface elsewhere, turned by {:.0f} degrees",
-                       100 * candidate.moved_mass, candidate.turn);
+void decode(const std::string& payload, Candidates& candidates) {
+    cereal_decode(payload, candidates);
+    constexpr Eigen::Index any = std::numeric_limits<int>::max();  // the meshes' sizes are not known here
+    const auto a = Eigen::Index(candidates.samples_A.size()), b = Eigen::Index(candidates.samples_B.size());
+    require<Candidates>(!candidates.list.empty() && candidates.list.size() == candidates.plans.size(),
+                        "numbers of plans");
+    require<Candidates>(
+        are_distinct_in_range(candidates.samples_A, any) && are_distinct_in_range(candidates.samples_B, any),
+        "samples");
+    require<Candidates>(candidates.mass_A.size() == a && candidates.mass_B.size() == b, "masses");
+    require<Candidates>(are_masses(candidates.mass_A) && are_masses(candidates.mass_B), "masses");
+    for (const SparseMatrix& plan : candidates.plans)
+        require<Candidates>(plan.rows() == a && plan.cols() == b && are_plan_entries(plan), "plans");
+    require<Candidates>(candidates.previews.size() <= candidates.list.size(), "previews");
+    for (const PointMap& preview : candidates.previews) require<Candidates>(are_points(preview), "previews");
 }
 
 }  // namespace varimap

@@ -1,3 +1,5 @@
+#include "varimap/results/read_out.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,9 +8,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/results/plan.h"
 
 namespace varimap {
 
@@ -18,19 +18,19 @@ constexpr double support_share = 0.05;  ///< of its row's maximum: entries from 
 /// A face that agrees with the predicted normal is taken up to this multiple of the smallest distance. Where
 /// a shrunken centre lies between the two sides of a thin part this decides for the right one; where the
 /// prediction is wrong (a mirrored part) the other side is too far away for it to do harm.
-constexpr double reach_for_agreement = 3;
+constexpr double farther_for_agreement = 3;
 constexpr double reliable_normal = 0.3;  ///< length of a mean of unit normals below which it says nothing
 
-/// Per vertex: how far its faces reach from it.
-std::vector<double> vertex_reach(const TriangleMesh& mesh) {
-    std::vector<double> reach(std::size_t(mesh.vertex_count()), 0);
+/// Per vertex: its longest edge, which is as far as its faces go from it.
+std::vector<double> longest_edges(const TriangleMesh& mesh) {
+    std::vector<double> longest(std::size_t(mesh.vertex_count()), 0);
     for (int f = 0; f < mesh.face_count(); ++f)
         for (int k = 0; k < 9; ++k) {
             const int from = mesh.faces(f, k / 3), to = mesh.faces(f, k % 3);
             const double length = (mesh.vertex(to) - mesh.vertex(from)).norm();
-            reach[std::size_t(from)] = std::max(reach[std::size_t(from)], length);
+            longest[std::size_t(from)] = std::max(longest[std::size_t(from)], length);
         }
-    return reach;
+    return longest;
 }
 
 /// The best of the faces offered: the smallest distance; among equals the lowest face, so that the order in
@@ -48,7 +48,7 @@ struct Best {
 };
 
 SurfacePoint prefer_agreeing(const Best& any, const Best& agreeing) {
-    const double limit = reach_for_agreement * reach_for_agreement * any.squared_distance;
+    const double limit = farther_for_agreement * farther_for_agreement * any.squared_distance;
     return agreeing.point.face >= 0 && agreeing.squared_distance <= limit ? agreeing.point : any.point;
 }
 
@@ -60,7 +60,7 @@ class SupportReader {
           plan_(plan),
           target_(target),
           faces_(vertex_faces(target)),
-          reach_(vertex_reach(target)),
+          longest_edge_(longest_edges(target)),
           normals_(vertex_normals(target)) {}
 
     /// face -1 if the row is empty.
@@ -80,9 +80,9 @@ class SupportReader {
         Best any, agreeing;
 
         /// No face farther away can matter.
-        double squared_reach() const {
+        double squared_limit() const {
             return std::min(std::max(any.squared_distance, agreeing.squared_distance),
-                            reach_for_agreement * reach_for_agreement * any.squared_distance);
+                            farther_for_agreement * farther_for_agreement * any.squared_distance);
         }
     };
 
@@ -114,8 +114,8 @@ class SupportReader {
     }
 
     void offer_faces(int vertex, Search& search) const {
-        const double gap = distance(search, vertex) - reach_[std::size_t(vertex)];
-        if (gap > 0 && gap * gap > search.squared_reach()) return;
+        const double gap = distance(search, vertex) - longest_edge_[std::size_t(vertex)];
+        if (gap > 0 && gap * gap > search.squared_limit()) return;
         for (const int face : faces_[vertex]) offer_face(face, search);
     }
 
@@ -133,7 +133,7 @@ class SupportReader {
     const SparseMatrix& plan_;
     const TriangleMesh& target_;
     Adjacency faces_;
-    std::vector<double> reach_;
+    std::vector<double> longest_edge_;
     Points normals_;
 };
 
@@ -187,42 +187,60 @@ PointMap supported_images(const Points& centres, const SparseMatrix& plan, const
     return images;
 }
 
-SurfacePoint at_vertex(const TriangleMesh& mesh, int vertex) {
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (int corner = 0; corner < 3; ++corner)
-            if (mesh.faces(f, corner) == vertex) return {f, Vec3::Unit(corner)};
-    throw ArtifactError("landmark " + std::to_string(vertex) + " lies on no face; rerun varimap-diffuse");
-}
-
-void require_matching(const Points& centres, const TriangleMesh& mesh) {
-    if (centres.rows() != mesh.vertex_count())
-        throw ArtifactError("the plan has centres for " + std::to_string(centres.rows()) +
+void require_vertices(Eigen::Index count, const TriangleMesh& mesh) {
+    if (count != mesh.vertex_count())
+        throw ArtifactError("the plan has images for " + std::to_string(count) +
                             " vertices, its surface has " + std::to_string(mesh.vertex_count()) +
                             "; rerun varimap-diffuse and varimap-refine");
-    if (!centres.allFinite())
-        throw ConvergenceError(
-            "the plan has centres that are not finite; rerun varimap-refine with a larger gamma");
+}
+
+/// Every vertex as a point of the first of its faces.
+PointMap points_at_vertices(const TriangleMesh& mesh) {
+    PointMap points(std::size_t(mesh.vertex_count()));
+    for (int f = mesh.face_count() - 1; f >= 0; --f)
+        for (int corner = 0; corner < 3; ++corner)
+            points[std::size_t(mesh.faces(f, corner))] = {f, Vec3::Unit(corner)};
+    return points;
+}
+
+PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target) {
+    const PointMap points = points_at_vertices(target);
+    PointMap images;
+    for (const int vertex : vertices) images.push_back(points[std::size_t(vertex)]);
+    return images;
+}
+
+void pin_landmarks(VertexMaps& maps, const PairRecord& record, const Surface& A, const Surface& B) {
+    if (!record.pins_landmarks()) return;
+    for (const auto& [a, b] : record.landmarks) {
+        maps.A_to_B[std::size_t(a.index)] = point_at_vertex(B.mesh, b.index);
+        maps.B_to_A[std::size_t(b.index)] = point_at_vertex(A.mesh, a.index);
+    }
 }
 
 }  // namespace
 
 VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B) {
-    require_matching(plan.position_A, A.mesh);
-    require_matching(plan.position_B, B.mesh);
+    require_vertices(plan.centre_A.rows(), A.mesh);
+    require_vertices(plan.centre_B.rows(), B.mesh);
     VertexMaps maps;
-    if (is_every_vertex(plan.samples_A, A.mesh) && is_every_vertex(plan.samples_B, B.mesh)) {
-        maps.A_to_B = supported_images(plan.position_A, plan.plan, A.mesh, B.mesh);
-        const SparseMatrix transposed = plan.plan.transpose();
-        maps.B_to_A = supported_images(plan.position_B, transposed, B.mesh, A.mesh);
+    if (is_every_vertex(plan.plan.samples_A, A.mesh) && is_every_vertex(plan.plan.samples_B, B.mesh)) {
+        maps.A_to_B = supported_images(plan.centre_A, plan.plan.entries, A.mesh, B.mesh);
+        const SparseMatrix transposed = plan.plan.entries.transpose();
+        maps.B_to_A = supported_images(plan.centre_B, transposed, B.mesh, A.mesh);
     } else {
-        maps.A_to_B = nearest_images(plan.position_A, A.mesh, B.mesh);
-        maps.B_to_A = nearest_images(plan.position_B, B.mesh, A.mesh);
+        maps.A_to_B = nearest_images(plan.centre_A, A.mesh, B.mesh);
+        maps.B_to_A = nearest_images(plan.centre_B, B.mesh, A.mesh);
     }
-    if (!plan.pins_landmarks()) return maps;
-    for (const auto& [a, b] : plan.landmarks) {
-        maps.A_to_B[std::size_t(a)] = at_vertex(B.mesh, b);
-        maps.B_to_A[std::size_t(b)] = at_vertex(A.mesh, a);
-    }
+    pin_landmarks(maps, plan.record, A, B);
+    return maps;
+}
+
+VertexMaps read_out(const Diffusion& diffusion, const Surface& A, const Surface& B) {
+    require_vertices(Eigen::Index(diffusion.image_vertex_A.size()), A.mesh);
+    require_vertices(Eigen::Index(diffusion.image_vertex_B.size()), B.mesh);
+    VertexMaps maps{images_at(diffusion.image_vertex_A, B.mesh), images_at(diffusion.image_vertex_B, A.mesh)};
+    pin_landmarks(maps, diffusion.record, A, B);
     return maps;
 }
 

@@ -1,17 +1,14 @@
 #pragma once
 
-#include <utility>
-#include <vector>
-
 #include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh/vertex_index.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {
 
 /// What may be said of a pair of surfaces; all else is as the stages have it by default.
 struct MapOptions {
-    /// Pairs of vertices, of A and of B, from 0. Without any, the map is looked for (varimap-explore).
-    std::vector<std::pair<int, int>> landmarks;
+    VertexPairs<InputVertex> landmarks;  ///< without any, the map is looked for (varimap-explore)
     double landmark_weight = 1;  ///< how firmly landmarks hold, in (0, 1]; 1: mapped exactly
     bool explore = false;        ///< looks for the map even with (few) landmarks
     int candidate = 1;           ///< which of the maps that were found is continued; 1: the best

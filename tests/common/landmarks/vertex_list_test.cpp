@@ -12,7 +12,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Pair;
 
 /// A strip of triangles over vertices 0 to 9; vertex 10 belongs to no face.
 TriangleMesh strip() {
@@ -20,6 +19,13 @@ TriangleMesh strip() {
     for (int v = 0; v < 11; ++v) mesh.vertices.row(v) << v / 2, v % 2, .1 * v;
     for (int f = 0; f < 8; ++f) mesh.faces.row(f) << f, f + 1, f + 2;
     return mesh;
+}
+
+/// Matches landmarks by their vertices' numbers.
+auto are(const std::vector<std::pair<int, int>>& numbers) {
+    VertexPairs<InputVertex> pairs;
+    for (const auto& [a, b] : numbers) pairs.emplace_back(InputVertex{a}, InputVertex{b});
+    return testing::Eq(pairs);
 }
 
 class VertexList : public testing::Test {
@@ -90,9 +96,8 @@ TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
 }
 
 TEST_F(VertexList, ReadsLandmarksFromPairsOrFromTwoLists) {
-    const auto expected = ElementsAre(Pair(3, 0), Pair(5, 9));
+    const auto expected = are({{3, 0}, {5, 9}});
     const auto pairs = write("pairs.txt", "# source target\n3 0\n5 9\n");
-    EXPECT_THAT(read_landmark_pairs(pairs), expected);
     EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_).vertices, expected);
     const auto sources = write("s.pinned", "3\n5\n"), targets = write("t.vts", "1 0 0 0\n10 4 1 .9\n");
     EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices, expected);
@@ -119,10 +124,9 @@ TEST(IndexBaseText, IsReadOrRefused) {
 TEST_F(VertexList, SnapsRowsOfCoordinatesToTheSurface) {
     // Vertices 4 and 7 of the strip, lifted off it a little, and a point nearest to vertex 2.
     const auto pairs = write("pairs.txt", "2 0 .41 3 1 .7\n1.1 0.05 .2 0 0 0\n");
-    EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_).vertices, ElementsAre(Pair(4, 7), Pair(2, 0)));
+    EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
     const auto sources = write("a.txt", "2 0 .4\n1 0 .2\n"), targets = write("b.txt", "7\n0\n");
-    EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices,
-                ElementsAre(Pair(4, 7), Pair(2, 0)));
+    EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
     EXPECT_THAT(error_of({write("bad.txt", "2 0 .4\n1 0\n"), targets}),
                 HasSubstr("bad.txt:2: expected the three"));
 }
@@ -151,10 +155,8 @@ TEST_F(VertexList, MatchesPickedPointsByName) {
     const auto old_slicer = write("c.fcsv",
                                   "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
                                   "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n");
-    EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_).vertices,
-                ElementsAre(Pair(4, 9), Pair(7, 2)));
-    EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_).vertices,
-                ElementsAre(Pair(4, 1), Pair(7, 2)));
+    EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_).vertices, are({{4, 9}, {7, 2}}));
+    EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_).vertices, are({{4, 1}, {7, 2}}));
     EXPECT_THAT(error_of({meshlab, write("other.fcsv", "1,0,0,0,0,0,0,1,1,1,0,paw,,\n")}),
                 HasSubstr("no name in common"));
     EXPECT_THROW(read_landmarks({meshlab}, mesh_, mesh_), UsageError);

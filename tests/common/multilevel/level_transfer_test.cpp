@@ -116,9 +116,10 @@ TEST(PairContext, PinsLandmarksAtEveryLevel) {
     for (int l = 0; l < context.euclidean_levels(); ++l) levels.push_back(context.euclidean_level(l, 1));
     for (const LevelPair& pair : levels)
         for (const auto& [a, b] : tube.landmarks) {
-            const int i = pair.A.level.cell[std::size_t(a)], j = pair.B.level.cell[std::size_t(b)];
-            EXPECT_EQ(pair.A.level.samples[std::size_t(i)], a);
-            EXPECT_EQ(pair.B.level.samples[std::size_t(j)], b);
+            const int i = pair.A.level.cell[std::size_t(a.index)],
+                      j = pair.B.level.cell[std::size_t(b.index)];
+            EXPECT_EQ(pair.A.level.samples[std::size_t(i)], a.index);
+            EXPECT_EQ(pair.B.level.samples[std::size_t(j)], b.index);
             EXPECT_EQ(pair.A.side.partner[std::size_t(i)], j);
             EXPECT_EQ(pair.B.side.partner[std::size_t(j)], i);
             EXPECT_EQ(std::count(pair.A.side.partner.begin(), pair.A.side.partner.end(), -1),

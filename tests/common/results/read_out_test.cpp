@@ -1,3 +1,5 @@
+#include "varimap/results/read_out.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,8 +7,6 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/surface.h"
-#include "varimap/results/plan.h"
 
 namespace varimap {
 namespace {
@@ -21,15 +21,16 @@ Surface sheet(double thickness) {
 }
 
 Plan identity_plan(const Surface& surface) {
-    Plan plan;
+    Plan identity;
+    SamplePlan& plan = identity.plan;
     const int n = surface.mesh.vertex_count();
     for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
     plan.samples_B = plan.samples_A;
     plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = surface.mass;
-    plan.plan.resize(n, n);
-    plan.plan.setIdentity();
-    plan.position_A = plan.position_B = surface.mesh.vertices;
-    return plan;
+    plan.entries.resize(n, n);
+    plan.entries.setIdentity();
+    identity.centre_A = identity.centre_B = surface.mesh.vertices;
+    return identity;
 }
 
 /// The vertex nearest to the middle of one side of a sheet.
@@ -53,8 +54,8 @@ TEST(ReadOut, IdentityGoesToItself) {
     VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
     EXPECT_LT(largest_distance(maps.B_to_A, surface, surface.mesh.vertices), 1e-12);
-    plan.samples_A.pop_back();  // no longer all vertices: closest points of the whole mesh
-    plan.plan.conservativeResize(int(plan.samples_A.size()), plan.plan.cols());
+    plan.plan.samples_A.pop_back();  // no longer all vertices: closest points of the whole mesh
+    plan.plan.entries.conservativeResize(int(plan.plan.samples_A.size()), plan.plan.entries.cols());
     maps = read_out(plan, surface, surface);
     EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
 }
@@ -62,7 +63,7 @@ TEST(ReadOut, IdentityGoesToItself) {
 TEST(ReadOut, StaysOnTheSupportOfTheRow) {
     const Surface surface = sheet(0.1);
     Plan plan = identity_plan(surface);
-    plan.position_A.col(2) *= -1;  // every centre lies exactly on the wrong side
+    plan.centre_A.col(2) *= -1;  // every centre lies exactly on the wrong side
     const VertexMaps maps = read_out(plan, surface, surface);
     const int v = top(surface, 1);
     EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(v)])[2], 0);
@@ -72,10 +73,11 @@ TEST(ReadOut, UsesTheTransposeForTheWayBack) {
     const Surface surface = sheet(0.1);
     Plan plan = identity_plan(surface);
     const int up = top(surface, 1), down = top(surface, -1);
-    plan.plan.coeffRef(up, up) = plan.plan.coeffRef(down, down) = 0;
-    plan.plan.coeffRef(up, down) = 1;  // the row of `up` is supported below, the column of `up` is empty
-    plan.position_A.row(up) *= 0;
-    plan.position_B.row(down) *= 0;
+    plan.plan.entries.coeffRef(up, up) = plan.plan.entries.coeffRef(down, down) = 0;
+    plan.plan.entries.coeffRef(up, down) =
+        1;  // the row of `up` is supported below, the column of `up` is empty
+    plan.centre_A.row(up) *= 0;
+    plan.centre_B.row(down) *= 0;
     const VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_LT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], -0.04);
     EXPECT_GT(position(surface.mesh, maps.B_to_A[std::size_t(down)])[2], 0.04);
@@ -85,8 +87,8 @@ TEST(ReadOut, IgnoresFaintEntries) {
     const Surface surface = sheet(0.1);
     Plan plan = identity_plan(surface);
     const int up = top(surface, 1), down = top(surface, -1);
-    plan.plan.coeffRef(up, down) = 0.04;
-    plan.position_A.row(up) = surface.mesh.vertices.row(down);
+    plan.plan.entries.coeffRef(up, down) = 0.04;
+    plan.centre_A.row(up) = surface.mesh.vertices.row(down);
     const VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], 0);
 }
@@ -95,9 +97,9 @@ TEST(ReadOut, TakesTheSideWithMostOfTheMass) {
     const Surface surface = sheet(0.1);
     Plan plan = identity_plan(surface);
     const int up = top(surface, 1), down = top(surface, -1);
-    plan.plan.coeffRef(up, up) = 0.7;
-    plan.plan.coeffRef(up, down) = 0.3;
-    plan.position_A.row(up) *= -0.2;  // a little nearer to the lower side
+    plan.plan.entries.coeffRef(up, up) = 0.7;
+    plan.plan.entries.coeffRef(up, down) = 0.3;
+    plan.centre_A.row(up) *= -0.2;  // a little nearer to the lower side
     const VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], 0);
 }
@@ -105,10 +107,10 @@ TEST(ReadOut, TakesTheSideWithMostOfTheMass) {
 TEST(ReadOut, OfAnIncompletePlanKeepsTheSidesApart) {
     const Surface surface = sheet(0.1);
     Plan plan = identity_plan(surface);
-    plan.samples_A.pop_back();
-    plan.plan.conservativeResize(int(plan.samples_A.size()), plan.plan.cols());
-    plan.position_A *= 0.5;                  // shrunken centres,
-    plan.position_A.col(2).array() -= 0.01;  // those of the upper side nearer to the lower one in part
+    plan.plan.samples_A.pop_back();
+    plan.plan.entries.conservativeResize(int(plan.plan.samples_A.size()), plan.plan.entries.cols());
+    plan.centre_A *= 0.5;                  // shrunken centres,
+    plan.centre_A.col(2).array() -= 0.01;  // those of the upper side nearer to the lower one in part
     const VertexMaps maps = read_out(plan, surface, surface);
     for (int v = 0; v < surface.mesh.vertex_count(); ++v)
         if (std::abs(surface.mesh.vertices(v, 2)) > 0.01) {
@@ -120,8 +122,8 @@ TEST(ReadOut, OfAnIncompletePlanKeepsTheSidesApart) {
 TEST(ReadOut, FallsBackWhereARowIsEmpty) {
     const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
-    plan.plan.coeffRef(3, 3) = 0;
-    plan.plan.prune(0.0);
+    plan.plan.entries.coeffRef(3, 3) = 0;
+    plan.plan.entries.prune(0.0);
     const VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
 }
@@ -129,18 +131,32 @@ TEST(ReadOut, FallsBackWhereARowIsEmpty) {
 TEST(ReadOut, LandmarksAreExact) {
     const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
-    plan.landmarks = {{5, 40}};
+    plan.record.landmarks = {{{5}, {40}}};
     const VertexMaps maps = read_out(plan, surface, surface);
     EXPECT_EQ(position(surface.mesh, maps.A_to_B[5]), surface.mesh.vertex(40));
+    EXPECT_EQ(position(surface.mesh, maps.B_to_A[40]), surface.mesh.vertex(5));
+}
+
+TEST(ReadOut, OfADiffusionIsAtItsImageVertices) {
+    const Surface surface = plain_surface(shapes::ellipsoid(2));
+    const int n = surface.mesh.vertex_count();
+    Diffusion diffusion;
+    for (int v = 0; v < n; ++v) diffusion.image_vertex_A.push_back(n - 1 - v);
+    diffusion.image_vertex_B = diffusion.image_vertex_A;
+    diffusion.record.landmarks = {{{5}, {40}}};
+    const VertexMaps maps = read_out(diffusion, surface, surface);
+    for (int v = 0; v < n; ++v)
+        EXPECT_EQ(position(surface.mesh, maps.A_to_B[std::size_t(v)]),
+                  surface.mesh.vertex(v == 5 ? 40 : n - 1 - v));
     EXPECT_EQ(position(surface.mesh, maps.B_to_A[40]), surface.mesh.vertex(5));
 }
 
 TEST(ReadOut, RefusesAPlanOfOtherSurfaces) {
     const Surface surface = plain_surface(shapes::ellipsoid(2)), other = plain_surface(shapes::ellipsoid(1));
     EXPECT_THROW(read_out(identity_plan(surface), surface, other), ArtifactError);
-    Plan plan = identity_plan(surface);
-    plan.position_B(0, 0) = std::nan("");
-    EXPECT_THROW(read_out(plan, surface, surface), ConvergenceError);
+    Diffusion diffusion;
+    diffusion.image_vertex_A = diffusion.image_vertex_B = {0, 1};
+    EXPECT_THROW(read_out(diffusion, surface, surface), ArtifactError);
 }
 
 }  // namespace

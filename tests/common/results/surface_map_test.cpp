@@ -6,7 +6,6 @@
 #include <locale>
 
 #include "varimap/core/error.h"
-#include "varimap/results/plan.h"
 
 namespace varimap {
 namespace {
@@ -110,55 +109,6 @@ TEST(ImagePositions, KeepTheFallbackWhereThereIsNoImage) {
     const Points fallback = Points::Constant(2, 3, 9);
     const Points positions = image_positions({{}, {0, Vec3(0.5, 0.25, 0.25)}}, target, fallback);
     EXPECT_EQ(positions, (Points(2, 3) << 9, 9, 9, 0.25, 0.5, 0).finished());
-}
-
-Plan small_plan() {
-    Plan plan;
-    plan.samples_A = {0, 2};
-    plan.samples_B = {1};
-    plan.mass_A = Eigen::Vector2d(0.25, 0.75);
-    plan.mass_B = Eigen::VectorXd::Ones(1);
-    plan.transported_A = Eigen::Vector2d(0.3, 0.7);
-    plan.transported_B = plan.mass_B;
-    plan.area_bound = 1.5;
-    plan.plan.resize(2, 1);
-    plan.plan.insert(0, 0) = 0.25;
-    plan.plan.insert(1, 0) = 0.75;
-    plan.plan.makeCompressed();
-    plan.position_A = Points::Random(3, 3);
-    plan.position_B = Points::Random(2, 3);
-    plan.landmarks = {{2, 1}};
-    plan.trace.push_back({3, 1, 2, 2, 1, 17, 2.0, 1e-3, 0.5, 1e-2});
-    return plan;
-}
-
-TEST(PlanArtifact, DecodesWhatItEncodes) {
-    const Plan plan = small_plan();
-    Plan again;
-    decode(encode(plan), again);
-    EXPECT_EQ(encode(again), encode(plan));
-    EXPECT_EQ(again.samples_A, plan.samples_A);
-    EXPECT_EQ(again.mass_A, plan.mass_A);
-    EXPECT_EQ(again.transported_A, plan.transported_A);
-    EXPECT_EQ(again.area_bound, 1.5);
-    EXPECT_EQ(Eigen::MatrixXd(again.plan), Eigen::MatrixXd(plan.plan));
-    EXPECT_EQ(again.position_A, plan.position_A);
-    EXPECT_EQ(again.landmarks, plan.landmarks);
-    ASSERT_EQ(again.trace.size(), 1u);
-    EXPECT_EQ(again.trace[0].sinkhorn_iterations, 17);
-    EXPECT_EQ(again.trace[0].marginal_error, 1e-2);
-}
-
-TEST(PlanArtifact, RefusesContradictions) {
-    Plan again, plan = small_plan();
-    plan.samples_A[1] = 3;
-    EXPECT_THROW(decode(encode(plan), again), ArtifactError);
-    plan = small_plan();
-    plan.landmarks = {{0, 2}};
-    EXPECT_THROW(decode(encode(plan), again), ArtifactError);
-    plan = small_plan();
-    plan.mass_B = Eigen::VectorXd::Ones(2);
-    EXPECT_THROW(decode(encode(plan), again), ArtifactError);
 }
 
 }  // namespace

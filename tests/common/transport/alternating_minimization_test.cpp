@@ -200,9 +200,10 @@ TEST(AlternatingMinimization, KeepsLandmarksPinned) {
     for (int i = 0; i < 3; ++i) {
         minimization.step();
         for (const auto& [a, b] : tube.landmarks) {
-            const int k = pair.A.level.cell[std::size_t(a)], l = pair.B.level.cell[std::size_t(b)];
-            EXPECT_EQ(minimization.solution().step.centres.row.row(k), pair.B.vertex_points.row(b));
-            EXPECT_EQ(minimization.solution().step.centres.column.row(l), pair.A.vertex_points.row(a));
+            const int k = pair.A.level.cell[std::size_t(a.index)],
+                      l = pair.B.level.cell[std::size_t(b.index)];
+            EXPECT_EQ(minimization.solution().step.centres.row.row(k), pair.B.vertex_points.row(b.index));
+            EXPECT_EQ(minimization.solution().step.centres.column.row(l), pair.A.vertex_points.row(a.index));
         }
     }
 }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <compare>
+#include <utility>
+#include <vector>
+
+namespace varimap {
+
+/// A vertex of a mesh file, from 0, as users name it: a row of Surface::input.
+struct InputVertex {
+    int index = -1;
+    friend auto operator<=>(const InputVertex&, const InputVertex&) = default;
+};
+
+/// A vertex of a preprocessed surface: a row of Surface::mesh. Surface::vertex_of_input leads to it.
+struct MeshVertex {
+    int index = -1;
+    friend auto operator<=>(const MeshVertex&, const MeshVertex&) = default;
+};
+
+/// Vertices of the source and of the target that belong together: landmarks.
+template <class Vertex>
+using VertexPairs = std::vector<std::pair<Vertex, Vertex>>;
+
+}  // namespace varimap
