@@ -9,11 +9,11 @@ namespace varimap {
 /// What may be said of a pair of surfaces; all else is as the stages have it by default.
 struct MapOptions {
     VertexPairs<InputVertex> landmarks;  ///< without any, the map is looked for (varimap-explore)
-    double landmark_weight = 1;  ///< how firmly landmarks hold, in (0, 1]; 1: mapped exactly
-    bool explore = false;        ///< looks for the map even with (few) landmarks
-    int candidate = 1;           ///< which of the maps that were found is continued; 1: the best
-    bool mirror = false;         ///< the surfaces are of opposite handedness
-    double area_bound = 2;       ///< areas change by at most this factor, measured on the masses (Sec. 3.4)
+    double landmark_weight = 1;          ///< how firmly landmarks hold, in (0, 1]; 1: mapped exactly
+    bool explore = false;                ///< looks for the map even with (few) landmarks
+    int candidate = 1;                   ///< which of the maps that were found is continued; 1: the best
+    bool mirror = false;                 ///< the surfaces are of opposite handedness
+    double area_bound = 2;  ///< areas change by at most this factor, measured on the masses (Sec. 3.4)
 };
 
 /// How good the map is in one direction (quality.h).
