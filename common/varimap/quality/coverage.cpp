@@ -34,8 +34,11 @@ double longest_edge(const TriangleMesh& mesh, int f) {
     return longest;
 }
 
-constexpr double sideways = 0.8;      ///< largest |q - c| / |p - c| of a face that is hit
-constexpr double within_face = 0.05;  ///< of its longest edge: always near enough
+/// Largest |q - c| / |p - c| of a face that is hit; chosen by hand: 0 behind the image, 1 beside its rim.
+constexpr double sideways = 0.8;
+/// Of its longest edge: always near enough. One map between two cats covers 0.9943, 0.9958 and 0.9998 by
+/// 0.02, 0.05 and 0.25; all published numbers are by 0.05.
+constexpr double within_face = 0.05;
 
 bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const ClosestPoint& on_image,
             const ClosestPoint& on_target) {

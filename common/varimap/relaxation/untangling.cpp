@@ -24,13 +24,15 @@ struct Round {
     double fold_visits;        ///< bounds the removal of folds (fold_removal.h)
     double last_inverse;       ///< share of the option's inverse_weight in the last step
 };
-constexpr double first_inverse = 0.03;  ///< the same in the first; more would slow both directions down
-/// The first leaves crumpled parts to their replacement.
+/// The same in the first; more would slow both directions down. Swept: 0.01 to 0.1.
+constexpr double first_inverse = 0.03;
+/// The first leaves crumpled parts to their replacement; its e swept: 0.15 to 0.6.
 constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150, 1}}};
-constexpr int reconciliations = 2;
-constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
+constexpr int reconciliations = 2;  ///< swept: 1 to 3
+constexpr double large = 20'000;    ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
-constexpr double least_gain = 1e-5;  ///< share of the energy that a step must win to be followed by another
+/// Share of the energy that a step must win to be followed by another. Swept, same bytes: 1e-6 to 1e-4.
+constexpr double least_gain = 1e-5;
 
 /// Vertices that local sweeps may move: those of a face that holds a landmark would leave it.
 std::vector<int> free_vertices(const SlidingMap& map, VertexData<bool> fixed,

@@ -8,6 +8,13 @@
 
 namespace varimap {
 
+// Where the constants of this room come from. "Swept" over a range: its ends were tried, one constant at a
+// time, on a pair of cats (TOSCA cat0 and cat1, 5'000 vertices), and the maps were as good as before: no
+// flipped triangle, at most 10 that verification.h finds reversed, mean round trips of 0.00145 to 0.00170,
+// coverage of 0.9949 to 0.9974. Rounding alone (another level of optimisation) moves that pair by 0.0010 in
+// coverage, from 0.00154 to 0.00157 in the round trip, and which of its parts are mapped anew. Constants that
+// name neither a range nor a source were chosen by hand on the known pairs and not swept.
+
 struct UntanglingOptions {
     bool enabled = true;
     /// Of relaxation over the whole map, each of two times; fewer from 20'000 vertices on.
