@@ -7,7 +7,7 @@
 #include "stages/explore/params.h"
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"
-#include "stages/remesh/remesh.h"
+#include "stages/relax/relax.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
@@ -49,7 +49,7 @@ DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const 
 
 /// Fills in the quality, measured where both surfaces have the same handedness.
 void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
-    const PointMap onto_A = A.mirrored ? on_reversed_faces(mapped.B_to_A) : mapped.B_to_A;
+    const PointMap onto_A = between_input_and_file(mapped.B_to_A, A);
     mapped.A_to_B_quality = measure(mapped.A_to_B, A.input, B.input);
     mapped.B_to_A_quality = measure(onto_A, B.input, A.input);
     mapped.round_trip = measure_round_trip(mapped.A_to_B, onto_A, A.input, B.input);
@@ -63,7 +63,7 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     const PairContext context(std::move(data_A), std::move(data_B), landmarks, options.landmark_weight);
     const Surface &surface_A = context.A().surface, &surface_B = context.B().surface;
     const Plan plan = solve(context, options);
-    SurfaceMap map = remesh(surface_A, surface_B, plan, read_out(plan, surface_A, surface_B));
+    SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);
     mapped.B_to_A = std::move(map.B_to_A);

@@ -261,7 +261,7 @@ PointMap preview(const Trial& trial, const LevelPair& pair, const PairContext& c
     PointMap map(B.vertex_of_input.size());
     for (size_t v = 0; v < map.size(); ++v)
         if (B.vertex_of_input[v] >= 0) map[v] = A.on_input[image[B.vertex_of_input[v]]];
-    return A.mirrored ? on_reversed_faces(std::move(map)) : map;
+    return between_input_and_file(std::move(map), A);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
+#include "varimap/results/quality_numbers.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
@@ -179,12 +180,25 @@ std::string share_mapped(const PointMap& map) {
     return fmt::format("{} of {} vertices have an image", mapped, map.size());
 }
 
+void visit_untangling(const std::string& name, const UntanglingReport& report, ContentsVisitor& visitor) {
+    visitor.fact(name + ", reversed triangles before and after untangling",
+                 fmt::format("{}, {}", report.flipped_before, report.flipped_after));
+    visitor.fact(name + ", strained parts tried and mapped anew",
+                 fmt::format("{}, {}", report.parts_tried, report.parts_replaced));
+    visitor.fact(name + ", mirrored parts", fmt::format("{}", report.mirrored_parts));
+}
+
 void visit(const SurfaceMap& map, ContentsVisitor& visitor) {
     visitor.fact("A_to_B", share_mapped(map.A_to_B));
     visitor.fact("B_to_A", share_mapped(map.B_to_A));
+    visit_untangling("A_to_B", map.untangling.A_to_B, visitor);
+    visit_untangling("B_to_A", map.untangling.B_to_A, visitor);
     visit_points("A_to_B", map.A_to_B, visitor);
     visit_points("B_to_A", map.B_to_A, visitor);
-    visitor.text("quality.json", map.quality);
+}
+
+void visit(const QualityNumbers& quality, ContentsVisitor& visitor) {
+    visitor.text("quality.json", quality.json);
 }
 
 struct Kind {
@@ -208,8 +222,8 @@ std::pair<const std::string, Kind> kind_of() {
 
 const std::map<std::string, Kind>& kinds() {
     static const std::map<std::string, Kind> table{
-        kind_of<Surface>(),   kind_of<Basis>(), kind_of<Hierarchy>(), kind_of<Candidates>(),
-        kind_of<Diffusion>(), kind_of<Plan>(),  kind_of<SurfaceMap>()};
+        kind_of<Surface>(),   kind_of<Basis>(), kind_of<Hierarchy>(),  kind_of<Candidates>(),
+        kind_of<Diffusion>(), kind_of<Plan>(),  kind_of<SurfaceMap>(), kind_of<QualityNumbers>()};
     return table;
 }
 

@@ -3,13 +3,21 @@
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/remesh.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/results/diffusion.h"
+#include "varimap/results/plan.h"
+#include "varimap/results/quality_numbers.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {
 
 using namespace varimap;
 
-/// Everything but quality.json, which comes last and so tells that the rest is there.
+/// What a plan of varimap-refine and one of varimap-diffuse have in common.
+template <class Solved>
+SolvedPair read_solved(Stage& stage, const std::string& path) {
+    return stage.read<Solved>("plan", path).value;
+}
+
 void export_map(const std::string& folder, const SurfaceMap& map, const SamplePlan& plan, const Surface& A,
                 const Surface& B) {
     std::error_code failure;
@@ -25,50 +33,37 @@ void export_map(const std::string& folder, const SurfaceMap& map, const SamplePl
     write_file_atomically(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
 }
 
-/// What remeshing needs of the artifact of varimap-refine or varimap-diffuse.
-struct ImagesOfPair {
-    SolvedPair pair;
-    VertexMaps images;
-};
-
-template <class Solved>
-ImagesOfPair read_images(Stage& stage, const std::string& path, const Surface& A, const Surface& B) {
-    const Solved solved = stage.read<Solved>("plan", path).value;
-    return {solved, read_out(solved, A, B)};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    RemeshParams params;
-    Stage stage("remesh",
-                "The map in both directions on the input meshes, cross-remeshing and quality numbers");
-    stage.parameters([&](ParameterList& list) { params.describe(list); });
+    Stage stage("remesh", "Tables of the map, cross-remeshed surfaces and quality numbers");
     const std::string& surface_A = stage.input("A.surface", "artifact of varimap-preprocess: the source");
     const std::string& surface_B = stage.input("B.surface", "artifact of varimap-preprocess: the target");
     const std::string& plan_file = stage.input("plan", "artifact of varimap-refine or varimap-diffuse");
-    const std::string& out = stage.output("map", ArtifactType<SurfaceMap>::schema, "artifact to write");
+    const std::string& map_file = stage.input("map", "artifact of varimap-relax");
+    const std::string& out =
+        stage.output("quality", ArtifactType<QualityNumbers>::schema, "artifact to write");
     const std::string& folder =
         stage.option("export",
                      "folder for source_to_target.csv, target_to_source.csv, source_on_target.ply, "
-                     "target_on_source.ply, source_masses.csv, target_masses.csv and quality.json");
-    const auto& runs = stage.list_option("runs", "run files (<artifact>.run.json) for quality.json's stages");
+                     "target_on_source.ply, source_masses.csv and target_masses.csv");
+    const std::string& json_file = stage.option("numbers", "JSON file for the quality numbers");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);
         const auto B = stage.read<Surface>("B.surface", surface_B);
         const Header plan = read_header(plan_file);
-        Stage::require_lineage(plan, plan_file, "A.surface", A.header, surface_A);
-        Stage::require_lineage(plan, plan_file, "B.surface", B.header, surface_B);
-        auto [pair, images] = plan.kind == ArtifactType<Diffusion>::kind
-                                  ? read_images<Diffusion>(stage, plan_file, A.value, B.value)
-                                  : read_images<Plan>(stage, plan_file, A.value, B.value);
-        log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
-        const SurfaceMap map = remesh(A.value, B.value, pair, std::move(images), params);
-        stage.write(out, map);
-        if (folder.empty()) return;
-        export_map(folder, map, pair.plan, A.value, B.value);
-        const std::string own_name = "remesh " + std::filesystem::path(out).stem().string();
-        write_file_atomically(folder + "/quality.json",
-                              with_stages(map.quality, runs, own_name, stage.usage()));
+        const SolvedPair pair = plan.kind == ArtifactType<Diffusion>::kind
+                                    ? read_solved<Diffusion>(stage, plan_file)
+                                    : read_solved<Plan>(stage, plan_file);
+        const auto map = stage.read<SurfaceMap>("map", map_file);
+        Stage::require_lineage(map.header, map_file, "A.surface", A.header, surface_A);
+        Stage::require_lineage(map.header, map_file, "B.surface", B.header, surface_B);
+        Stage::require_lineage(map.header, map_file, "plan", plan, plan_file);
+        require_surfaces(pair, A.value, B.value);
+        require_surfaces(map.value, A.value, B.value);
+        const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
+        if (!folder.empty()) export_map(folder, map.value, pair.plan, A.value, B.value);
+        if (!json_file.empty()) write_file_atomically(json_file, quality.json + "\n");
+        stage.write(out, quality);  // last, so that it tells that the rest is there
     });
 }

@@ -1,7 +1,6 @@
 #include "stages/remesh/quality_json.h"
 
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "varimap/mesh/topology.h"
@@ -140,28 +139,11 @@ void remove_not_finite(Json& json) {
     }
 }
 
-std::string stem(const std::string& run_file) {
-    const std::string name = std::filesystem::path(run_file).filename().string();
-    const std::string artifact = name.substr(0, name.rfind(".run.json"));
-    return std::filesystem::path(artifact).stem().string();
-}
-
-/// Adds the entry of one run file; false if it cannot be read.
-bool add_run(Json& stages, const std::string& path) {
-    if (!std::filesystem::exists(path)) return false;
-    Json run = Json::parse(read_file(path), nullptr, false);
-    if (!run.is_object() || !run.contains("stage") || !run["stage"].is_string()) return false;
-    std::string name = run["stage"].get<std::string>() + " " + stem(path);
-    if (stages.contains(name)) name += " (" + path + ")";
-    run.erase("stage");
-    stages[name] = run;
-    return true;
-}
-
 }  // namespace
 
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
-                         const UntanglingReports& untangling) {
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair) {
+    const PointMap A_to_B = between_input_and_file(map.A_to_B, B),
+                   B_to_A = between_input_and_file(map.B_to_A, A);
     const SamplePlan& plan = pair.plan;
     const PairRecord& record = pair.record;
     Json quality;
@@ -169,35 +151,21 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     quality["area_bound"] = plan.area_bound;
     quality["mass_ratio"] = {{"source", mass_ratios(plan.transported_A, plan.mass_A)},
                              {"target", mass_ratios(plan.transported_B, plan.mass_B)}};
-    quality["landmarks"] = landmark_residuals(map.A_to_B, input_landmarks(record, A, B), A.input, B.input);
+    quality["landmarks"] = landmark_residuals(A_to_B, input_landmarks(record, A, B), A.input, B.input);
     if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
     if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
     if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);
-    quality["source_to_target"] = direction(map.A_to_B, A.input, B.input);
-    quality["target_to_source"] = direction(map.B_to_A, B.input, A.input);
-    quality["source_to_target"]["untangling"] = to_json(untangling.A_to_B);
-    quality["target_to_source"]["untangling"] = to_json(untangling.B_to_A);
-    const RoundTrip round_trip = measure_round_trip(map.A_to_B, map.B_to_A, A.input, B.input);
+    quality["source_to_target"] = direction(A_to_B, A.input, B.input);
+    quality["target_to_source"] = direction(B_to_A, B.input, A.input);
+    quality["source_to_target"]["untangling"] = to_json(map.untangling.A_to_B);
+    quality["target_to_source"]["untangling"] = to_json(map.untangling.B_to_A);
+    const RoundTrip round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     quality["round_trip"] = {{"mean", round_trip.mean}, {"p95", round_trip.p95}};
     quality["source"] = sizes(A);
     quality["target"] = sizes(B);
     quality["levels"] = levels(pair.trace);
     remove_not_finite(quality);
     return quality.dump(2);
-}
-
-std::string with_stages(const std::string& quality, const std::vector<std::string>& run_files,
-                        const std::string& own_name, const Stage::Usage& own) {
-    Json all = Json::parse(quality);
-    Json stages = Json::object();
-    for (const auto& path : run_files)
-        if (!add_run(stages, path)) warn("no run file '{}': quality.json lacks that stage's times", path);
-    stages[own_name] = {{"wall_seconds", own.wall_seconds},
-                        {"cpu_seconds", own.cpu_seconds},
-                        {"peak_megabytes", own.peak_megabytes}};
-    all["stages"] = stages;
-    remove_not_finite(all);
-    return all.dump(2) + "\n";
 }
 
 }  // namespace varimap

@@ -1,13 +1,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "varimap/mesh/surface.h"
-#include "varimap/relaxation/untangling.h"
 #include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
-#include "varimap/stage/stage_main.h"
 
 namespace varimap {
 
@@ -37,14 +34,6 @@ namespace varimap {
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
-                         const UntanglingReports& untangling);
-
-/// The whole quality.json: `quality` and `stages`, one entry for each run file (<artifact>.run.json), named
-/// after the stage and the artifact without its ending ("eigen cat0", "diffuse cat0--dog1"), and one named
-/// `own_name` for this run so far. Entries hold wall_seconds, cpu_seconds, peak_megabytes and what else the
-/// stage recorded. Run files that are missing or unreadable are skipped with a warning.
-std::string with_stages(const std::string& quality, const std::vector<std::string>& run_files,
-                        const std::string& own_name, const Stage::Usage& own);
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
 
 }  // namespace varimap

@@ -1,20 +1,12 @@
 #pragma once
 
-#include "stages/remesh/params.h"
+#include <string>
+#include <vector>
+
 #include "varimap/mesh/surface.h"
-#include "varimap/results/read_out.h"
 #include "varimap/results/surface_map.h"
 
 namespace varimap {
-
-/// The map in both directions on the INPUT meshes (Sec. 5, cross-remeshing): `images` (read_out.h) are those
-/// of the preprocessed surfaces' vertices, of which the input vertices are the first; they go to the input
-/// faces that hold them, where they are untangled (untangling.h). Where bisection made most of the
-/// vertices, the preprocessed surfaces are untangled first: the input alone would be too coarse to find the
-/// way. Points lie on the faces of the mesh files, also where a surface is mirrored. `quality` holds the
-/// deterministic part of quality.json.
-SurfaceMap remesh(const Surface& A, const Surface& B, const SolvedPair& pair, VertexMaps images,
-                  const RemeshParams& params = {});
 
 /// The source's input mesh (faces reversed if one of the two is mirrored, so that they show their outside)
 /// with its vertices moved to their images, in the target's input coordinates. Vertices no face uses have no

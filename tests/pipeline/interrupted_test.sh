@@ -43,12 +43,12 @@ for moment in .1 .4 .8 1.2; do
     wait $front_end 2>/dev/null || true
     [[ -d out ]] || continue  # ended before it began
     find out -name '*.surface' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.candidates' -o -name '*.diffusion' -o -name '*.plan' \
-        -o -name '*.map' | while read -r artifact; do
+        -o -name '*.map' -o -name '*.quality' | while read -r artifact; do
         "$inspect" --check "$artifact" &>/dev/null || fail "$artifact is damaged after an interrupt"
     done
 done
 map a.off b.off -o out
-for artifact in reference/artifacts/*.{surface,basis,hierarchy,candidates,diffusion,plan,map}; do
+for artifact in reference/artifacts/*.{surface,basis,hierarchy,candidates,diffusion,plan,map,quality}; do
     same "$artifact" "out/artifacts/${artifact##*/}"
 done
 

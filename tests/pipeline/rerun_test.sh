@@ -6,9 +6,9 @@ figure a.off 8
 figure b.off 8 .5
 figure c.off 8 -.5
 landmarks_of_figure a.off >tips.txt
-pair="diffuse refine remesh render"
-explored="diffuse explore refine remesh render"
-all="diffuse eigen*2 explore hierarchy*2 preprocess*2 refine remesh render"
+pair="diffuse refine relax remesh render"
+explored="diffuse explore refine relax remesh render"
+all="diffuse eigen*2 explore hierarchy*2 preprocess*2 refine relax remesh render"
 
 step() {  # STAGES ARGUMENTS: maps a onto b in out, and expects what ran
     local expected=$1
@@ -21,21 +21,24 @@ step "$all"
 step ""
 step "" -j 3
 
-step "diffuse eigen*2 explore hierarchy*2 refine remesh render" --set eigen.count=30
-step "refine remesh render" --set eigen.count=30 --set refine.tolerance=0.01
+step "relax remesh render" --set relax.relaxation_steps=3
+step "relax remesh render"
+
+step "diffuse eigen*2 explore hierarchy*2 refine relax remesh render" --set eigen.count=30
+step "refine relax remesh render" --set eigen.count=30 --set refine.tolerance=0.01
 step "render" --set eigen.count=30 --set refine.tolerance=0.01 --set render.width=320
 step "" --set render.width=320 --set refine.tolerance=0.01 --set eigen.count=30
-step "diffuse eigen*2 explore hierarchy*2 refine remesh render"
+step "diffuse eigen*2 explore hierarchy*2 refine relax remesh render"
 
 touch a.off
-step "diffuse eigen explore hierarchy preprocess refine remesh render"
+step "diffuse eigen explore hierarchy preprocess refine relax remesh render"
 # Another mesh of the same name, older than what was made of the first.
 touch -d 2001-01-01 c.off
 mv b.off kept.off
 cp -p c.off b.off
-step "diffuse eigen explore hierarchy preprocess refine remesh render"
+step "diffuse eigen explore hierarchy preprocess refine relax remesh render"
 mv kept.off b.off
-step "diffuse eigen explore hierarchy preprocess refine remesh render"
+step "diffuse eigen explore hierarchy preprocess refine relax remesh render"
 
 step "$pair" --area-bound 1.5
 step "" --set diffuse.area_bound=1.5 --set refine.area_bound=1.5
@@ -58,7 +61,7 @@ step "$pair"
 # Another pair in the same folder shares a; its exports take the place of the first's.
 cp out/source_to_target.csv to_b.csv
 map a.off c.off -o out
-expect_ran "diffuse eigen explore hierarchy preprocess refine remesh render"
+expect_ran "diffuse eigen explore hierarchy preprocess refine relax remesh render"
 cmp -s out/source_to_target.csv to_b.csv && fail "the exports are still those of a and b"
 step "remesh render"
 same out/source_to_target.csv to_b.csv
@@ -69,13 +72,26 @@ expect_ran "remesh render"
 map c.off b.off -o other --artifacts out/artifacts
 expect_ran "$explored"
 map a.off a.off -o self
-expect_ran "diffuse eigen explore hierarchy preprocess refine remesh render"
+expect_ran "diffuse eigen explore hierarchy preprocess refine relax remesh render"
 map a.off a.off -o self --mirror
-expect_ran "diffuse eigen explore hierarchy preprocess refine remesh render"
+expect_ran "diffuse eigen explore hierarchy preprocess refine relax remesh render"
 
-rm out/quality.json
+# The tables are made without relaxing the map again, and quality.json without making the tables again.
+rm out/source_on_target.ply
 step "remesh render"
+cp out/quality.json whole.json
+rm out/quality.json
+step ""
+same <(jq 'del(.stages)' out/quality.json) <(jq 'del(.stages)' whole.json)
+jq -e '.stages | keys == ["diffuse a--b", "eigen a", "eigen b", "explore a--b", "hierarchy a", "hierarchy b", "preprocess a",
+    "preprocess b", "refine a--b", "relax a--b", "remesh a--b"] and all(.wall_seconds > 0)' out/quality.json >/dev/null ||
+    fail "the stages in quality.json"
+echo '{' >out/artifacts/a.basis.run.json
+rm out/quality.json
+step ""
+grep -q "no run file .*a.basis.run.json" log || fail "no word of a run file that cannot be read"
+jq -e '.stages | has("eigen a") | not' out/quality.json >/dev/null || fail "a stage without its run file"
 rm out/artifacts/a--b.plan
-step "refine remesh render"
+step "refine relax remesh render"
 step ""
 [[ $(find out -name '*.tmp*' -o -name '.make.log' -o -name '.exit_code') == "" ]] || fail "left-over files"

@@ -11,6 +11,7 @@
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
+#include "varimap/results/quality_numbers.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/hierarchy.h"
 
@@ -111,8 +112,9 @@ TEST(Inspect, CheckAcceptsEveryKindAndRefusesDamage) {
     write_sample(folder / "A.hierarchy", hierarchy);
     write_sample(folder / "AB.diffusion", small_diffusion());
     write_sample(folder / "AB.plan", small_plan());
-    write_sample(folder / "AB.map", SurfaceMap{{SurfacePoint{0, Vec3(1, 0, 0)}}, {SurfacePoint{}}, "{}"});
-    for (const char* name : {"A.hierarchy", "AB.diffusion", "AB.plan", "AB.map"}) {
+    write_sample(folder / "AB.map", SurfaceMap{{SurfacePoint{0, Vec3(1, 0, 0)}}, {SurfacePoint{}}, {}});
+    write_sample(folder / "AB.quality", QualityNumbers{"{}"});
+    for (const char* name : {"A.hierarchy", "AB.diffusion", "AB.plan", "AB.map", "AB.quality"}) {
         const auto failure = check(folder / name);
         EXPECT_FALSE(failure) << failure->what();
         const std::string bytes = read_file(folder / name);

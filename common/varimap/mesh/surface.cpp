@@ -32,6 +32,10 @@ void require_below(const int* begin, std::size_t count, int least, int limit) {
     require_valid(std::all_of(begin, begin + count, [&](int i) { return least <= i && i < limit; }));
 }
 
+void swap_last_corners(PointMap& points) {
+    for (SurfacePoint& point : points) std::swap(point.barycentric[1], point.barycentric[2]);
+}
+
 }  // namespace
 
 std::string encode(const Surface& surface) {
@@ -52,17 +56,17 @@ void decode(const std::string& payload, Surface& surface) {
     for (const SurfacePoint& point : surface.on_input) require_below(&point.face, 1, 0, input.face_count());
 }
 
-PointMap on_reversed_faces(PointMap points) {
-    for (SurfacePoint& point : points) std::swap(point.barycentric[1], point.barycentric[2]);
-    return points;
-}
-
 Surface with_reversed_orientation(Surface surface) {
     surface.mesh.faces.col(1).swap(surface.mesh.faces.col(2));
     surface.input.faces.col(1).swap(surface.input.faces.col(2));
-    surface.on_input = on_reversed_faces(std::move(surface.on_input));
+    swap_last_corners(surface.on_input);
     surface.mirrored = !surface.mirrored;
     return surface;
+}
+
+PointMap between_input_and_file(PointMap points, const Surface& surface) {
+    if (surface.mirrored) swap_last_corners(points);
+    return points;
 }
 
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {

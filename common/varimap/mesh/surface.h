@@ -37,8 +37,9 @@ void decode(const std::string& payload, Surface& surface);
 /// The surface with the opposite orientation: faces with their last two corners exchanged, `mirrored`
 /// toggled. A map from it that preserves orientation reverses that of the original.
 Surface with_reversed_orientation(Surface surface);
-/// The same points on faces whose last two corners are exchanged.
-PointMap on_reversed_faces(PointMap points);
+/// The same points, from the faces of `surface.input` to those of its mesh file or back: where it is
+/// mirrored, their last two corners are exchanged.
+PointMap between_input_and_file(PointMap points, const Surface& surface);
 
 /// The same point, from a face of `surface.mesh` to the input face that holds it. Coordinates clamped to [0,
 /// 1].

@@ -5,6 +5,7 @@
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/relaxation/mirrored_parts.h"
 #include "varimap/relaxation/part_replacement.h"
+#include "varimap/results/untangling_report.h"
 
 namespace varimap {
 
@@ -32,20 +33,6 @@ struct UntanglingOptions {
     bool align_normals = true;
 };
 
-/// What untangling did; counts and areas by the test of quality.h (n . m <= 0, collapsed included).
-struct UntanglingReport {
-    int flipped_before = 0, flipped_after = 0;
-    double flipped_area_percent_before = 0, flipped_area_percent_after = 0;
-    int global_steps = 0;                     ///< that lowered the energy
-    int sweeps = 0;                           ///< of fold removal
-    int parts_tried = 0, parts_replaced = 0;  ///< see part_replacement.h
-    double replaced_area_percent = 0;         ///< share of the source's area, counted as often as replaced
-    int mirrored_parts = 0;                   ///< left as they are
-    double gated_area_percent = 0;            ///< their share of the source's area
-    int disagreeing_before = 0,
-        disagreeing_after = 0;  ///< faces that cut through a feature (normal_agreement.h)
-};
-
 struct MapPair {
     PointMap A_to_B, B_to_A;
 };
@@ -54,9 +41,6 @@ struct PinnedPair {
     VertexData<bool> A, B;  ///< vertices that stay where they are
     PointPairs points =
         {};  ///< of both meshes, drawn onto each other (soft_constraints.h) rather than pinned
-};
-struct UntanglingReports {
-    UntanglingReport A_to_B, B_to_A;
 };
 
 /// Slides the images of both meshes' vertices on the other mesh until no image triangle is reversed or

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "varimap/mesh/surface.h"
 #include "varimap/results/pair_record.h"
 #include "varimap/results/sample_plan.h"
 #include "varimap/results/trace.h"
@@ -12,5 +13,8 @@ struct SolvedPair {
     Trace trace;  ///< of all levels so far
     PairRecord record;
 };
+
+/// Throws ArtifactError if the pair names vertices or faces that these surfaces lack.
+void require_surfaces(const SolvedPair& pair, const Surface& A, const Surface& B);
 
 }  // namespace varimap

@@ -6,6 +6,7 @@
 
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/error.h"
+#include "varimap/results/checks.h"
 
 namespace varimap {
 
@@ -91,7 +92,7 @@ PackedPointMap pack(const PointMap& map) {
 
 PointMap unpack(const PackedPointMap& packed) {
     if (packed.faces.size() != packed.barycentric.rows())
-        throw ArtifactError("a map artifact has arrays of unequal length; rerun varimap-remesh");
+        throw ArtifactError("a map artifact has arrays of unequal length; rerun varimap-relax");
     PointMap map(std::size_t(packed.faces.size()));
     for (std::size_t i = 0; i < map.size(); ++i)
         map[i] = {packed.faces[Eigen::Index(i)], packed.barycentric.row(Eigen::Index(i)).transpose()};
@@ -100,25 +101,54 @@ PointMap unpack(const PackedPointMap& packed) {
 
 }  // namespace
 
+template <class Archive>
+void serialize(Archive& archive, UntanglingReport& r) {
+    archive(r.flipped_before, r.flipped_after, r.flipped_area_percent_before, r.flipped_area_percent_after,
+            r.global_steps, r.sweeps, r.parts_tried, r.parts_replaced, r.replaced_area_percent,
+            r.mirrored_parts, r.gated_area_percent, r.disagreeing_before, r.disagreeing_after);
+}
+
 /// SurfaceMap as it is archived.
 struct PackedSurfaceMap {
     PackedPointMap A_to_B, B_to_A;
-    std::string quality;
+    UntanglingReports untangling;
 };
 
 template <class Archive>
 void serialize(Archive& archive, PackedSurfaceMap& map) {
-    archive(map.A_to_B, map.B_to_A, map.quality);
+    archive(map.A_to_B, map.B_to_A, map.untangling.A_to_B, map.untangling.B_to_A);
 }
 
+namespace {
+
+bool is_finite(const UntanglingReport& report) {
+    return std::isfinite(report.flipped_area_percent_before) &&
+           std::isfinite(report.flipped_area_percent_after) && std::isfinite(report.replaced_area_percent) &&
+           std::isfinite(report.gated_area_percent);
+}
+
+bool is_between(const PointMap& map, const Surface& source, const Surface& target) {
+    return int(map.size()) == source.input.vertex_count() && are_points(map, target.input.face_count());
+}
+
+}  // namespace
+
 std::string encode(const SurfaceMap& map) {
-    return cereal_encode(PackedSurfaceMap{pack(map.A_to_B), pack(map.B_to_A), map.quality});
+    return cereal_encode(PackedSurfaceMap{pack(map.A_to_B), pack(map.B_to_A), map.untangling});
 }
 
 void decode(const std::string& payload, SurfaceMap& map) {
     PackedSurfaceMap packed;
     cereal_decode(payload, packed);
-    map = {unpack(packed.A_to_B), unpack(packed.B_to_A), std::move(packed.quality)};
+    map = {unpack(packed.A_to_B), unpack(packed.B_to_A), packed.untangling};
+    require<SurfaceMap>(are_points(map.A_to_B) && are_points(map.B_to_A), "points");
+    require<SurfaceMap>(is_finite(map.untangling.A_to_B) && is_finite(map.untangling.B_to_A),
+                        "untangling reports");
+}
+
+void require_surfaces(const SurfaceMap& map, const Surface& A, const Surface& B) {
+    if (!is_between(map.A_to_B, A, B) || !is_between(map.B_to_A, B, A))
+        throw ArtifactError("the map is not one between these surfaces; rerun varimap-relax");
 }
 
 std::string to_csv(const PointMap& map) {

@@ -4,27 +4,32 @@
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
-#include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/results/untangling_report.h"
 
 namespace varimap {
 
-/// The dense map in both directions, between the INPUT meshes: the artifact of varimap-remesh.
+/// The dense map in both directions, between the INPUT meshes: the artifact of varimap-relax.
 /// A_to_B has one row per INPUT vertex of A, in A's order, on INPUT faces of B; face -1 for vertices no face
 /// uses.
 struct SurfaceMap {
     PointMap A_to_B;
     PointMap B_to_A;
-    std::string quality;  ///< the deterministic part of quality.json
+    UntanglingReports untangling;
 };
 
 template <>
 struct ArtifactType<SurfaceMap> {
     static constexpr const char* kind = "map";
-    static constexpr const char* stage = "varimap-remesh";
-    static constexpr int schema = 1;
+    static constexpr const char* stage = "varimap-relax";
+    static constexpr int schema = 2;
 };
 std::string encode(const SurfaceMap& map);
+/// Throws ArtifactError unless points are points and numbers of the reports are finite.
 void decode(const std::string& payload, SurfaceMap& map);
+
+/// Throws ArtifactError if the map is not one between the inputs of these surfaces.
+void require_surfaces(const SurfaceMap& map, const Surface& A, const Surface& B);
 
 /// `vertex,face,b0,b1,b2`, one row per vertex; numbers read back exactly, in any locale.
 std::string to_csv(const PointMap& map);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <locale>
 
 #include "varimap/core/error.h"
+#include "varimap/results/quality_numbers.h"
 
 namespace varimap {
 namespace {
@@ -92,15 +94,43 @@ TEST_F(SurfaceMapFile, RefusesNamingTheLine) {
     expect_refused(header + "0,99999999999,0.25,0.5,0.25\n", "2");
 }
 
+SurfaceMap small_map() {
+    UntanglingReport report;
+    report.flipped_before = 3;
+    report.gated_area_percent = .5;
+    return {awkward_map(), {{1, Vec3(0, 1, 0)}}, {{}, report}};
+}
+
 TEST(SurfaceMapArtifact, DecodesWhatItEncodes) {
-    const SurfaceMap map{awkward_map(), {{1, Vec3(0, 1, 0)}}, "{\"energy\": 1}"};
+    const SurfaceMap map = small_map();
     SurfaceMap again;
     decode(encode(map), again);
     expect_equal(again.A_to_B, map.A_to_B);
     expect_equal(again.B_to_A, map.B_to_A);
-    EXPECT_EQ(again.quality, map.quality);
+    EXPECT_EQ(again.untangling.B_to_A.flipped_before, 3);
+    EXPECT_EQ(again.untangling.B_to_A.gated_area_percent, .5);
     EXPECT_EQ(encode(again), encode(map));
     EXPECT_THROW(decode(encode(map).substr(0, 60), again), ArtifactError);
+}
+
+TEST(SurfaceMapArtifact, RefusesPointsAndNumbersThatCannotBe) {
+    SurfaceMap again, map = small_map();
+    map.A_to_B[0].face = -2;
+    EXPECT_THROW(decode(encode(map), again), ArtifactError);
+    map = small_map();
+    map.A_to_B[0].barycentric = Vec3(.5, .6, 0);
+    EXPECT_THROW(decode(encode(map), again), ArtifactError);
+    map = small_map();
+    map.untangling.A_to_B.replaced_area_percent = std::nan("");
+    EXPECT_THROW(decode(encode(map), again), ArtifactError);
+}
+
+TEST(QualityNumbersArtifact, IsAJsonObject) {
+    QualityNumbers again;
+    decode(encode(QualityNumbers{R"({"energy": 1})"}), again);
+    EXPECT_EQ(again.json, R"({"energy": 1})");
+    EXPECT_THROW(decode("[1]", again), ArtifactError);
+    EXPECT_THROW(decode(R"({"energy": )", again), ArtifactError);
 }
 
 TEST(ImagePositions, KeepTheFallbackWhereThereIsNoImage) {

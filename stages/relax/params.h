@@ -5,7 +5,7 @@
 
 namespace varimap {
 
-struct RemeshParams {
+struct RelaxParams {
     UntanglingOptions untangling;
 
     void describe(ParameterList& list) {
@@ -25,7 +25,8 @@ struct RemeshParams {
         list.add("fold_sweeps", o.fold_sweeps, "sweeps that remove folds, per patch size", 0, 100'000);
         list.add("replace_parts", o.replace_parts,
                  "maps strained parts (mirrored, twisted, crumpled) anew (Sec. 4.4)");
-        list.add("strain", o.parts.strain.excess, "mean excess energy from which on a part is strained", 1e-3, 1e3);
+        list.add("strain", o.parts.strain.excess, "mean excess energy from which on a part is strained", 1e-3,
+                 1e3);
         list.add("align_normals", o.align_normals, "turns triangles that cut through thin features");
         list.add("mirror_area", o.gate.area,
                  "share of the area from which on a mirrored part is left as it is, with a warning", 0, 1);

@@ -1,0 +1,79 @@
+#include "stages/relax/relax.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/sphere_pair.h"
+#include "varimap/quality/quality.h"
+
+namespace varimap {
+namespace {
+
+using shapes::SpherePair;
+
+int flipped(const PointMap& map, const Surface& source, const Surface& target) {
+    return measure_distortion(map, source.input, target.input).flipped_count;
+}
+
+TEST(Relax, MapsInputVerticesToInputFaces) {
+    const SpherePair pair;
+    const SurfaceMap map = pair.as_planned();
+    ASSERT_EQ(int(map.A_to_B.size()), pair.A.input.vertex_count());
+    EXPECT_EQ(map.A_to_B[0].face, -1);
+    for (int v = 1; v < pair.A.input.vertex_count(); ++v) {
+        ASSERT_GE(map.A_to_B[std::size_t(v)].face, 0);
+        EXPECT_LT((position(pair.B.input, map.A_to_B[std::size_t(v)]) - pair.B.input.vertex(v)).norm(),
+                  1e-12);
+        EXPECT_LT((position(pair.A.input, map.B_to_A[std::size_t(v)]) - pair.A.input.vertex(v)).norm(),
+                  1e-12);
+    }
+}
+
+TEST(Relax, PinsLandmarksUnlessTheyAreSoft) {
+    SpherePair pair;
+    pair.plan.record.landmarks = {{{5}, {9}}};  // a wrong one; behind the spare vertex
+    const auto distance = [&] {
+        return (position(pair.B.input, pair.as_planned().A_to_B[6]) - pair.B.input.vertex(10)).norm();
+    };
+    EXPECT_LT(distance(), 1e-12);
+    pair.plan.record.landmark_weight = .5;
+    EXPECT_GT(distance(), .01);
+}
+
+TEST(Relax, DrawsLandmarksThatArePointsOntoEachOther) {
+    SpherePair pair;
+    const SurfacePoint from{3, Vec3(.5, .3, .2)}, to{3, Vec3(.3, .2, .5)};
+    pair.plan.record.landmarks = {{{pair.A.mesh.faces(3, 0)}, {pair.B.mesh.faces(3, 0)}}};
+    pair.plan.record.landmark_points = {{from, to}};
+    const auto residual = [&](const SurfaceMap& map) {
+        return landmark_residuals(map.A_to_B, pair.plan.record.landmark_points, pair.A.input,
+                                  pair.B.input)[0];
+    };
+    const double before = residual(pair.as_planned());
+    EXPECT_GT(before, .02);
+    EXPECT_LT(residual(pair.relaxed()), .3 * before) << "the rest: the triangle lies below the sphere";
+}
+
+TEST(Relax, Untangles) {
+    SpherePair pair;
+    for (int v = 40; v < 60; ++v) pair.plan.centre_A.row(v).swap(pair.plan.centre_A.row(v + 60));
+    pair.make_incomplete();
+    const SurfaceMap tangled = pair.as_planned(), map = pair.relaxed();
+    const int before = flipped(tangled.A_to_B, pair.A, pair.B);
+    EXPECT_GT(before, 50);
+    EXPECT_EQ(tangled.untangling.A_to_B.flipped_after, before);
+    EXPECT_EQ(map.untangling.A_to_B.flipped_before, before);
+    EXPECT_EQ(map.untangling.A_to_B.flipped_after, 0);
+    EXPECT_EQ(flipped(map.A_to_B, pair.A, pair.B), 0);
+    EXPECT_LT((position(pair.B.input, map.A_to_B[6]) - pair.B.input.vertex(6)).norm(), 1e-12) << "landmark";
+}
+
+TEST(Relax, GivesPointsOnTheFacesOfTheFilesOfMirroredSurfaces) {
+    SpherePair pair;
+    const TriangleMesh file = pair.mirror_A();
+    const SurfaceMap map = pair.as_planned();
+    for (int v = 1; v < file.vertex_count(); ++v)
+        EXPECT_LT((position(file, map.B_to_A[std::size_t(v)]) - file.vertex(v)).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace varimap
