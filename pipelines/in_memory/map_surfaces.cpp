@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "stages/diffuse/diffuse.h"
-#include "stages/explore/exploration.h"
+#include "stages/explore/explore.h"
 #include "stages/explore/params.h"
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"

@@ -2,50 +2,51 @@
 
 #include <algorithm>
 
-#include "varimap/multilevel/orientation.h"
-#include "varimap/multilevel/solve_level.h"
+#include "varimap/core/parallel.h"
+#include "varimap/multilevel/descent.h"
 
 namespace varimap {
 
 namespace {
 
+/// From here on maps that differ have different energies; finer levels only cost more. Chosen by hand on the
+/// known pairs, not swept.
 constexpr std::size_t enough_samples = 100;
 
-std::vector<LevelPair> coarse_levels(const PairContext& context) {
-    std::vector<LevelPair> levels;
-    while (int(levels.size()) < context.diffusion_levels() &&
-           (levels.empty() || levels.back().A.level.samples.size() < enough_samples)) {
-        LevelPair pair = context.diffusion_level(int(levels.size()));
-        pair.A.side.landmark_weight = pair.B.side.landmark_weight = 1;
-        levels.push_back(std::move(pair));
-    }
-    return levels;
+using Landmark = VertexPairs<MeshVertex>::value_type;
+
+/// The landmarks of a level, pinned.
+Partners pinned(Partners partners) {
+    partners.weight = 1;
+    return partners;
 }
 
-Solution solve(const std::vector<LevelPair>& levels, const AlternationOptions& options) {
-    Solution solution;
-    for (std::size_t l = 0; l < levels.size(); ++l) {
-        const LevelPair& pair = levels[l];
-        const Start start = l == 0 ? zero_start(pair)
-                                   : hand_down(solution.plan, levels[l - 1].A.level, levels[l - 1].B.level,
-                                               pair, options.support_threshold);
-        AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
-        minimization.start(start.centres, start.kept);
-        minimization.run([](const Alternation&) {});
-        solution = minimization.take_solution();
-    }
-    return solution;
+Partners without(const Landmark& landmark, const LevelPair& level, Partners partners) {
+    partners.row[std::size_t(level.A.level.cell[std::size_t(landmark.first.index)])] = -1;
+    partners.column[std::size_t(level.B.level.cell[std::size_t(landmark.second.index)])] = -1;
+    return partners;
 }
 
-/// Pins a landmark on all levels, or lets it go.
-void set_pinned(std::vector<LevelPair>& levels, const std::pair<MeshVertex, MeshVertex>& landmark,
-                bool pinned) {
-    for (LevelPair& pair : levels) {
-        const int i = pair.A.level.cell[std::size_t(landmark.first.index)],
-                  j = pair.B.level.cell[std::size_t(landmark.second.index)];
-        pair.A.side.partner[i] = pinned ? j : -1;
-        pair.B.side.partner[j] = pinned ? i : -1;
-    }
+/// Coarse maps with the landmarks pinned.
+struct PinnedMaps {
+    Solution all;                   ///< with all landmarks
+    std::vector<Solution> lacking;  ///< per landmark: without it
+};
+
+/// Solves all of them at the level the descent has entered.
+void solve(const Descent& descent, const VertexPairs<MeshVertex>& landmarks, PinnedMaps& maps) {
+    const bool coarsest = maps.lacking.empty();
+    maps.lacking.resize(landmarks.size());
+    const LevelPair& level = descent.level();
+    const Partners partners = pinned(level.partners);
+    const auto solve_one = [&](const Partners& own, Solution& solution) {
+        const Start start = coarsest ? zero_start(level) : descent.hand_down(solution.plan);
+        solution = descent.settled(start, own).take_solution();
+    };
+    solve_one(partners, maps.all);
+    parallel_for_each_index(landmarks.size(), std::size_t(1), [&](std::size_t n) {
+        solve_one(without(landmarks[n], level, partners), maps.lacking[n]);
+    });
 }
 
 double geodesic_distance(int from, int to, const GeodesicGraph& graph) {
@@ -66,22 +67,30 @@ int image(const LevelPair& pair, const Solution& solution, int sample, const Pai
                               context.graph_B());
 }
 
+/// How far along B the map that lacks a landmark takes its vertex of A from its vertex of B.
+double distance_to_partner(const Landmark& landmark, const Solution& lacking, const LevelPair& level,
+                           const PairContext& context) {
+    const int sample = level.A.level.cell[std::size_t(landmark.first.index)];
+    const int there = image(level, lacking, sample, context);
+    return geodesic_distance(landmark.second.index, there, context.graph_B());
+}
+
 }  // namespace
 
 std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const AlternationOptions& options) {
+    const VertexPairs<MeshVertex>& landmarks = context.landmarks();
+    if (landmarks.size() < 2) return {};  // nothing to contradict
+    Descent descent(context, options, {});
+    PinnedMaps maps;
+    int next = 0;
+    do {
+        descent.enter(context.diffusion_level(next++));
+        solve(descent, landmarks, maps);
+    } while (next < context.diffusion_levels() && descent.level().A.level.samples.size() < enough_samples);
     std::vector<LandmarkCheck> checks;
-    if (context.landmarks().size() < 2) return checks;  // nothing to contradict
-    std::vector<LevelPair> levels = coarse_levels(context);
-    const double energy = solve(levels, options).step.energy;
-    for (const auto& landmark : context.landmarks()) {
-        set_pinned(levels, landmark, false);
-        const Solution without = solve(levels, options);
-        const LevelPair& last = levels.back();
-        const int there = image(last, without, last.A.level.cell[std::size_t(landmark.first.index)], context);
-        checks.push_back({geodesic_distance(landmark.second.index, there, context.graph_B()),
-                          1 - without.step.energy / energy});
-        set_pinned(levels, landmark, true);
-    }
+    for (std::size_t n = 0; n < landmarks.size(); ++n)
+        checks.push_back({distance_to_partner(landmarks[n], maps.lacking[n], descent.level(), context),
+                          1 - maps.lacking[n].step.energy / maps.all.step.energy});
     return checks;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "stages/diffuse/check_landmarks.h"
 #include "varimap/core/error.h"
-#include "varimap/multilevel/compared_terms.h"
-#include "varimap/multilevel/solve_level.h"
+#include "varimap/multilevel/descent.h"
+#include "varimap/multilevel/descriptor_terms.h"
+#include "varimap/multilevel/sparse_plan.h"
 #include "varimap/multilevel/vertex_images.h"
 
 namespace varimap {
@@ -39,80 +39,58 @@ Centres wasserstein_centres(const LevelPair& pair, const PairContext& context,
 
 /// Coarsest level: the full plan, from centres at the origin unless the surfaces are aligned.
 Start coarsest_start(const LevelPair& pair, const PairContext& context, const DiffuseParams& params) {
-    Start start = zero_start(pair);
-    if (params.start == "wasserstein") {
-        start.centres = wasserstein_centres(pair, context, params.alternation);
-        pull_landmarks(pair.A.side, pair.B.side, start.centres);
-    }
-    return start;
+    if (params.start == FirstCentres::zero) return zero_start(pair);
+    return {wasserstein_centres(pair, context, params.alternation), {}};
+}
+
+LevelPair level_with_terms(int index, const PairContext& context, const DiffuseParams& params) {
+    LevelPair pair = context.diffusion_level(index);
+    if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
+    add_shape_term(pair, context, params.shape_weight);
+    return pair;
+}
+
+Coupling chosen_plan(const Candidates& candidates, int number) {
+    if (number > int(candidates.plans.size()))
+        throw UsageError(
+            fmt::format("candidate {}: varimap-explore found {}", number, candidates.plans.size()));
+    return to_coupling(candidates.plans[size_t(number - 1)]);
 }
 
 Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const PairContext& context) {
     Diffusion diffusion;
-    SamplePlan& plan = diffusion.plan;
-    plan.samples_A = pair.A.level.samples;
-    plan.samples_B = pair.B.level.samples;
-    plan.mass_A = pair.A.side.mass;
-    plan.mass_B = pair.B.side.mass;
-    plan.transported_A = row_sums(solution.plan);
-    plan.transported_B = column_sums(solution.plan);
-    plan.entries = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
-    diffusion.image_vertex_A =
-        vertex_images(pair.A, pair.B, solution.step.row_image, plan.entries, context.graph_B());
+    diffusion.image_vertex_A = vertex_images(pair.A, pair.B, solution.step.row_image,
+                                             largest_of_rows(solution.plan), context.graph_B());
     diffusion.image_vertex_B = vertex_images(pair.B, pair.A, solution.step.column_image,
-                                             plan.entries.transpose(), context.graph_A());
+                                             largest_of_columns(solution.plan), context.graph_A());
     diffusion.record.landmarks = context.landmarks();
     diffusion.record.landmark_weight = context.landmark_weight();
     return diffusion;
-}
-
-/// Where the levels go on: a solved level and the index of the next.
-struct Solved {
-    LevelPair pair;
-    Coupling plan;
-    int next = 0;
-};
-
-Solved chosen_candidate(const PairContext& context, const Candidates& candidates, int number) {
-    if (number > int(candidates.plans.size()))
-        throw UsageError(
-            fmt::format("candidate {}: varimap-explore found {}", number, candidates.plans.size()));
-    for (int l = 0; l < context.diffusion_levels(); ++l) {
-        LevelPair pair = context.diffusion_level(l);
-        if (pair.A.level.samples == candidates.samples_A && pair.B.level.samples == candidates.samples_B)
-            return {std::move(pair), to_coupling(candidates.plans[number - 1]), l + 1};
-    }
-    throw ArtifactError(
-        "the candidates' samples are not those of a level of these hierarchies; rerun varimap-explore");
 }
 
 }  // namespace
 
 Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
                   const std::optional<Candidates>& candidates) {
-    const int levels =
-        params.levels > 0 ? std::min(params.levels, context.diffusion_levels()) : context.diffusion_levels();
-    Trace trace;
-    Solved coarse;
-    if (candidates) coarse = chosen_candidate(context, *candidates, params.candidate);
+    const int all = context.diffusion_levels();
+    const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
+    TracedDescent descent(context, params.alternation, params.ironing);
     Solution solution;
-    const FeatureTerm features(context, params.feature_weight);
-    // At least one level: a candidate on the last one is solved there once more.
-    for (int l = std::min(coarse.next, levels - 1); l < levels; ++l) {
-        LevelPair pair = context.diffusion_level(l);
-        if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
-        features.add_to(pair);
-        const Start start = l == 0 && !candidates
-                                ? coarsest_start(pair, context, params)
-                                : hand_down(coarse.plan, coarse.pair.A.level, coarse.pair.B.level, pair,
-                                            params.alternation.support_threshold);
-        solution =
-            solve_level(context, pair, start, l, params.alternation, params.ironing, l + 1 == levels, trace);
-        coarse = {std::move(pair), solution.plan, l + 1};
+    int first = 0;
+    if (candidates) {
+        solution.plan = chosen_plan(*candidates, params.candidate);
+        const int found = descent.resume(candidates->samples_A, candidates->samples_B, "varimap-explore");
+        first = std::min(found + 1, levels - 1);  // a candidate on the last level is solved there once more
     }
-    Diffusion diffusion = to_diffusion(coarse.pair, solution, context);
-    diffusion.plan.area_bound = params.alternation.area_bound;
-    diffusion.trace = std::move(trace);
+    for (int l = first; l < levels; ++l) {
+        descent.enter(level_with_terms(l, context, params));
+        const Start start = l == 0 && !candidates ? coarsest_start(descent.level(), context, params)
+                                                  : descent.hand_down(solution.plan);
+        solution = descent.solve(start, {.index = l, .last = l + 1 == levels});
+    }
+    Diffusion diffusion = to_diffusion(descent.level(), solution, context);
+    diffusion.plan = to_sample_plan(descent.level(), solution.plan, params.alternation.area_bound);
+    diffusion.trace = descent.take_trace();
     if (params.check_landmarks)
         diffusion.record.landmark_checks = check_landmarks(context, params.alternation);
     if (candidates) {

@@ -30,11 +30,10 @@ double agreement(const LevelSide& from, const Eigen::VectorXd& here, const Eigen
 }  // namespace
 
 double bending_agreement(const LevelPair& pair, const Eigen::VectorXd& bending_A,
-                         const Eigen::VectorXd& bending_B, const Orientation& A_to_B,
-                         const Orientation& B_to_A) {
-    if (A_to_B.image_vertex.empty()) return 0;  // too few samples for images
-    return (agreement(pair.A, bending_A, bending_B, A_to_B.image_vertex) +
-            agreement(pair.B, bending_B, bending_A, B_to_A.image_vertex)) /
+                         const Eigen::VectorXd& bending_B, const PairOrientation& map) {
+    if (map.A_to_B.image_vertex.empty()) return 0;  // too few samples for images
+    return (agreement(pair.A, bending_A, bending_B, map.A_to_B.image_vertex) +
+            agreement(pair.B, bending_B, bending_A, map.B_to_A.image_vertex)) /
            2;
 }
 

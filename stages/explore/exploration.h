@@ -3,10 +3,8 @@
 #include <random>
 #include <vector>
 
-#include "varimap/multilevel/ironing.h"
-#include "varimap/multilevel/level_transfer.h"
-#include "varimap/multilevel/pair_context.h"
-#include "varimap/results/candidates.h"
+#include "stages/explore/starts.h"
+#include "varimap/multilevel/descent.h"
 
 namespace varimap {
 
@@ -15,7 +13,7 @@ namespace varimap {
 /// (successive halving), with duplicates removed and the images of extremities exchanged on the way. The last
 /// few are ranked by their energies on the last diffusion level and on the first Euclidean level together,
 /// and by how well bending agrees, which tells near-symmetries that energy only just does: a person turned
-/// about.
+/// about. Defaults were chosen by hand on the known pairs, not swept.
 struct ExplorationOptions {
     int random_starts = 16;  ///< at each of the three coarsest levels worth it
     int seed = 1;
@@ -43,7 +41,7 @@ class Exploration {
     /// Distinct maps at the last diffusion level, the best first, mirrored ones last.
     std::vector<Trial> run();
     /// The level pair they live on.
-    const LevelPair& last_level() const { return level_; }
+    const LevelPair& last_level() const { return descent_.level(); }
     /// log E_diffusion + exponent log E_euclidean - weight bending agreement.
     double score(const Trial& trial) const;
 
@@ -51,30 +49,19 @@ class Exploration {
     void enter(int level);
     void add_starts();
     void add_swaps(int best);
-    void prune(int keep);
+    void prune();
+    void log_pool(int level) const;
     void measure_finalists();
-    Solution solve(const Start& start) const;
     Trial tried(const Start& start, bool ironed) const;
     void try_all(const std::vector<Start>& starts, bool ironed = true);
-    int samples() const;
 
     const PairContext& context_;
     ExplorationOptions options_;
     AlternationOptions alternation_;
-    IroningOptions ironing_;
+    Descent descent_;  ///< at the level where the pool is
     std::mt19937 random_;
-    LevelPair level_;        ///< where the pool is
-    LevelPair extremities_;  ///< the coarse level whose samples are exchanged
+    Levels extremities_;  ///< the coarse level whose samples are exchanged
     std::vector<Trial> pool_;
 };
-
-/// What there is to say about the maps an exploration found, for each.
-std::vector<Candidate> describe(const Exploration& exploration, const std::vector<Trial>& trials,
-                                const PairContext& context);
-
-/// Explores, sums the plans over the cells of a coarse level: coarse enough that varimap-diffuse can relax
-/// marginals from there on.
-Candidates explore(const PairContext& context, const ExplorationOptions& options,
-                   const AlternationOptions& alternation, const IroningOptions& ironing);
 
 }  // namespace varimap

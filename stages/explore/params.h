@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stages/explore/exploration.h"
+#include "stages/explore/explore.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {

@@ -84,13 +84,12 @@ Centres centres_of(const LevelPair& pair, const Matching& matching) {
     centres.row = pair.A.side.averaging * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
     centres.column =
         pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
-    pull_landmarks(pair.A.side, pair.B.side, centres);
     return centres;
 }
 
-Coupling coarsened(const Coupling& plan, const LevelPair& fine, const LevelPair& coarse) {
-    const auto row = parents(fine.A.level, coarse.A.level), column = parents(fine.B.level, coarse.B.level);
-    const int rows = int(coarse.A.level.samples.size()), columns = int(coarse.B.level.samples.size());
+Coupling coarsened(const Coupling& plan, const LevelPair& fine, const Levels& coarse) {
+    const auto row = parents(fine.A.level, coarse.A), column = parents(fine.B.level, coarse.B);
+    const int rows = int(coarse.A.samples.size()), columns = int(coarse.B.samples.size());
     Coupling sum{Support::dense(rows, columns), Eigen::VectorXd::Zero(Eigen::Index(rows) * columns),
                  Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(columns)};
     for (int i = 0; i < plan.support.rows(); ++i)

@@ -19,11 +19,11 @@ std::vector<Matching> spectral_matchings(const PairContext& context, const Level
 /// Each sample with a random one.
 std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random);
 
-/// Centres at the mean of the matched samples, smoothed by W, landmarks pinned.
+/// Centres at the mean of the matched samples, smoothed by W.
 Centres centres_of(const LevelPair& pair, const Matching& matching);
 
 /// The plan between coarser samples: sums over their cells.
-Coupling coarsened(const Coupling& plan, const LevelPair& fine, const LevelPair& coarse);
+Coupling coarsened(const Coupling& plan, const LevelPair& fine, const Levels& coarse);
 
 /// The plan with what it says of two rows exchanged, for every pair of its first `count` rows. Samples come
 /// farthest first, so the first ones of a coarse level lie at extremities, which a wrong map exchanges.

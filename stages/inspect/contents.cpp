@@ -67,6 +67,8 @@ void visit(const Hierarchy& hierarchy, ContentsVisitor& visitor) {
     }
     for (std::size_t i = 0; i < hierarchy.levels.size(); ++i)
         visit(hierarchy.levels[i], fmt::format("level_{:02}", i), visitor);
+    visitor.array("shape_descriptors", view(hierarchy.shape.descriptors));
+    visitor.array("bending", view(hierarchy.shape.bending));
 }
 
 std::string trace_csv(const Trace& trace) {

@@ -3,38 +3,33 @@
 #include <algorithm>
 
 #include "varimap/core/error.h"
-#include "varimap/multilevel/compared_terms.h"
-#include "varimap/multilevel/solve_level.h"
+#include "varimap/multilevel/descent.h"
+#include "varimap/multilevel/descriptor_terms.h"
+#include "varimap/multilevel/sparse_plan.h"
 
 namespace varimap {
 
 namespace {
 
-/// The level that the diffusion plan lives on, rebuilt from its samples (cells are all a level switch needs).
-LevelPair diffusion_levels_of(const PairContext& context, const SamplePlan& diffusion) {
-    for (int l = context.diffusion_levels() - 1; l >= 0; --l) {
-        LevelPair pair = context.diffusion_level(l);
-        if (pair.A.level.samples == diffusion.samples_A && pair.B.level.samples == diffusion.samples_B)
-            return pair;
-    }
-    throw ArtifactError(
-        "the diffusion plan's samples are not those of a level of these hierarchies; rerun varimap-diffuse");
+LevelPair level_with_terms(int index, const PairContext& context, const RefineParams& params) {
+    const bool last = index + 1 == context.euclidean_levels();
+    LevelPair pair = context.euclidean_level(index, last ? params.last_metric_weight : params.metric_weight);
+    add_shape_term(pair, context, params.shape_weight);
+    return pair;
+}
+
+/// Stopped early, a plan is spread to every vertex as a level switch would do it.
+Centres spread(const Coupling& plan, TracedDescent& descent, const PairContext& context,
+               const RefineParams& params) {
+    descent.enter(context.euclidean_level(context.euclidean_levels() - 1, params.last_metric_weight));
+    const LevelPair& level = descent.level();
+    Centres centres = descent.hand_down(plan).centres;
+    pull_landmarks(level.A.side, level.B.side, level.partners, centres);
+    return centres;
 }
 
 Points space_part(const RowMatrix& centres) {
     return centres.leftCols<3>();
-}
-
-SamplePlan to_plan(const LevelPair& pair, const Solution& solution) {
-    SamplePlan plan;
-    plan.samples_A = pair.A.level.samples;
-    plan.samples_B = pair.B.level.samples;
-    plan.mass_A = pair.A.side.mass;
-    plan.mass_B = pair.B.side.mass;
-    plan.transported_A = row_sums(solution.plan);
-    plan.transported_B = column_sums(solution.plan);
-    plan.entries = to_matrix(solution.plan, plan.mass_A, plan.mass_B);
-    return plan;
 }
 
 }  // namespace
@@ -42,40 +37,28 @@ SamplePlan to_plan(const LevelPair& pair, const Solution& solution) {
 Plan refine(const PairContext& context, const Diffusion& diffusion, const RefineParams& params) {
     const int all = context.euclidean_levels();
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
-    Trace trace = diffusion.trace;
-    const int first_index = trace.empty() ? 0 : trace.back().level + 1;
-
-    LevelPair coarse = diffusion_levels_of(context, diffusion.plan);
-    const FeatureTerm features(context, params.feature_weight);
+    const int first_index = diffusion.trace.empty() ? 0 : diffusion.trace.back().level + 1;
+    TracedDescent descent(context, params.alternation, params.ironing, diffusion.trace);
+    descent.resume(diffusion.plan.samples_A, diffusion.plan.samples_B, "varimap-diffuse");
     Solution solution;
     solution.plan = to_coupling(diffusion.plan.entries);
     for (int l = 0; l < levels; ++l) {
-        LevelPair pair =
-            context.euclidean_level(l, l + 1 == all ? params.last_metric_weight : params.metric_weight);
-        features.add_to(pair);
-        const Start start = hand_down(solution.plan, coarse.A.level, coarse.B.level, pair,
-                                      params.alternation.support_threshold);
-        IroningOptions ironing = params.ironing;
-        ironing.enabled &= l + 1 < all;  // neighbourhoods of the last level are too small to move a patch
-        solution = solve_level(context, pair, start, first_index + l, params.alternation, ironing,
-                               l + 1 == levels, trace);
-        coarse = std::move(pair);
+        descent.enter(level_with_terms(l, context, params));
+        solution = descent.solve(descent.hand_down(solution.plan),
+                                 {.index = first_index + l,
+                                  // Neighbourhoods of the last level are too small to move a patch.
+                                  .ironed = l + 1 < all,
+                                  .last = l + 1 == levels});
     }
     Plan plan;
-    plan.plan = to_plan(coarse, solution);
-    plan.plan.area_bound = params.alternation.area_bound;
-    // Stopped early, the plan is spread to every vertex as a level switch would do it.
-    const Centres centres = levels == all
-                                ? solution.step.centres
-                                : hand_down(solution.plan, coarse.A.level, coarse.B.level,
-                                            context.euclidean_level(all - 1, params.last_metric_weight),
-                                            params.alternation.support_threshold)
-                                      .centres;
+    plan.plan = to_sample_plan(descent.level(), solution.plan, params.alternation.area_bound);
+    const Centres centres =
+        levels == all ? solution.step.centres : spread(solution.plan, descent, context, params);
     plan.centre_A = space_part(centres.row);
     plan.centre_B = space_part(centres.column);
     if (!plan.centre_A.allFinite() || !plan.centre_B.allFinite())
         throw ConvergenceError("centres are not finite; rerun varimap-refine with a larger gamma");
-    plan.trace = std::move(trace);
+    plan.trace = descent.take_trace();
     plan.record = diffusion.record;
     return plan;
 }

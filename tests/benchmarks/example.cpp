@@ -15,11 +15,12 @@ Example make_example(int vertices) {
     const SurfaceData data =
         shapes::surface_data(shapes::unit_surface(shapes::tube(2 * around, around, true)), 30);
     const RowMatrix points = data.surface.mesh.vertices;
-    const LevelSide side = make_level_side(data.hierarchy.levels.back(), points, data.surface.mass);
+    const LevelSide side = make_level_side(data.hierarchy.levels.back(), points, data.surface.mass,
+                                           data.hierarchy.options.truncation);
     std::vector<std::vector<int>> identity;
     for (int v = 0; v < data.surface.mesh.vertex_count(); ++v) identity.push_back({v});
     const RowMatrix centres = side.side.averaging * points;
-    Example example{{side, side},
+    Example example{{side, side, {}},
                     GeodesicGraph(data.surface.mesh),
                     data.surface.mesh,
                     {centres, centres},

@@ -10,7 +10,7 @@ namespace {
 /// Cells grow in straight distances. Items: vertices; half of them become samples.
 void sampling(benchmark::State& state) {
     const Example& e = example(int(state.range(0)));
-    const FarthestPointSampling::Grow grow = [&](int sample, const FarthestPointSampling::Claim& claim) {
+    const auto grow = [&](int sample, const auto& claim) {
         std::vector<int> queue;
         if (claim(sample, 0)) queue.push_back(sample);
         for (std::size_t head = 0; head < queue.size(); ++head)

@@ -85,7 +85,7 @@ TEST(Diffuse, TellsSymmetriesOfAlignedSurfacesApartByWassersteinDistance) {
     const KnownPair pair = ellipsoids({});
     DiffuseParams params;
     EXPECT_GT(mean_error(diffuse(pair.context(), params), pair), .1);
-    params.start = "wasserstein";
+    params.start = FirstCentres::wasserstein;
     params.wasserstein_weight = .1;
     EXPECT_LT(mean_error(diffuse(pair.context(), params), pair), .02);  // measured .0141
 }

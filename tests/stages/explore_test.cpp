@@ -9,7 +9,6 @@
 #include "stages/explore/bending_agreement.h"
 #include "stages/explore/params.h"
 #include "stages/explore/starts.h"
-#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 namespace {
@@ -94,13 +93,13 @@ TEST(Explore, PreviewsMapsWhereItIsNotSure) {
 TEST(Bending, AgreesWithItselfAlone) {
     const PairContext context = figures().context();
     const LevelPair pair = context.diffusion_level(6);
-    const Eigen::VectorXd height = bending(context.A(), 4e-3);
+    const Eigen::VectorXd& height = context.A().hierarchy.shape.bending;
     Orientation identity, reversed;
     identity.image_vertex = reversed.image_vertex = pair.A.level.samples;
     std::reverse(reversed.image_vertex.begin(), reversed.image_vertex.end());
-    const LevelPair self{pair.A, pair.A};
-    EXPECT_NEAR(bending_agreement(self, height, height, identity, identity), 1, 1e-12);
-    EXPECT_LT(bending_agreement(self, height, height, reversed, reversed), .5);
+    const LevelPair self{pair.A, pair.A, {}};
+    EXPECT_NEAR(bending_agreement(self, height, height, {identity, identity}), 1, 1e-12);
+    EXPECT_LT(bending_agreement(self, height, height, {reversed, reversed}), .5);
 }
 
 TEST(Starts, SpectralMatchingsHoldTheTrueOne) {

@@ -74,7 +74,7 @@ TEST(Refine, KeepsTheAreaBoundInBothStages) {
     const KnownPair pair = known_pair(shapes::ellipsoid(3, {1, 1.5, 2.2}), shapes::ellipsoid(3, {1, 1, 3}),
                                       {}, 60, {{0, 0, 2.2}, {0, 1.5, 0}, {1, 0, 0}});
     const PairContext context = pair.context();
-    for (const char* energy : {"transported", "paper"})
+    for (const AreaEnergy energy : {AreaEnergy::transported, AreaEnergy::paper})
         for (const double bound : {1., 1.2}) {
             DiffuseParams coarse_params;
             RefineParams params;

@@ -1,5 +1,7 @@
 #include "varimap/multilevel/ironing.h"
 
+#include <algorithm>
+
 #include "varimap/core/log.h"
 #include "varimap/mesh/ray_mesh.h"
 #include "varimap/multilevel/reanchoring.h"
@@ -8,36 +10,11 @@ namespace varimap {
 
 namespace {
 
-/// Per line (row or column) of a plan: the other side's vertex of the largest entry. `entry(e)` gives an
-/// entry's value and its sample on the other side.
-template <class Entry>
-std::vector<int> best_vertices(const std::vector<int>& begin, const std::vector<int>& other_samples,
-                               const Entry& entry) {
-    std::vector<int> best(begin.size() - 1, other_samples[0]);
-    for (size_t line = 0; line < best.size(); ++line) {
-        double largest = -1;
-        for (int e = begin[line]; e < begin[line + 1]; ++e)
-            if (const auto [value, sample] = entry(e); value > largest)
-                largest = value, best[line] = other_samples[sample];
-    }
-    return best;
-}
-
-std::vector<int> best_of_rows(const Coupling& plan, const std::vector<int>& column_samples) {
-    return best_vertices(plan.support.row_begin, column_samples,
-                         [&](int e) { return std::pair(plan.value[e], plan.support.column[e]); });
-}
-
-std::vector<int> best_of_columns(const Coupling& plan, const std::vector<int>& row_samples) {
-    return best_vertices(plan.support.column_begin, row_samples, [&](int e) {
-        return std::pair(plan.value[plan.support.by_row[e]], plan.support.row[e]);
-    });
-}
-
 /// Where the inward normal of a vertex leaves the surface on the other side: the nearest vertex there.
 class Antipodes {
   public:
-    explicit Antipodes(const TriangleMesh& mesh) : mesh_(mesh), normals_(vertex_normals(mesh)), rays_(mesh) {}
+    explicit Antipodes(const OrientedSurface& surface, const TriangleMesh& mesh)
+        : mesh_(mesh), normals_(surface.normals), rays_(mesh) {}
 
     int of(int vertex) const {
         constexpr double lift = 1e-4;  // units of sqrt(area): past the faces around the vertex itself
@@ -51,147 +28,186 @@ class Antipodes {
 
   private:
     const TriangleMesh& mesh_;
-    Points normals_;
+    const Points& normals_;
     RayMesh rays_;
 };
 
-SparseMatrix damped(const SparseMatrix& weights, const Orientation& orientation, double omega) {
-    Eigen::VectorXd factor(weights.cols());
-    for (int i = 0; i < factor.size(); ++i) factor[i] = orientation.determinant[i] < 0 ? omega : 1.0;
-    return weights * factor.asDiagonal();
+Eigen::VectorXd damping(const Orientation& orientation, double omega) {
+    Eigen::VectorXd factor(Eigen::Index(orientation.determinant.size()));
+    for (Eigen::Index i = 0; i < factor.size(); ++i)
+        factor[i] = orientation.determinant[size_t(i)] < 0 ? omega : 1.0;
+    return factor;
 }
+
+/// Reversed parts of both sides that are heavy enough to be placed anew.
+struct ReversedParts {
+    std::vector<ReversedPart> A, B;
+    bool empty() const { return A.empty() && B.empty(); }
+};
 
 }  // namespace
 
-Ironing::Ironing(const PairContext& context, LevelPair& pair, const IroningOptions& options)
-    : context_(context),
-      pair_(pair),
-      options_(options),
-      oriented_A_(context.A().surface.mesh),
-      oriented_B_(context.B().surface.mesh) {}
+/// The ironing of one map at one level.
+class Ironing::Run {
+  public:
+    Run(const Ironing& ironing, const LevelPair& level, AlternatingMinimization& minimization,
+        const Observer& observe)
+        : ironing_(ironing),
+          options_(ironing.options_),
+          level_(level),
+          minimization_(minimization),
+          observe_(observe),
+          orientation_(measured()) {}
 
-PairOrientation Ironing::measure(const Solution& solution) const {
-    return {
-        measure_orientation(pair_.A, oriented_A_, pair_.B, oriented_B_, context_.graph_B(),
-                            solution.step.centres.row, best_of_rows(solution.plan, pair_.B.level.samples)),
-        measure_orientation(pair_.B, oriented_B_, pair_.A, oriented_A_, context_.graph_A(),
-                            solution.step.centres.column,
-                            best_of_columns(solution.plan, pair_.A.level.samples))};
+    void reflect();
+    void damp();
+    void reanchor();
+    PairOrientation take_orientation() { return std::move(orientation_); }
+
+  private:
+    PairOrientation measured() const { return ironing_.measure(level_, minimization_.solution()); }
+    Centres reflected_centres() const;
+    Start reanchored(const ReversedParts& parts) const;
+    double adopt_if_better(AlternatingMinimization& trial);
+
+    const Ironing& ironing_;
+    const IroningOptions& options_;
+    const LevelPair& level_;
+    AlternatingMinimization& minimization_;
+    const Observer& observe_;
+    PairOrientation orientation_;  ///< of the minimisation's solution
+};
+
+/// Goes on from where a trial has ended if less mass is reversed there. Returns how much is.
+double Ironing::Run::adopt_if_better(AlternatingMinimization& trial) {
+    PairOrientation after = ironing_.measure(level_, trial.solution());
+    const double reversed = after.reversed_mass();
+    if (reversed < orientation_.reversed_mass()) {
+        minimization_.adopt(trial.take_solution());
+        orientation_ = std::move(after);
+    }
+    return reversed;
 }
 
-Centres Ironing::reflected_centres(const PairOrientation& orientation, const Centres& centres) const {
+Centres Ironing::Run::reflected_centres() const {
     // g = antipode . f and g^-1 = f^-1 . antipode.
-    const Antipodes antipodes(context_.B().surface.mesh);
+    const Antipodes antipodes(ironing_.oriented_B_, ironing_.context_.B().surface.mesh);
+    const Centres& centres = minimization_.solution().step.centres;
+    const Level& level_B = level_.B.level;
     Centres reflected = centres;
     for (Eigen::Index k = 0; k < centres.row.rows(); ++k)
-        reflected.row.row(k) = pair_.B.vertex_points.row(antipodes.of(orientation.A_to_B.image_vertex[k]));
+        reflected.row.row(k) =
+            level_.B.vertex_points.row(antipodes.of(orientation_.A_to_B.image_vertex[size_t(k)]));
     for (Eigen::Index l = 0; l < centres.column.rows(); ++l) {
-        const int opposite = antipodes.of(pair_.B.level.samples[l]);
-        reflected.column.row(l) = centres.column.row(pair_.B.level.cell[opposite]);
+        const int opposite = antipodes.of(level_B.samples[size_t(l)]);
+        reflected.column.row(l) = centres.column.row(level_B.cell[size_t(opposite)]);
     }
-    reflected.row = pair_.A.side.averaging * reflected.row;
-    reflected.column = pair_.B.side.averaging * reflected.column;
-    pull_landmarks(pair_.A.side, pair_.B.side, reflected);
+    reflected.row = level_.A.side.averaging * reflected.row;
+    reflected.column = level_.B.side.averaging * reflected.column;
     return reflected;
 }
 
-void Ironing::reflect(AlternatingMinimization& minimization,
-                      const std::function<void(const Alternation&)>& observe) {
-    const PairOrientation before = measure(minimization.solution());
-    if (before.reversed_mass() <= options_.reflected_mass) return;
-    AlternatingMinimization trial(pair_.A.side, pair_.B.side, minimization.options());
-    trial.start(reflected_centres(before, minimization.solution().step.centres), {});
-    trial.run(observe);
-    const double after = measure(trial.solution()).reversed_mass();
-    log("reflected a map that reversed {:.1f}% of the mass: now {:.1f}%", 100 * before.reversed_mass(),
-        100 * after);
-    if (after < before.reversed_mass()) minimization.adopt(trial.take_solution());
+void Ironing::Run::reflect() {
+    const double before = orientation_.reversed_mass();
+    if (before <= options_.reflected_mass) return;
+    AlternatingMinimization trial = minimization_.another();
+    trial.start(reflected_centres(), {});
+    trial.run(observe_);
+    const double after = adopt_if_better(trial);
+    log("reflected a map that reversed {:.1f}% of the mass: now {:.1f}%", 100 * before, 100 * after);
 }
 
-void Ironing::set_weights(const PairOrientation& orientation) {
-    pair_.A.side.averaging = averaging_operator(
-        damped(pair_.A.side.weights, orientation.A_to_B, options_.omega), pair_.A.side.mass);
-    pair_.B.side.averaging = averaging_operator(
-        damped(pair_.B.side.weights, orientation.B_to_A, options_.omega), pair_.B.side.mass);
-}
-
-void Ironing::restore_weights() {
-    pair_.A.side.averaging = averaging_operator(pair_.A.side.weights, pair_.A.side.mass);
-    pair_.B.side.averaging = averaging_operator(pair_.B.side.weights, pair_.B.side.mass);
-}
-
-void Ironing::damp(AlternatingMinimization& minimization,
-                   const std::function<void(const Alternation&)>& observe) {
-    PairOrientation orientation = measure(minimization.solution());
-    const double before = orientation.reversed_mass();
+void Ironing::Run::damp() {
+    constexpr double progress = 0.95;  // of the least mass so far: less counts as a stall
+    const double before = orientation_.reversed_mass();
     double least = before;
     int round = 0, stalled = 0;
     while (round < options_.maximum_rounds && stalled < options_.patience &&
-           orientation.reversed_mass() > options_.tolerated_mass) {
-        set_weights(orientation);
-        observe(minimization.step());
-        orientation = measure(minimization.solution());
-        stalled = orientation.reversed_mass() < 0.95 * least ? 0 : stalled + 1;
-        least = std::min(least, orientation.reversed_mass());
+           orientation_.reversed_mass() > options_.tolerated_mass) {
+        minimization_.set_damping(Damping{damping(orientation_.A_to_B, options_.omega),
+                                          damping(orientation_.B_to_A, options_.omega)});
+        observe_(minimization_.step());
+        orientation_ = measured();
+        stalled = orientation_.reversed_mass() < progress * least ? 0 : stalled + 1;
+        least = std::min(least, orientation_.reversed_mass());
         ++round;
     }
     if (round == 0) return;
-    restore_weights();
-    minimization.run(observe);
+    const double damped = orientation_.reversed_mass();
+    minimization_.set_damping({});
+    minimization_.run(observe_);
+    orientation_ = measured();
     log("ironed {} rounds: {:.2f}% of the mass reversed before, {:.2f}% after, {:.2f}% with full weights",
-        round, 100 * before, 100 * orientation.reversed_mass(),
-        100 * measure(minimization.solution()).reversed_mass());
+        round, 100 * before, 100 * damped, 100 * orientation_.reversed_mass());
 }
 
-void Ironing::reanchor(AlternatingMinimization& minimization,
-                       const std::function<void(const Alternation&)>& observe) {
-    const PairOrientation before = measure(minimization.solution());
-    const auto parts_A = reversed_parts(pair_.A, before.A_to_B, options_.reanchored_mass);
-    const auto parts_B = reversed_parts(pair_.B, before.B_to_A, options_.reanchored_mass);
-    if (parts_A.empty() && parts_B.empty()) return;
-
-    const Solution& now = minimization.solution();
-    Centres centres = now.step.centres;
-    KeptEntries kept = significant_entries(now.plan, pair_.A.side.mass, pair_.B.side.mass,
-                                           minimization.options().support_threshold);
-    const bool coarse = pair_.A.level.kind == LevelKind::diffusion;
-    const GeodesicGraph& graph_A = coarse ? context_.sample_graph_A() : context_.graph_A();
-    const GeodesicGraph& graph_B = coarse ? context_.sample_graph_B() : context_.graph_B();
-    for (const ReversedPart& part : parts_A) {
-        const auto images = reanchored_images(part, pair_.A, before.A_to_B, graph_A, pair_.B, graph_B);
+/// Where a trial starts with these parts placed anew.
+Start Ironing::Run::reanchored(const ReversedParts& parts) const {
+    const Solution& now = minimization_.solution();
+    const Side &A = level_.A.side, &B = level_.B.side;
+    Start start{now.step.centres,
+                significant_entries(now.plan, A.mass, B.mass, minimization_.options().support_threshold)};
+    const bool coarse = level_.A.level.kind == LevelKind::diffusion;
+    const PairContext& context = ironing_.context_;
+    const GraphedSide side_A{level_.A, coarse ? ironing_.sample_graphs_.A() : context.graph_A()};
+    const GraphedSide side_B{level_.B, coarse ? ironing_.sample_graphs_.B() : context.graph_B()};
+    for (const ReversedPart& part : parts.A) {
+        const auto images = reanchored_images(part, orientation_.A_to_B, side_A, side_B);
         for (size_t n = 0; n < images.size(); ++n) {
-            centres.row.row(part.samples[n]) = pair_.B.side.points.row(images[n]);
-            kept[part.samples[n]].push_back(images[n]);
+            start.centres.row.row(part.samples[n]) = B.points.row(images[n]);
+            start.kept[size_t(part.samples[n])].push_back(images[n]);
         }
     }
-    for (const ReversedPart& part : parts_B) {
-        const auto images = reanchored_images(part, pair_.B, before.B_to_A, graph_B, pair_.A, graph_A);
+    for (const ReversedPart& part : parts.B) {
+        const auto images = reanchored_images(part, orientation_.B_to_A, side_B, side_A);
         for (size_t n = 0; n < images.size(); ++n) {
-            centres.column.row(part.samples[n]) = pair_.A.side.points.row(images[n]);
-            kept[images[n]].push_back(part.samples[n]);
+            start.centres.column.row(part.samples[n]) = A.points.row(images[n]);
+            start.kept[size_t(images[n])].push_back(part.samples[n]);
         }
     }
-    pull_landmarks(pair_.A.side, pair_.B.side, centres);
+    return start;
+}
 
-    AlternatingMinimization trial(pair_.A.side, pair_.B.side, minimization.options());
-    trial.start(centres, kept);
-    trial.run(observe);
-    const double after = measure(trial.solution()).reversed_mass();
+void Ironing::Run::reanchor() {
+    const ReversedParts parts{reversed_parts(level_.A, orientation_.A_to_B, options_.reanchored_mass),
+                              reversed_parts(level_.B, orientation_.B_to_A, options_.reanchored_mass)};
+    if (parts.empty()) return;
+    const double before = orientation_.reversed_mass(), energy = minimization_.solution().step.energy;
+    const Start start = reanchored(parts);
+    AlternatingMinimization trial = minimization_.another();
+    trial.start(start.centres, start.kept);
+    trial.run(observe_);
+    const double energy_after = trial.solution().step.energy;
+    const double after = adopt_if_better(trial);
     log("placed {} and {} reversed parts anew: {:.2f}% of the mass reversed before, {:.2f}% after; energy "
-        "{:.6g} before, "
-        "{:.6g} after",
-        parts_A.size(), parts_B.size(), 100 * before.reversed_mass(), 100 * after, now.step.energy,
-        trial.solution().step.energy);
-    if (after < before.reversed_mass()) minimization.adopt(trial.take_solution());
+        "{:.6g} before, {:.6g} after",
+        parts.A.size(), parts.B.size(), 100 * before, 100 * after, energy, energy_after);
 }
 
-void Ironing::iron(AlternatingMinimization& minimization,
-                   const std::function<void(const Alternation&)>& observe) {
-    const int samples = int(std::min(pair_.A.level.samples.size(), pair_.B.level.samples.size()));
-    if (!options_.enabled || samples < options_.minimum_samples || samples > options_.maximum_samples) return;
-    if (samples <= options_.reflected_samples) reflect(minimization, observe);
-    damp(minimization, observe);
-    reanchor(minimization, observe);
+Ironing::Ironing(const PairContext& context, const IroningOptions& options)
+    : context_(context),
+      options_(options),
+      oriented_A_(context.A().surface.mesh),
+      oriented_B_(context.B().surface.mesh),
+      sample_graphs_(context) {}
+
+PairOrientation Ironing::measure(const LevelPair& level, const Solution& solution) const {
+    const OrientedSide A{level.A, oriented_A_, context_.graph_A()},
+        B{level.B, oriented_B_, context_.graph_B()};
+    return {measure_orientation(A, B, solution.step.centres.row, largest_of_rows(solution.plan)),
+            measure_orientation(B, A, solution.step.centres.column, largest_of_columns(solution.plan))};
+}
+
+std::optional<PairOrientation> Ironing::iron(const LevelPair& level, AlternatingMinimization& minimization,
+                                             const Observer& observe) const {
+    const int samples = int(std::min(level.A.level.samples.size(), level.B.level.samples.size()));
+    if (!options_.enabled || samples < options_.minimum_samples || samples > options_.maximum_samples)
+        return {};
+    Run run(*this, level, minimization, observe);
+    if (samples <= options_.reflected_samples) run.reflect();
+    run.damp();
+    run.reanchor();
+    return run.take_orientation();
 }
 
 }  // namespace varimap

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <vector>
+#include <optional>
 
-#include "varimap/multilevel/level_transfer.h"
 #include "varimap/multilevel/orientation.h"
 #include "varimap/multilevel/pair_context.h"
+#include "varimap/multilevel/sample_graph.h"
 
 namespace varimap {
 
@@ -14,7 +13,7 @@ namespace varimap {
 /// composed with the step to the opposite side of the target. Reversed patches are then ironed out: their
 /// samples count less (omega) in the centres and in the cost, so that the well-oriented surroundings pull
 /// them over. Patches that remain, typically whole mirrored feet or hands, are placed anew from their
-/// surroundings (reanchoring.h).
+/// surroundings (reanchoring.h). But for omega, defaults were chosen by hand on the known pairs, not swept.
 struct IroningOptions {
     bool enabled = true;
     int minimum_samples = 100;     ///< below that many samples orientation means nothing
@@ -30,36 +29,28 @@ struct IroningOptions {
         1000;  ///< only on levels with at most that many samples: the reflected map starts from the full plan
 };
 
-/// Orientation of both directions at a level.
-struct PairOrientation {
-    Orientation A_to_B, B_to_A;
-    double reversed_mass() const { return (A_to_B.reversed_mass + B_to_A.reversed_mass) / 2; }
-};
-
+/// The ironing of one pair, at any of its levels. May be used by several threads.
 class Ironing {
   public:
-    Ironing(const PairContext& context, LevelPair& pair, const IroningOptions& options);
+    /// Refers to the context.
+    Ironing(const PairContext& context, const IroningOptions& options);
 
-    /// Alternates on `minimization`, which must refer to the sides of this pair and have settled; on return
-    /// it has settled again with full weights.
-    void iron(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
+    /// Alternates on `minimization`, which must be one of this level's sides and have settled; on return it
+    /// has settled again, with all samples in full. Returns the orientation that the map has then, unless
+    /// there is nothing to do at this level. Every alternation is observed.
+    std::optional<PairOrientation> iron(const LevelPair& level, AlternatingMinimization& minimization,
+                                        const Observer& observe) const;
+    PairOrientation measure(const LevelPair& level, const Solution& solution) const;
 
-    PairOrientation measure(const Solution& solution) const;
+    const IroningOptions& options() const { return options_; }
 
   private:
-    void reflect(AlternatingMinimization& minimization,
-                 const std::function<void(const Alternation&)>& observe);
-    Centres reflected_centres(const PairOrientation& orientation, const Centres& centres) const;
-    void damp(AlternatingMinimization& minimization, const std::function<void(const Alternation&)>& observe);
-    void reanchor(AlternatingMinimization& minimization,
-                  const std::function<void(const Alternation&)>& observe);
-    void set_weights(const PairOrientation& orientation);
-    void restore_weights();
+    class Run;
 
     const PairContext& context_;
-    LevelPair& pair_;
     IroningOptions options_;
     OrientedSurface oriented_A_, oriented_B_;
+    SampleGraphs sample_graphs_;
 };
 
 }  // namespace varimap

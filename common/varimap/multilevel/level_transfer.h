@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "varimap/mesh/vertex_index.h"
-#include "varimap/spectral/hierarchy.h"
+#include "varimap/spectral/level.h"
 #include "varimap/transport/alternating_minimization.h"
 
 namespace varimap {
@@ -14,28 +14,35 @@ struct LevelSide {
     Level level;
     RowMatrix vertex_points;      ///< mesh vertices x D
     Eigen::VectorXd vertex_mass;  ///< per mesh vertex
+    double truncation = 0;        ///< epsilon, below which the level's weights are dropped
     Side side;
 };
 
 /// Two surfaces at one level.
 struct LevelPair {
     LevelSide A, B;
+    Partners partners;  ///< landmarks
 };
 
-/// Builds a side from a level, the embedding of all vertices and their masses.
-LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::VectorXd& vertex_mass);
+/// The samples and cells of two surfaces at one level, without an embedding.
+struct Levels {
+    Level A, B;
+};
 
-/// Makes landmarks (pairs of mesh vertices, samples of both levels) pull at each other with this weight
-/// (cost.h).
-void set_landmarks(LevelPair& pair, const VertexPairs<MeshVertex>& landmarks, double weight);
+/// Builds a side from a level, the embedding of all vertices, their masses, and epsilon.
+LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::VectorXd& vertex_mass,
+                          double truncation);
 
-/// Where a level starts: centres, and the kept entries of the plan before it.
+/// Landmarks that are samples of both levels, with their weight (cost.h).
+Partners partners_at(const LevelPair& pair, const VertexPairs<MeshVertex>& landmarks, double weight);
+
+/// Where a level starts: centres, before landmarks pull them, and the kept entries of the plan before it.
 struct Start {
     Centres centres;
     KeptEntries kept;
 };
 
-/// The full plan, from centres at the origin of the embeddings, landmarks pinned.
+/// The full plan, from centres at the origin of the embeddings.
 Start zero_start(const LevelPair& pair);
 
 /// Level switch: a new sample takes its parent's mean image, recomputed with the new embedding's mean over
@@ -53,9 +60,5 @@ class LevelSwitch {
     std::vector<int> parent_A_, parent_B_;
     RowMatrix means_A_, means_B_;  ///< per coarse sample: mean over its cell in the fine level's embedding
 };
-
-/// The switch of a single plan.
-Start hand_down(const Coupling& coarse_plan, const Level& coarse_A, const Level& coarse_B,
-                const LevelPair& fine, double support_threshold);
 
 }  // namespace varimap

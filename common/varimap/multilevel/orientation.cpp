@@ -46,7 +46,7 @@ class OffsetFit {
 
   private:
     static bool is_degenerate(const Eigen::Matrix2d& m) {
-        return !(m.determinant() > 1e-9 * m.trace() * m.trace());
+        return !(m.determinant() > 1e-9 * m.trace() * m.trace());  // of order 1 unless along a line
     }
 
     const OrientedSurface &A_, &B_;
@@ -70,26 +70,42 @@ int nearest_by_descent(int vertex, const Eigen::RowVectorXd& centre, const RowMa
     }
 }
 
-Orientation measure_orientation(const LevelSide& from, const OrientedSurface& surface_from,
-                                const LevelSide& to, const OrientedSurface& surface_to,
-                                const GeodesicGraph& graph_to, const RowMatrix& centres,
-                                const std::vector<int>& start_vertex) {
-    const std::vector<int>& samples = from.level.samples;
+namespace {
+
+/// Per sample: the vertex of the other mesh nearest to its centre.
+std::vector<int> image_vertices(const OrientedSide& to, const RowMatrix& centres,
+                                const std::vector<int>& partner) {
+    const LevelSide& target = to.level_side;
+    std::vector<int> image(partner.size());
+    parallel_for_each_index(partner.size(), size_t(32), [&](size_t k) {
+        image[k] = nearest_by_descent(target.level.samples[size_t(partner[k])], centres.row(Eigen::Index(k)),
+                                      target.vertex_points, to.graph);
+    });
+    return image;
+}
+
+double determinant_at(int k, const OrientedSide& from, const OrientedSide& to,
+                      const std::vector<int>& image_vertex) {
+    const std::vector<int>& samples = from.level_side.level.samples;
+    const Side& side = from.level_side.side;
+    OffsetFit fit(from.surface, samples[k], to.surface, image_vertex[k]);
+    for (SparseMatrix::InnerIterator it(side.weights, k); it; ++it)
+        fit.add(samples[it.col()], image_vertex[it.col()], it.value() * side.mass[it.col()]);
+    return fit.normalised_determinant();
+}
+
+}  // namespace
+
+Orientation measure_orientation(const OrientedSide& from, const OrientedSide& to, const RowMatrix& centres,
+                                const std::vector<int>& partner) {
     Orientation result;
-    result.image_vertex.resize(samples.size());
-    result.determinant.resize(samples.size());
-    parallel_for_each_index(size_t(0) + samples.size(), size_t(32), [&](size_t k) {
-        result.image_vertex[k] =
-            nearest_by_descent(start_vertex[k], centres.row(k), to.vertex_points, graph_to);
+    result.image_vertex = image_vertices(to, centres, partner);
+    result.determinant.resize(partner.size());
+    parallel_for_each_index(partner.size(), size_t(32), [&](size_t k) {
+        result.determinant[k] = determinant_at(int(k), from, to, result.image_vertex);
     });
-    parallel_for_each_index(size_t(0) + samples.size(), size_t(32), [&](size_t k) {
-        OffsetFit fit(surface_from, samples[k], surface_to, result.image_vertex[k]);
-        for (SparseMatrix::InnerIterator it(from.side.weights, k); it; ++it)
-            fit.add(samples[it.col()], result.image_vertex[it.col()], it.value() * from.side.mass[it.col()]);
-        result.determinant[k] = fit.normalised_determinant();
-    });
-    for (size_t k = 0; k < samples.size(); ++k)
-        if (result.determinant[k] < 0) result.reversed_mass += from.side.mass[k];
+    for (size_t k = 0; k < partner.size(); ++k)
+        if (result.determinant[k] < 0) result.reversed_mass += from.level_side.side.mass[Eigen::Index(k)];
     return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/mesh/triangle_mesh.h"
 #include "varimap/multilevel/level_transfer.h"
 
 namespace varimap {
@@ -29,10 +31,22 @@ struct Orientation {
     std::vector<int> image_vertex;  ///< per sample: the other mesh's vertex nearest to its centre
     double reversed_mass = 0;       ///< mass of the samples with negative determinant
 };
-/// `start_vertex` (per sample) is where the search for the image vertex begins, on the other mesh.
-Orientation measure_orientation(const LevelSide& from, const OrientedSurface& surface_from,
-                                const LevelSide& to, const OrientedSurface& surface_to,
-                                const GeodesicGraph& graph_to, const RowMatrix& centres,
-                                const std::vector<int>& start_vertex);
+
+/// One side of a level, where orientation is measured.
+struct OrientedSide {
+    const LevelSide& level_side;
+    const OrientedSurface& surface;
+    const GeodesicGraph& graph;
+};
+/// `partner`: per sample of `from` the sample of `to` at which the search for the vertex nearest to its
+/// centre begins.
+Orientation measure_orientation(const OrientedSide& from, const OrientedSide& to, const RowMatrix& centres,
+                                const std::vector<int>& partner);
+
+/// Orientation of both directions at a level.
+struct PairOrientation {
+    Orientation A_to_B, B_to_A;
+    double reversed_mass() const { return (A_to_B.reversed_mass + B_to_A.reversed_mass) / 2; }
+};
 
 }  // namespace varimap

@@ -4,21 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "varimap/multilevel/sample_graph.h"
-
 namespace varimap {
 
 namespace {
-
-constexpr int full_levels = 2;  ///< Euclidean levels that have every vertex (see HierarchyOptions)
-
-int sampled_euclidean_levels(const Hierarchy& h) {
-    return int(h.levels.size()) - h.diffusion_levels() - full_levels;
-}
-
-const Level& last_diffusion_level(const Hierarchy& h) {
-    return h.levels[h.diffusion_levels() - 1];
-}
 
 /// psi = Phi_t / sqrt(1 + K_t), rows in the unit ball.
 RowMatrix normalised_embedding(const Basis& basis, double time) {
@@ -51,7 +39,7 @@ RowMatrix principal_coordinates(const RowMatrix& points, const Eigen::VectorXd& 
 RowMatrix mixed_points(const SurfaceData& data, double mu) {
     const RowMatrix x = data.surface.mesh.vertices;
     if (mu == 0) return x;
-    const Level& last = last_diffusion_level(data.hierarchy);
+    const Level& last = data.hierarchy.last_diffusion_level();
     // Most of psi's extent lies in few directions; 32 of 100 measured as accurate as all, in two thirds of
     // the time.
     constexpr Eigen::Index principal_directions = 32;
@@ -62,13 +50,14 @@ RowMatrix mixed_points(const SurfaceData& data, double mu) {
     return points;
 }
 
-LevelSide diffusion_side(const SurfaceData& data, const GeodesicGraph& graph, int index,
-                         const std::vector<int>& landmarks) {
-    const Level& source = data.hierarchy.levels[std::min(index, data.hierarchy.diffusion_levels() - 1)];
-    return make_level_side(
-        with_samples(source, landmarks, data.surface, data.basis, graph, data.hierarchy.options),
-        diffusion_embedding(data.basis, source.scale), data.surface.mass);
+template <class Pair, class Member>
+std::vector<int> indices(const std::vector<Pair>& pairs, Member vertex) {
+    std::vector<int> result;
+    for (const Pair& pair : pairs) result.push_back((pair.*vertex).index);
+    return result;
 }
+
+using Landmark = VertexPairs<MeshVertex>::value_type;
 
 }  // namespace
 
@@ -76,59 +65,77 @@ RowMatrix sample_positions(const Surface& surface, const Level& level) {
     return surface.mesh.vertices(level.samples, Eigen::all);
 }
 
+const Level& PairContext::Side::diffusion_source(int index) const {
+    const Hierarchy& h = data.hierarchy;
+    return h.levels[size_t(std::min(index, h.diffusion_levels() - 1))];
+}
+
+Level PairContext::Side::with_landmarks(const Level& source) const {
+    const LevelBuilder builder(data.surface, data.basis, graph, data.hierarchy.options);
+    return builder.with_samples(source, landmarks);
+}
+
+LevelSide PairContext::Side::embedded(const Level& source, RowMatrix vertex_points) const {
+    return make_level_side(with_landmarks(source), std::move(vertex_points), data.surface.mass,
+                           data.hierarchy.options.truncation);
+}
+
 PairContext::PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks,
                          double landmark_weight)
-    : A_(std::move(A)),
-      B_(std::move(B)),
-      graph_A_(A_.surface.mesh),
-      graph_B_(B_.surface.mesh),
-      sample_graph_A_(sample_graph(last_diffusion_level(A_.hierarchy), graph_A_)),
-      sample_graph_B_(sample_graph(last_diffusion_level(B_.hierarchy), graph_B_)),
+    : A_(std::move(A), indices(landmarks, &Landmark::first)),
+      B_(std::move(B), indices(landmarks, &Landmark::second)),
       landmarks_(std::move(landmarks)),
-      landmark_weight_(landmark_weight) {
-    for (const auto& [a, b] : landmarks_) {
-        landmarks_A_.push_back(a.index);
-        landmarks_B_.push_back(b.index);
-    }
+      landmark_weight_(landmark_weight) {}
+
+LevelPair PairContext::joined(LevelSide A, LevelSide B) const {
+    LevelPair pair{std::move(A), std::move(B), {}};
+    pair.partners = partners_at(pair, landmarks_, landmark_weight_);
+    return pair;
 }
 
 int PairContext::diffusion_levels() const {
-    return std::max(A_.hierarchy.diffusion_levels(), B_.hierarchy.diffusion_levels());
+    return std::max(A().hierarchy.diffusion_levels(), B().hierarchy.diffusion_levels());
 }
 
 LevelPair PairContext::diffusion_level(int index) const {
-    LevelPair pair{diffusion_side(A_, graph_A_, index, landmarks_A_),
-                   diffusion_side(B_, graph_B_, index, landmarks_B_)};
-    set_landmarks(pair, landmarks_, landmark_weight_);
-    return pair;
+    const auto side = [index](const Side& own) {
+        const Level& source = own.diffusion_source(index);
+        return own.embedded(source, diffusion_embedding(own.data.basis, source.scale));
+    };
+    return joined(side(A_), side(B_));
+}
+
+Levels PairContext::diffusion_samples(int index) const {
+    return {A_.with_landmarks(A_.diffusion_source(index)), B_.with_landmarks(B_.diffusion_source(index))};
+}
+
+int PairContext::find_diffusion_level(const std::vector<int>& samples_A,
+                                      const std::vector<int>& samples_B) const {
+    for (int l = diffusion_levels() - 1; l >= 0; --l)
+        if (samples_with(A_.diffusion_source(l), A_.landmarks) == samples_A &&
+            samples_with(B_.diffusion_source(l), B_.landmarks) == samples_B)
+            return l;
+    return -1;
 }
 
 int PairContext::euclidean_levels() const {
-    return std::max(sampled_euclidean_levels(A_.hierarchy), sampled_euclidean_levels(B_.hierarchy)) +
-           full_levels;
+    return std::max(A().hierarchy.sampled_euclidean_levels(), B().hierarchy.sampled_euclidean_levels()) +
+           std::min(A().hierarchy.full_levels(), B().hierarchy.full_levels());
 }
 
-const Level& PairContext::euclidean_source(const SurfaceData& data, int index) const {
-    const Hierarchy& h = data.hierarchy;
-    const int first_full = euclidean_levels() - full_levels;
+const Level& PairContext::euclidean_source(const Side& side, int index) const {
+    const Hierarchy& h = side.data.hierarchy;
     // A surface with fewer sampled levels goes on with its first full one, so that both end together.
-    const int own = index >= first_full ? sampled_euclidean_levels(h) + index - first_full
-                                        : std::min(index, sampled_euclidean_levels(h));
-    return h.levels[h.diffusion_levels() + own];
-}
-
-LevelSide PairContext::euclidean_side(const SurfaceData& data, const GeodesicGraph& graph, int index,
-                                      double mu, const std::vector<int>& landmarks) const {
-    return make_level_side(with_samples(euclidean_source(data, index), landmarks, data.surface, data.basis,
-                                        graph, data.hierarchy.options),
-                           mixed_points(data, mu), data.surface.mass);
+    const int levels = int(h.levels.size()) - h.diffusion_levels(), left = euclidean_levels() - index;
+    const int own = left <= h.full_levels() ? levels - left : std::min(index, h.sampled_euclidean_levels());
+    return h.levels[size_t(h.diffusion_levels() + own)];
 }
 
 LevelPair PairContext::euclidean_level(int index, double mu) const {
-    LevelPair pair{euclidean_side(A_, graph_A_, index, mu, landmarks_A_),
-                   euclidean_side(B_, graph_B_, index, mu, landmarks_B_)};
-    set_landmarks(pair, landmarks_, landmark_weight_);
-    return pair;
+    const auto side = [&](const Side& own) {
+        return own.embedded(euclidean_source(own, index), mixed_points(own.data, mu));
+    };
+    return joined(side(A_), side(B_));
 }
 
 }  // namespace varimap

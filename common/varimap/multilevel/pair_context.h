@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "varimap/mesh/vertex_index.h"
 #include "varimap/multilevel/level_transfer.h"
 #include "varimap/spectral/surface_data.h"
 
@@ -16,13 +17,10 @@ class PairContext {
   public:
     PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks, double landmark_weight = 1);
 
-    const SurfaceData& A() const { return A_; }
-    const SurfaceData& B() const { return B_; }
-    const GeodesicGraph& graph_A() const { return graph_A_; }
-    const GeodesicGraph& graph_B() const { return graph_B_; }
-    /// The same for long distances between samples of diffusion levels (sample_graph.h).
-    const GeodesicGraph& sample_graph_A() const { return sample_graph_A_; }
-    const GeodesicGraph& sample_graph_B() const { return sample_graph_B_; }
+    const SurfaceData& A() const { return A_.data; }
+    const SurfaceData& B() const { return B_.data; }
+    const GeodesicGraph& graph_A() const { return A_.graph; }
+    const GeodesicGraph& graph_B() const { return B_.graph; }
     const VertexPairs<MeshVertex>& landmarks() const { return landmarks_; }
     double landmark_weight() const { return landmark_weight_; }
 
@@ -30,8 +28,12 @@ class PairContext {
     int diffusion_levels() const;
     /// Levels in the surfaces' own diffusion embeddings (Eq. 4), landmarks inserted and joined.
     LevelPair diffusion_level(int index) const;
+    /// The same without embeddings.
+    Levels diffusion_samples(int index) const;
+    /// The last diffusion level that has these samples, in this order; -1 if there is none. Builds no level.
+    int find_diffusion_level(const std::vector<int>& samples_A, const std::vector<int>& samples_B) const;
 
-    /// Number of Euclidean levels of the pair: sampled ones, then the two with every vertex.
+    /// Number of Euclidean levels of the pair: sampled ones, then those with every vertex.
     int euclidean_levels() const;
     /// Levels in the mixed metric (x, mu c psi): positions in R^3 beside normalised diffusion coordinates
     /// psi = Phi / sqrt(1 + K) at the last diffusion level's time, scaled by c so that short edges measure
@@ -40,15 +42,23 @@ class PairContext {
     LevelPair euclidean_level(int index, double mu) const;
 
   private:
-    LevelSide euclidean_side(const SurfaceData& data, const GeodesicGraph& graph, int index, double mu,
-                             const std::vector<int>& landmarks) const;
-    const Level& euclidean_source(const SurfaceData& data, int index) const;
+    struct Side {
+        SurfaceData data;
+        GeodesicGraph graph;
+        std::vector<int> landmarks;  ///< vertices of the mesh
 
-    SurfaceData A_, B_;
-    GeodesicGraph graph_A_, graph_B_, sample_graph_A_, sample_graph_B_;
+        Side(SurfaceData own, std::vector<int> vertices)
+            : data(std::move(own)), graph(data.surface.mesh), landmarks(std::move(vertices)) {}
+        const Level& diffusion_source(int index) const;
+        Level with_landmarks(const Level& source) const;
+        LevelSide embedded(const Level& source, RowMatrix vertex_points) const;
+    };
+    const Level& euclidean_source(const Side& side, int index) const;
+    LevelPair joined(LevelSide A, LevelSide B) const;
+
+    Side A_, B_;
     VertexPairs<MeshVertex> landmarks_;
     double landmark_weight_;
-    std::vector<int> landmarks_A_, landmarks_B_;
 };
 
 }  // namespace varimap

@@ -3,34 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace varimap {
 
 namespace {
 
+// Chosen by hand on the known pairs, not swept.
 constexpr double trusted_determinant = 0.3;  ///< anchors are oriented beyond doubt
 constexpr int wanted_anchors = 24;
 constexpr int least_anchors = 6;
+/// Images may be somewhat further from the anchors' images than the samples are from the anchors.
+constexpr double stretch = 1.3;
 
-/// Well-oriented samples around the part, nearest first.
-std::vector<int> anchors_around(const ReversedPart& part, const LevelSide& from,
-                                const Orientation& orientation, const GeodesicGraph& graph) {
-    // Distance from the part: grown from each of its samples, keeping the smallest.
-    std::vector<double> distance(from.level.samples.size(), std::numeric_limits<double>::infinity());
-    std::vector<char> inside(from.level.samples.size(), 0);
-    for (int k : part.samples) inside[k] = 1;
-    std::vector<int> sample_at(graph.vertex_count(), -1);
-    for (size_t k = 0; k < from.level.samples.size(); ++k) sample_at[from.level.samples[k]] = int(k);
-    GeodesicBall ball(graph);
-    for (int k : part.samples) {
-        int found = 0;
-        ball.grow(from.level.samples[k], [&](int v, double d) {
-            const int s = sample_at[v];
-            if (s < 0 || inside[s] || orientation.determinant[s] < trusted_determinant) return true;
-            distance[s] = std::min(distance[s], d);
-            return ++found < wanted_anchors;
-        });
-    }
+/// Per vertex: the number of the sample that it is, among these samples of a level; or -1.
+std::vector<int> numbers_at_vertices(const std::vector<int>& samples, const LevelSide& side) {
+    std::vector<int> number(side.level.cell.size(), -1);
+    for (size_t n = 0; n < samples.size(); ++n) number[side.level.samples[samples[n]]] = int(n);
+    return number;
+}
+
+std::vector<int> all_samples(const LevelSide& side) {
+    std::vector<int> all(side.level.samples.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+}
+
+/// The samples with a finite distance, nearest first, as many as are wanted.
+std::vector<int> nearest_anchors(const std::vector<double>& distance) {
     std::vector<int> anchors;
     for (size_t s = 0; s < distance.size(); ++s)
         if (std::isfinite(distance[s])) anchors.push_back(int(s));
@@ -39,14 +39,34 @@ std::vector<int> anchors_around(const ReversedPart& part, const LevelSide& from,
     return anchors;
 }
 
-/// Distances from each of the vertices `sources` (rows) to the samples of a level (columns), up to a radius;
+/// Well-oriented samples around the part, nearest first.
+std::vector<int> anchors_around(const ReversedPart& part, const GraphedSide& from,
+                                const Orientation& orientation) {
+    const std::vector<int>& samples = from.level_side.level.samples;
+    // Distance from the part: grown from each of its samples, keeping the smallest.
+    std::vector<double> distance(samples.size(), std::numeric_limits<double>::infinity());
+    std::vector<char> inside(samples.size(), 0);
+    for (int k : part.samples) inside[k] = 1;
+    const std::vector<int> sample_at = numbers_at_vertices(all_samples(from.level_side), from.level_side);
+    GeodesicBall ball(from.graph);
+    for (int k : part.samples) {
+        int found = 0;
+        ball.grow(samples[k], [&](int v, double d) {
+            const int s = sample_at[v];
+            if (s < 0 || inside[s] || orientation.determinant[s] < trusted_determinant) return true;
+            distance[s] = std::min(distance[s], d);
+            return ++found < wanted_anchors;
+        });
+    }
+    return nearest_anchors(distance);
+}
+
+/// Distances from each of the vertices `sources` (rows) to all samples of a side (columns), up to a radius;
 /// further samples get twice the radius.
-RowMatrix distances_to_samples(const std::vector<int>& sources, const Level& level,
-                               const GeodesicGraph& graph, double radius) {
-    std::vector<int> sample_at(graph.vertex_count(), -1);
-    for (size_t k = 0; k < level.samples.size(); ++k) sample_at[level.samples[k]] = int(k);
-    RowMatrix distances = RowMatrix::Constant(sources.size(), level.samples.size(), 2 * radius);
-    GeodesicBall ball(graph);
+RowMatrix distances_to_samples(const std::vector<int>& sources, const GraphedSide& to, double radius) {
+    const std::vector<int> sample_at = numbers_at_vertices(all_samples(to.level_side), to.level_side);
+    RowMatrix distances = RowMatrix::Constant(sources.size(), to.level_side.level.samples.size(), 2 * radius);
+    GeodesicBall ball(to.graph);
     for (size_t r = 0; r < sources.size(); ++r)
         ball.grow(sources[r], [&](int v, double d) {
             if (sample_at[v] >= 0) distances(r, sample_at[v]) = d;
@@ -56,12 +76,11 @@ RowMatrix distances_to_samples(const std::vector<int>& sources, const Level& lev
 }
 
 /// Distances from each of the vertices `sources` (rows) to the part's samples (columns).
-RowMatrix distances_to_part(const std::vector<int>& sources, const ReversedPart& part, const Level& level,
-                            const GeodesicGraph& graph) {
-    std::vector<int> column_at(graph.vertex_count(), -1);
-    for (size_t n = 0; n < part.samples.size(); ++n) column_at[level.samples[part.samples[n]]] = int(n);
+RowMatrix distances_to_part(const std::vector<int>& sources, const ReversedPart& part,
+                            const GraphedSide& side) {
+    const std::vector<int> column_at = numbers_at_vertices(part.samples, side.level_side);
     RowMatrix distances(sources.size(), part.samples.size());
-    GeodesicBall ball(graph);
+    GeodesicBall ball(side.graph);
     for (size_t r = 0; r < sources.size(); ++r) {
         size_t missing = part.samples.size();
         ball.grow(sources[r], [&](int v, double d) {
@@ -72,6 +91,23 @@ RowMatrix distances_to_part(const std::vector<int>& sources, const ReversedPart&
     return distances;
 }
 
+/// The connected patch of reversed samples that holds one; marks them as seen.
+ReversedPart part_around(int seed, const LevelSide& side, const Orientation& orientation,
+                         std::vector<char>& seen) {
+    ReversedPart part;
+    part.samples.push_back(seed);
+    seen[seed] = 1;
+    for (size_t head = 0; head < part.samples.size(); ++head) {
+        part.mass += side.side.mass[part.samples[head]];
+        for (SparseMatrix::InnerIterator it(side.side.neighbours, part.samples[head]); it; ++it)
+            if (!seen[it.col()] && orientation.determinant[it.col()] < 0) {
+                seen[it.col()] = 1;
+                part.samples.push_back(int(it.col()));
+            }
+    }
+    return part;
+}
+
 }  // namespace
 
 std::vector<ReversedPart> reversed_parts(const LevelSide& side, const Orientation& orientation,
@@ -80,17 +116,7 @@ std::vector<ReversedPart> reversed_parts(const LevelSide& side, const Orientatio
     std::vector<char> seen(orientation.determinant.size(), 0);
     for (size_t seed = 0; seed < seen.size(); ++seed) {
         if (seen[seed] || orientation.determinant[seed] >= 0) continue;
-        ReversedPart part;
-        part.samples.push_back(int(seed));
-        seen[seed] = 1;
-        for (size_t head = 0; head < part.samples.size(); ++head) {
-            part.mass += side.side.mass[part.samples[head]];
-            for (SparseMatrix::InnerIterator it(side.side.reach, part.samples[head]); it; ++it)
-                if (!seen[it.col()] && orientation.determinant[it.col()] < 0) {
-                    seen[it.col()] = 1;
-                    part.samples.push_back(int(it.col()));
-                }
-        }
+        ReversedPart part = part_around(int(seed), side, orientation, seen);
         if (part.mass >= minimum_mass) parts.push_back(std::move(part));
     }
     std::stable_sort(parts.begin(), parts.end(),
@@ -98,20 +124,17 @@ std::vector<ReversedPart> reversed_parts(const LevelSide& side, const Orientatio
     return parts;
 }
 
-std::vector<int> reanchored_images(const ReversedPart& part, const LevelSide& from,
-                                   const Orientation& orientation, const GeodesicGraph& graph_from,
-                                   const LevelSide& to, const GeodesicGraph& graph_to) {
-    const std::vector<int> anchors = anchors_around(part, from, orientation, graph_from);
+std::vector<int> reanchored_images(const ReversedPart& part, const Orientation& orientation,
+                                   const GraphedSide& from, const GraphedSide& to) {
+    const std::vector<int> anchors = anchors_around(part, from, orientation);
     if (int(anchors.size()) < least_anchors) return {};
     std::vector<int> here, there;
     for (int a : anchors) {
-        here.push_back(from.level.samples[a]);
+        here.push_back(from.level_side.level.samples[a]);
         there.push_back(orientation.image_vertex[a]);
     }
-    const RowMatrix from_anchors = distances_to_part(here, part, from.level, graph_from);
-    // Images may be somewhat further from the anchors' images than the samples are from the anchors.
-    const RowMatrix from_images =
-        distances_to_samples(there, to.level, graph_to, 1.3 * from_anchors.maxCoeff());
+    const RowMatrix from_anchors = distances_to_part(here, part, from);
+    const RowMatrix from_images = distances_to_samples(there, to, stretch * from_anchors.maxCoeff());
     std::vector<int> images;
     for (Eigen::Index n = 0; n < from_anchors.cols(); ++n) {
         Eigen::Index best;

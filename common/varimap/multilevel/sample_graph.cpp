@@ -1,6 +1,7 @@
 #include "varimap/multilevel/sample_graph.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <set>
@@ -69,6 +70,27 @@ GeodesicGraph sample_graph(const Level& level, const GeodesicGraph& graph) {
         result.offset.push_back(int(result.target.size()));
     }
     return result;
+}
+
+const GeodesicGraph& SampleGraphs::A() const {
+    make();
+    return A_;
+}
+
+const GeodesicGraph& SampleGraphs::B() const {
+    make();
+    return B_;
+}
+
+void SampleGraphs::make() const {
+    std::call_once(once_, [&] {
+        // Isolated: a task that this thread took up meanwhile could ask for the graphs again, and wait for
+        // itself.
+        tbb::this_task_arena::isolate([&] {
+            A_ = sample_graph(context_.A().hierarchy.last_diffusion_level(), context_.graph_A());
+            B_ = sample_graph(context_.B().hierarchy.last_diffusion_level(), context_.graph_B());
+        });
+    });
 }
 
 }  // namespace varimap

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <mutex>
+
 #include "varimap/mesh/geodesic_graph.h"
-#include "varimap/spectral/hierarchy.h"
+#include "varimap/multilevel/pair_context.h"
 
 namespace varimap {
 
@@ -10,5 +12,22 @@ namespace varimap {
 /// every other vertex has one edge, to the sample of its cell. Distances from any vertex to the samples
 /// exceed those of `graph` by little, and take as long as there are samples, not vertices.
 GeodesicGraph sample_graph(const Level& level, const GeodesicGraph& graph);
+
+/// The sample graphs of both surfaces' last diffusion levels, made when they are first asked for, by
+/// whichever thread.
+class SampleGraphs {
+  public:
+    /// Refers to the context.
+    explicit SampleGraphs(const PairContext& context) : context_(context) {}
+    const GeodesicGraph& A() const;
+    const GeodesicGraph& B() const;
+
+  private:
+    void make() const;
+
+    const PairContext& context_;
+    mutable std::once_flag once_;
+    mutable GeodesicGraph A_, B_;
+};
 
 }  // namespace varimap

@@ -4,44 +4,40 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/orientation.h"
+#include "varimap/spectral/neighbourhoods.h"
 
 namespace varimap {
 
 namespace {
 
-/// Column of the largest entry of each row.
-std::vector<int> best_partners(const SparseMatrix& plan) {
-    std::vector<int> best(plan.rows(), 0);
-    for (int i = 0; i < plan.outerSize(); ++i) {
-        double largest = -1;
-        for (SparseMatrix::InnerIterator it(plan, i); it; ++it)
-            if (it.value() > largest) largest = it.value(), best[i] = int(it.col());
+/// Mean of values of the samples over a vertex's own neighbourhood, among the samples of its cell's
+/// neighbourhood; no entries where none has any weight.
+Eigen::RowVectorXd neighbourhood_mean(int vertex, const LevelSide& from, const RowMatrix& value) {
+    const int k = from.level.cell[size_t(vertex)];
+    const auto here = from.vertex_points.row(vertex);
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(value.cols());
+    double total = 0;
+    for (SparseMatrix::InnerIterator it(from.side.weights, k); it; ++it) {
+        const auto there = from.side.points.row(it.col());
+        const double w = diffusion_weight(here.dot(there), here.squaredNorm(), there.squaredNorm());
+        if (w < from.truncation && it.col() != k) continue;
+        total += from.side.mass[it.col()] * std::max(w, 0.0);
+        sum += from.side.mass[it.col()] * std::max(w, 0.0) * value.row(it.col());
     }
-    return best;
+    if (!(total > 0)) return {};
+    return sum / total;
 }
 
 }  // namespace
 
 std::vector<int> vertex_images(const LevelSide& from, const LevelSide& to, const RowMatrix& sample_image,
-                               const SparseMatrix& plan, const GeodesicGraph& target_graph) {
-    const std::vector<int> best = best_partners(plan);
+                               const std::vector<int>& partner, const GeodesicGraph& target_graph) {
     std::vector<int> images(from.level.cell.size());
     parallel_for_each_index(images.size(), size_t(64), [&](size_t v) {
-        const int k = from.level.cell[v];
-        const auto here = from.vertex_points.row(v);
-        // The vertex's own neighbourhood, among the samples of its cell's neighbourhood.
-        Eigen::RowVectorXd centre = Eigen::RowVectorXd::Zero(sample_image.cols());
-        double total = 0;
-        for (SparseMatrix::InnerIterator it(from.side.weights, k); it; ++it) {
-            const auto there = from.side.points.row(it.col());
-            const double w = 2 * here.dot(there) / (here.squaredNorm() + there.squaredNorm());
-            if (w < 0.5 && it.col() != k) continue;
-            total += from.side.mass[it.col()] * std::max(w, 0.0);
-            centre += from.side.mass[it.col()] * std::max(w, 0.0) * sample_image.row(it.col());
-        }
-        const int start = to.level.samples[best[k]];
+        const int start = to.level.samples[size_t(partner[size_t(from.level.cell[v])])];
+        const Eigen::RowVectorXd centre = neighbourhood_mean(int(v), from, sample_image);
         images[v] =
-            total > 0 ? nearest_by_descent(start, centre / total, to.vertex_points, target_graph) : start;
+            centre.size() > 0 ? nearest_by_descent(start, centre, to.vertex_points, target_graph) : start;
     });
     return images;
 }

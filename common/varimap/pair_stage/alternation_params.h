@@ -33,8 +33,7 @@ inline void describe(ParameterList& list, AlternationOptions& o) {
         "areas change by at most this factor: row and column sums within its root of the masses (Sec. 3.4)",
         1.0, 1e6);
     list.add("area_energy", o.area_energy,
-             "energy of changed areas: samples weighted by transported mass, or C' of Sec. 3.4",
-             {"transported", "paper"});
+             "energy of changed areas: samples weighted by transported mass, or C' of Sec. 3.4");
     list.add("mass_penalty", o.mass_penalty,
              "how firmly row and column sums are held to the masses within the bound, relative to the "
              "largest cost",

@@ -13,7 +13,8 @@ namespace varimap {
 
 namespace {
 
-constexpr double largest_feature = 2.5;  ///< in standard deviations
+/// In standard deviations; so that outliers do not outweigh all else. Chosen by hand, not swept.
+constexpr double largest_descriptor = 2.5;
 
 /// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that
 /// of the file.
@@ -29,21 +30,21 @@ Points outward_normals(const Surface& surface) {
 
 /// Compresses heights of either sign, relative to the typical one. Flat surfaces have none.
 Eigen::VectorXd compressed(const Eigen::VectorXd& height) {
-    constexpr double flat = 1e-4;  // units of sqrt(area)
+    constexpr double flat = 1e-4;  // units of sqrt(area): what files and rounding leave of a plane
     return (height / std::max(median(height.cwiseAbs()), flat)).array().asinh();
 }
 
 /// Of mean 0 and variance 1, without outliers; what hardly varies stays small, for it may be noise.
-Eigen::VectorXd standardised(const Eigen::VectorXd& feature, const Eigen::VectorXd& mass) {
-    constexpr double least_deviation = 0.2;
-    const Eigen::ArrayXd centred = feature.array() - mass.dot(feature);
+Eigen::VectorXd standardised(const Eigen::VectorXd& values, const Eigen::VectorXd& mass) {
+    constexpr double least_deviation = 0.2;  // of what is compressed; chosen by hand, not swept
+    const Eigen::ArrayXd centred = values.array() - mass.dot(values);
     const double deviation = std::sqrt(mass.dot(centred.square().matrix()));
-    return (centred / std::max(deviation, least_deviation)).max(-largest_feature).min(largest_feature);
+    return (centred / std::max(deviation, least_deviation)).max(-largest_descriptor).min(largest_descriptor);
 }
 
 /// The inward normal and three directions around it.
 std::array<Vec3, 4> inward_cone(const Vec3& inward) {
-    constexpr double spread = 0.5;  // tangent of the cone's half angle
+    constexpr double spread = 0.5;  // tangent of the cone's half angle; chosen by hand, not swept
     const Vec3 u = inward.unitOrthogonal(), v = inward.cross(u);
     std::array<Vec3, 4> rays{inward};
     for (int k = 0; k < 3; ++k) {
@@ -69,15 +70,15 @@ double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, 
 
 }  // namespace
 
-Eigen::VectorXd bending(const SurfaceData& data, double time) {
-    const Surface& surface = data.surface;
-    const RowMatrix phi = diffusion_embedding(data.basis, time);  // exp(-lambda t / 2) phi
+Eigen::VectorXd bending(const Surface& surface, const Basis& basis, double time) {
+    const RowMatrix phi = diffusion_embedding(basis, time);  // exp(-lambda t / 2) phi
     const RowMatrix smoothed = phi * (phi.transpose() * (surface.mass.asDiagonal() * surface.mesh.vertices));
     return (surface.mesh.vertices - smoothed).cwiseProduct(outward_normals(surface)).rowwise().sum();
 }
 
-Eigen::VectorXd thickness(const Surface& surface) {
-    constexpr double lift = 1e-4, longest = 0.6;  // units of sqrt(area)
+Eigen::VectorXd shape_diameter(const Surface& surface) {
+    constexpr double lift = 1e-4;    // units of sqrt(area): past the faces around the vertex itself
+    constexpr double longest = 0.6;  // units of sqrt(area): a little more than through a sphere, .564
     const RayMesh rays(surface.mesh);
     const Points normals = outward_normals(surface);
     Eigen::VectorXd result(normals.rows());
@@ -89,14 +90,17 @@ Eigen::VectorXd thickness(const Surface& surface) {
     return result;
 }
 
-RowMatrix local_shape(const SurfaceData& data) {
-    const double t0 = coarsest_time(data.basis);
-    const Eigen::VectorXd& mass = data.surface.mass;
-    RowMatrix features(mass.size(), 3);
-    features.col(0) = standardised(compressed(bending(data, t0 / 8)), mass);
-    features.col(1) = standardised(compressed(bending(data, t0 / 32)), mass);
-    features.col(2) = standardised(thickness(data.surface).array().log(), mass);
-    return features / std::sqrt(3.0);
+LocalShape local_shape(const Surface& surface, const Basis& basis) {
+    // Times chosen by hand on the known pairs, not swept.
+    constexpr double tenth = 4e-3;  // units of area: smooths over about a tenth of sqrt(area)
+    const double t0 = coarsest_time(basis);
+    const Eigen::VectorXd& mass = surface.mass;
+    LocalShape shape{RowMatrix(mass.size(), 3), bending(surface, basis, tenth)};
+    shape.descriptors.col(0) = standardised(compressed(bending(surface, basis, t0 / 8)), mass);
+    shape.descriptors.col(1) = standardised(compressed(bending(surface, basis, t0 / 32)), mass);
+    shape.descriptors.col(2) = standardised(shape_diameter(surface).array().log(), mass);
+    shape.descriptors /= std::sqrt(3.0);
+    return shape;
 }
 
 }  // namespace varimap

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <functional>
+#include <cmath>
+#include <limits>
 #include <queue>
+#include <utility>
 #include <vector>
 
 namespace varimap {
@@ -12,20 +14,53 @@ namespace varimap {
 ///
 /// Cells are connected by construction. Ties are broken by the lowest vertex number among distances that
 /// agree to about six digits, so that rounding does not decide.
+///
+/// `grow(sample, claim)` must visit vertices outward from `sample` and go on past a vertex v exactly where
+/// claim(v, distance) returned true. Its type is a parameter because it is called for every edge of every
+/// cell: through std::function it cost 30% of varimap-hierarchy.
+template <class Grow>
 class FarthestPointSampling {
   public:
-    /// `grow(sample, claim)` must visit vertices outward from `sample` and go on past a vertex v exactly
-    /// where claim(v, distance) returned true.
-    using Claim = std::function<bool(int vertex, double distance)>;
-    using Grow = std::function<void(int sample_vertex, const Claim& claim)>;
-
-    FarthestPointSampling(int vertex_count, Grow grow);
+    FarthestPointSampling(int vertex_count, Grow grow)
+        : grow_(std::move(grow)),
+          cell_(vertex_count, -1),
+          distance_(vertex_count, std::numeric_limits<double>::infinity()),
+          is_sample_(vertex_count, 0) {
+        for (int v = 0; v < vertex_count; ++v) heap_.push(candidate(v));
+    }
 
     /// Adds a vertex as a sample; no effect if it is one already.
-    void insert(int vertex);
+    void insert(int vertex) {
+        if (is_sample_[vertex]) return;
+        is_sample_[vertex] = 1;
+        const int index = int(samples_.size());
+        samples_.push_back(vertex);
+        grow_(vertex, [&](int v, double d) {
+            // A sample is always its own nearest sample, also among coincident vertices.
+            if (is_sample_[v] ? v != vertex : !(d < distance_[v] * (1 - 1e-9))) return false;
+            if (v == vertex && cell_[v] == index) return false;
+            distance_[v] = d;
+            cell_[v] = index;
+            return true;
+        });
+    }
     /// Adds farthest vertices until every vertex is within `radius` of its sample, or `limit` samples are
     /// reached.
-    void cover(double radius, int limit);
+    void cover(double radius, int limit) {
+        while (int(samples_.size()) < limit && !heap_.empty()) {
+            const Candidate top = heap_.top();
+            heap_.pop();
+            const Candidate current = candidate(top.vertex);
+            if (current < top) {
+                heap_.push(current);  // the distance shrank since it was queued
+            } else if (distance_[top.vertex] <= radius) {
+                heap_.push(current);
+                return;
+            } else {
+                insert(top.vertex);
+            }
+        }
+    }
 
     const std::vector<int>& samples() const { return samples_; }
     /// Per vertex: index of its sample, and the distance to it.
@@ -40,7 +75,14 @@ class FarthestPointSampling {
             return distance != o.distance ? distance < o.distance : vertex > o.vertex;
         }
     };
-    Candidate candidate(int vertex) const;
+    Candidate candidate(int vertex) const {
+        const double d = distance_[vertex];
+        if (!std::isfinite(d)) return {std::numeric_limits<float>::infinity(), vertex};
+        // Keep 20 bits of the distance: vertices that only rounding tells apart then tie.
+        int exponent;
+        const double mantissa = std::frexp(d, &exponent);
+        return {float(std::ldexp(std::round(std::ldexp(mantissa, 20)), exponent - 20)), vertex};
+    }
 
     Grow grow_;
     std::vector<int> samples_, cell_;

@@ -46,6 +46,12 @@ struct Assign {
         if (text != "true" && text != "false") refuse(parameter, text);
         *target = text == "true";
     }
+    void operator()(const EnumTarget& target) const {
+        const auto& choices = parameter.choices;
+        const auto found = std::find(choices.begin(), choices.end(), text);
+        if (found == choices.end()) refuse(parameter, text);
+        target.write(int(found - choices.begin()));
+    }
     void operator()(std::string* target) const {
         const auto& choices = parameter.choices;
         const bool listed = std::find(choices.begin(), choices.end(), text) != choices.end();
@@ -54,10 +60,22 @@ struct Assign {
     }
 };
 
+struct AsText {
+    const Parameter& parameter;
+
+    template <class Value>
+    std::string operator()(const Value* target) const {
+        return fmt::format("{}", *target);
+    }
+    std::string operator()(const EnumTarget& target) const {
+        return parameter.choices[std::size_t(target.read())];
+    }
+};
+
 }  // namespace
 
 std::string Parameter::text() const {
-    return std::visit([](const auto* target) { return fmt::format("{}", *target); }, value);
+    return std::visit(AsText{*this}, value);
 }
 
 std::vector<std::pair<std::string, std::string>> ParameterList::resolved() const {
@@ -68,9 +86,8 @@ std::vector<std::pair<std::string, std::string>> ParameterList::resolved() const
 
 std::string allowed_values(const Parameter& parameter) {
     if (std::holds_alternative<bool*>(parameter.value)) return "true or false";
-    if (std::holds_alternative<std::string*>(parameter.value))
-        return parameter.choices.empty() ? "one line of text"
-                                         : fmt::format("one of {}", fmt::join(parameter.choices, ", "));
+    if (!parameter.choices.empty()) return fmt::format("one of {}", fmt::join(parameter.choices, ", "));
+    if (std::holds_alternative<std::string*>(parameter.value)) return "one line of text";
     const bool whole = std::holds_alternative<int*>(parameter.value);
     return fmt::format("{} from {} to {}", whole ? "a whole number" : "a number",
                        limit_text(parameter, parameter.minimum), limit_text(parameter, parameter.maximum));

@@ -10,59 +10,55 @@ namespace varimap {
 
 namespace {
 
-/// A full plan of at most this many entries stays full: sparsity would save nothing.
+/// A full plan of at most this many entries stays full: sparsity would save nothing. Chosen by hand.
 constexpr long full_plan_entries = 10000;
 
-/// C of Eq. (10): how far the transported masses may be from m' and n' within an alternation.
+/// C of Eq. (10): how far the transported masses may be from m' and n' within an alternation. Chosen by hand:
+/// the paper gives no number.
 constexpr double slack = 1.1;
 
-struct Bounds {
-    MassBounds row, column;
-};
-
 /// The area bound: a factor of sqrt(B) on each side.
-Bounds area_bounds(const Side& X, const Side& Y, const AlternationOptions& options) {
+PlanBounds area_bounds(const Side& X, const Side& Y, const AlternationOptions& options) {
     const double D = std::sqrt(options.area_bound);
     return {MassBounds::around(X.mass, D), MassBounds::around(Y.mass, D)};
 }
 
 /// The area bound, and Eq. (10) around other masses.
-Bounds bounds_around(const Eigen::VectorXd& row, const Eigen::VectorXd& column, const Bounds& area) {
+PlanBounds bounds_around(const Eigen::VectorXd& row, const Eigen::VectorXd& column, const PlanBounds& area) {
     return {area.row.within(MassBounds::around(row, slack)),
             area.column.within(MassBounds::around(column, slack))};
 }
 
 /// What the plan's row and column sums must keep.
-Bounds plan_bounds(const Side& X, const Side& Y, const RelaxedMasses& relaxed,
-                   const AlternationOptions& options) {
-    const Bounds area = area_bounds(X, Y, options);
+PlanBounds plan_bounds(const Side& X, const Side& Y, const RelaxedMasses& relaxed,
+                       const AlternationOptions& options) {
+    const PlanBounds area = area_bounds(X, Y, options);
     return relaxed.row.size() > 0 ? bounds_around(relaxed.row, relaxed.column, area) : area;
 }
 
-struct PlanStep {
-    double gamma;
-    SinkhornReport sinkhorn;
+/// gamma from one divisor of the largest cost to another, in steps of 3.
+struct Annealing {
+    double largest, first_divisor, last_divisor;
 };
 
-/// Entropic transport with gamma annealed from the given divisor of the largest cost, in steps of 3, down to
-/// its final value, each time to the given tolerance. The problem's gamma is set here.
-PlanStep solve_annealed(TransportProblem problem, double largest, double first_divisor, double tolerance,
-                        const AlternationOptions& options, Solution& solution) {
-    PlanStep step{};
-    for (double divisor = std::min(first_divisor, options.gamma_divisor);; divisor *= 3) {
-        divisor = std::min(divisor, options.gamma_divisor);
-        problem.gamma = step.gamma = largest / divisor;
-        const SinkhornReport report =
-            sinkhorn(problem, {tolerance, options.sinkhorn_iterations}, solution.potentials, solution.plan);
-        step.sinkhorn = {step.sinkhorn.iterations + report.iterations, report.marginal_error};
-        if (divisor == options.gamma_divisor) return step;
+/// Entropic transport with gamma annealed, each time solved as the options say. The problem's gamma is set
+/// here.
+SinkhornReport solve_annealed(TransportProblem problem, const Annealing& annealing,
+                              const SinkhornOptions& options, Solution& solution) {
+    SinkhornReport total;
+    for (double divisor = std::min(annealing.first_divisor, annealing.last_divisor);; divisor *= 3) {
+        divisor = std::min(divisor, annealing.last_divisor);
+        problem.gamma = annealing.largest / divisor;
+        const SinkhornReport report = sinkhorn(problem, options, solution.potentials, solution.plan);
+        total = {total.iterations + report.iterations, report.marginal_error};
+        if (divisor == annealing.last_divisor) return total;
     }
 }
 
 /// Row and column sums that keep the bounds of a plan.
 struct Masses {
     Eigen::VectorXd row, column;
-    Masses(const Coupling& plan, const Bounds& bounds)
+    Masses(const Coupling& plan, const PlanBounds& bounds)
         : row(bounds.row.projected(row_sums(plan))), column(bounds.column.projected(column_sums(plan))) {}
 };
 
@@ -71,6 +67,7 @@ struct Masses {
 /// exact masses spread slowly.
 SinkhornReport tighten(TransportProblem problem, double largest, const AlternationOptions& options,
                        Solution& solution) {
+    // Chosen by hand on the known pairs, not swept: what rounding may move, and what it must not.
     constexpr double tolerance = 5e-3, failure = 5e-2;
     const Masses masses(solution.plan, {problem.row_bounds, problem.column_bounds});
     const double distance = std::max((masses.row - row_sums(solution.plan)).lpNorm<1>(),
@@ -78,7 +75,8 @@ SinkhornReport tighten(TransportProblem problem, double largest, const Alternati
     if (distance <= tolerance) return {0, distance};
     problem.row_bounds = {masses.row, masses.row};
     problem.column_bounds = {masses.column, masses.column};
-    const SinkhornReport report = solve_annealed(problem, largest, 1, tolerance, options, solution).sinkhorn;
+    const SinkhornReport report = solve_annealed(problem, {largest, 1, options.gamma_divisor},
+                                                 {tolerance, options.sinkhorn_iterations}, solution);
     if (report.marginal_error > failure)
         throw ConvergenceError(
             fmt::format("the area bound cannot be kept: {:.2g}% of the mass is out of place after {} "
@@ -87,29 +85,9 @@ SinkhornReport tighten(TransportProblem problem, double largest, const Alternati
     return report;
 }
 
-/// One plan half-step with the rest fixed.
-PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, bool tight,
-                    const AlternationOptions& options, Solution& solution) {
-    const Eigen::VectorXd cost =
-        CostFactors(X, Y, solution.step.centres, solution.relaxed).on(solution.plan.support);
-    const double largest = std::max(cost.maxCoeff(), 1e-300);
-    const Bounds bounds = plan_bounds(X, Y, solution.relaxed, options);
-    const TransportProblem problem{solution.plan.support,
-                                   cost,
-                                   X.mass,
-                                   Y.mass,
-                                   0,
-                                   options.background_factor * largest,
-                                   bounds.row,
-                                   bounds.column,
-                                   options.mass_penalty * largest};
-    PlanStep step =
-        solve_annealed(problem, largest, first_divisor, options.marginal_tolerance, options, solution);
-    if (tight) {
-        const SinkhornReport last = tighten(problem, largest, options, solution);
-        step.sinkhorn = {step.sinkhorn.iterations + last.iterations, last.marginal_error};
-    }
-    return step;
+/// The averaging operator of a side whose samples are damped.
+SparseMatrix damped_averaging(const Side& side, const Eigen::VectorXd& damping) {
+    return averaging_operator(side.weights * damping.asDiagonal(), side.mass);
 }
 
 }  // namespace
@@ -117,12 +95,21 @@ PlanStep solve_plan(const Side& X, const Side& Y, double first_divisor, bool tig
 void AlternatingMinimization::start(const Centres& centres, const KeptEntries& kept) {
     const int rows = int(X_.mass.size()), columns = int(Y_.mass.size());
     solution_.step.centres = centres;
+    pull_landmarks(X_, Y_, partners_, solution_.step.centres);
     solution_.relaxed = {};
-    if (options_.area_energy == "paper") solution_.relaxed = {X_.mass, Y_.mass};
+    if (options_.area_energy == AreaEnergy::paper) solution_.relaxed = {X_.mass, Y_.mass};
     solution_.potentials = Potentials::zero(rows, columns);
     solution_.plan.support =
-        kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.reach, Y_.reach);
+        kept.empty() ? Support::dense(rows, columns) : enlarged(kept, X_.neighbours, Y_.neighbours);
     fresh_ = true;
+}
+
+void AlternatingMinimization::set_damping(const std::optional<Damping>& damping) {
+    damped_X_.reset();
+    damped_Y_.reset();
+    if (!damping) return;
+    damped_X_ = damped_averaging(X_, damping->row);
+    damped_Y_ = damped_averaging(Y_, damping->column);
 }
 
 void AlternatingMinimization::renew_support() {
@@ -130,28 +117,54 @@ void AlternatingMinimization::renew_support() {
     if (full <= full_plan_entries && solution_.plan.support.entries() == full) return;
     const KeptEntries kept =
         significant_entries(solution_.plan, X_.mass, Y_.mass, options_.support_threshold);
-    solution_.plan.support = enlarged(kept, X_.reach, Y_.reach);
+    solution_.plan.support = enlarged(kept, X_.neighbours, Y_.neighbours);
+}
+
+/// The half-step over the plan, with the rest fixed. Returns the gamma that it ends with, too.
+SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
+    const Eigen::VectorXd cost =
+        CostFactors(averaged_X(), averaged_Y(), solution_.step.centres, solution_.relaxed)
+            .on(solution_.plan.support);
+    const double largest = std::max(cost.maxCoeff(), 1e-300);
+    gamma = largest / options_.gamma_divisor;
+    const PlanBounds bounds = plan_bounds(X_, Y_, solution_.relaxed, options_);
+    const TransportProblem problem{solution_.plan.support,
+                                   cost,
+                                   X_.mass,
+                                   Y_.mass,
+                                   gamma,
+                                   options_.background_factor * largest,
+                                   bounds.row,
+                                   bounds.column,
+                                   options_.mass_penalty * largest};
+    const double first_divisor = fresh_ ? options_.annealing_divisor : options_.gamma_divisor;
+    const SinkhornReport report =
+        solve_annealed(problem, {largest, first_divisor, options_.gamma_divisor},
+                       {options_.marginal_tolerance, options_.sinkhorn_iterations}, solution_);
+    if (!tight) return report;
+    const SinkhornReport last = tighten(problem, largest, options_, solution_);
+    return {report.iterations + last.iterations, last.marginal_error};
 }
 
 Alternation AlternatingMinimization::step(bool tight) {
     if (!fresh_) renew_support();
-    const double first_divisor = fresh_ ? options_.annealing_divisor : options_.gamma_divisor;
-    const PlanStep plan = solve_plan(X_, Y_, first_divisor, tight, options_, solution_);
-    if (options_.area_energy == "paper") {
+    double gamma;
+    const SinkhornReport sinkhorn = solve_plan(tight, gamma);
+    const AveragedSide X = averaged_X(), Y = averaged_Y();
+    if (options_.area_energy == AreaEnergy::paper) {
         const Masses masses(solution_.plan, plan_bounds(X_, Y_, solution_.relaxed, options_));
-        const Bounds bounds = bounds_around(masses.row, masses.column, area_bounds(X_, Y_, options_));
-        solution_.relaxed =
-            update_relaxed_masses(X_, Y_, solution_.plan, solution_.step.centres, bounds.row, bounds.column);
+        const PlanBounds bounds = bounds_around(masses.row, masses.column, area_bounds(X_, Y_, options_));
+        solution_.relaxed = update_relaxed_masses(X, Y, solution_.plan, solution_.step.centres, bounds);
     }
-    solution_.step = update_centres(X_, Y_, solution_.plan, solution_.relaxed);
+    solution_.step = update_centres(X, Y, solution_.plan, solution_.relaxed, partners_);
     fresh_ = false;
     if (tight) keep_bounds();
-    return {solution_.step.energy, plan.gamma, plan.sinkhorn, solution_.plan.support.entries()};
+    return {solution_.step.energy, gamma, sinkhorn, solution_.plan.support.entries()};
 }
 
 void AlternatingMinimization::keep_bounds() {
-    constexpr double tolerated = 1e-3;
-    const Bounds bounds = area_bounds(X_, Y_, options_);
+    constexpr double tolerated = 1e-3;  // what the plan promises: within 0.1%
+    const PlanBounds bounds = area_bounds(X_, Y_, options_);
     const Masses masses(solution_.plan, bounds);
     round_to_masses(masses.row, masses.column, solution_.plan);
     const double excess = std::max(bounds.row.excess(row_sums(solution_.plan)),
@@ -161,7 +174,7 @@ void AlternatingMinimization::keep_bounds() {
             fmt::format("transported masses leave the area bound by {:.2g}%", 100 * excess));
 }
 
-void AlternatingMinimization::run(const std::function<void(const Alternation&)>& observe) {
+void AlternatingMinimization::run(const Observer& observe) {
     double previous = 0;
     for (int iteration = 0; iteration < options_.maximum_alternations; ++iteration) {
         const Alternation alternation = step();

@@ -14,14 +14,14 @@ RowMatrix with_squared_norms(const RowMatrix& points) {
 }
 
 /// m' where it is given, else m.
-const Eigen::VectorXd& divisor(const Side& side, const Eigen::VectorXd& relaxed) {
-    return relaxed.size() > 0 ? relaxed : side.mass;
+const Eigen::VectorXd& divisor(const AveragedSide& X, const Eigen::VectorXd& relaxed) {
+    return relaxed.size() > 0 ? relaxed : X.side.mass;
 }
 
 /// A = diag(1/m') P' diag(m): m_k W_k(x_i) / Z_k times m_i / m'_i.
-SparseMatrix cost_weights(const Side& side, const Eigen::VectorXd& relaxed) {
-    return divisor(side, relaxed).cwiseInverse().asDiagonal() * SparseMatrix(side.averaging.transpose()) *
-           side.mass.asDiagonal();
+SparseMatrix cost_weights(const AveragedSide& X, const Eigen::VectorXd& relaxed) {
+    return divisor(X, relaxed).cwiseInverse().asDiagonal() * SparseMatrix(X.averaging.transpose()) *
+           X.side.mass.asDiagonal();
 }
 
 /// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i +
@@ -30,10 +30,10 @@ struct CollapsedSum {
     RowMatrix g;
     Eigen::VectorXd alpha, c;
 
-    CollapsedSum(const Side& side, const RowMatrix& centres, const Eigen::VectorXd& relaxed) {
-        const SparseMatrix A = cost_weights(side, relaxed);
+    CollapsedSum(const AveragedSide& X, const RowMatrix& centres, const Eigen::VectorXd& relaxed) {
+        const SparseMatrix A = cost_weights(X, relaxed);
         g = A * centres;
-        alpha = A * Eigen::VectorXd::Ones(side.mass.size());
+        alpha = A * Eigen::VectorXd::Ones(X.side.mass.size());
         c = A * Eigen::VectorXd(centres.rowwise().squaredNorm());
     }
 
@@ -47,11 +47,10 @@ struct CollapsedSum {
     }
 };
 
-void pull(const Side& side, const Side& other, RowMatrix& centres) {
-    const double W = side.landmark_weight;
-    for (size_t k = 0; k < side.partner.size(); ++k)
-        if (side.partner[k] >= 0)
-            centres.row(k) = W * other.points.row(side.partner[k]) + (1 - W) * centres.row(k);
+/// The centres of one side's samples towards their partners, which are points of the other side.
+void pull(const std::vector<int>& partner, const RowMatrix& points, double W, RowMatrix& centres) {
+    for (size_t k = 0; k < partner.size(); ++k)
+        if (partner[k] >= 0) centres.row(k) = W * points.row(partner[k]) + (1 - W) * centres.row(k);
 }
 
 /// Mean images of a side's samples and what their neighbourhoods make of them.
@@ -62,15 +61,15 @@ struct SideImages {
     Eigen::VectorXd weights;  ///< the same sum of 1
 
     /// `image` has squared norms in its last column; rho are the transported masses.
-    SideImages(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+    SideImages(const AveragedSide& X, const RowMatrix& image, const Eigen::VectorXd& rho,
                const Eigen::VectorXd& relaxed) {
         const Eigen::Index D = image.cols() - 1;
-        const Eigen::VectorXd share = rho.cwiseQuotient(divisor(side, relaxed));
-        const RowMatrix all = side.averaging * RowMatrix(share.asDiagonal() * image);
+        const Eigen::VectorXd share = rho.cwiseQuotient(divisor(X, relaxed));
+        const RowMatrix all = X.averaging * RowMatrix(share.asDiagonal() * image);
         mean = image.leftCols(D);
         sums = all.leftCols(D);
         squares = all.col(D);
-        weights = side.averaging * share;
+        weights = X.averaging * share;
     }
 
     RowMatrix centres() const { return weights.cwiseInverse().asDiagonal() * sums; }
@@ -83,30 +82,31 @@ struct SideImages {
     }
 
     /// What soft landmarks add, once they have moved the centres by W of the way to their partners.
-    double landmark_energy(const Side& side, const Side& other) const {
-        const double W = side.landmark_weight;
+    double landmark_energy(const Eigen::VectorXd& mass, const std::vector<int>& partner,
+                           const RowMatrix& points, double W) const {
         double distances = 0;
-        for (size_t k = 0; k < side.partner.size(); ++k)
-            if (side.partner[k] >= 0)
-                distances += side.mass[k] * weights[k] *
-                             (sums.row(k) / weights[k] - other.points.row(side.partner[k])).squaredNorm();
+        for (size_t k = 0; k < partner.size(); ++k)
+            if (partner[k] >= 0)
+                distances +=
+                    mass[k] * weights[k] * (sums.row(k) / weights[k] - points.row(partner[k])).squaredNorm();
         return W * (1 - W) * distances;
     }
 };
 
-SideImages images_of_rows(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
-    return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan), relaxed.row};
+SideImages images_of_rows(const AveragedSide& X, const Side& Y, const Coupling& plan,
+                          const Eigen::VectorXd& relaxed) {
+    return {X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan), relaxed};
 }
-SideImages images_of_columns(const Side& X, const Side& Y, const Coupling& plan,
-                             const RelaxedMasses& relaxed) {
-    return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan), relaxed.column};
+SideImages images_of_columns(const Side& X, const AveragedSide& Y, const Coupling& plan,
+                             const Eigen::VectorXd& relaxed) {
+    return {Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan), relaxed};
 }
 
 /// The m' that minimise sum_i A_i / m'_i within the bounds: clamp(s sqrt(A_i)), of sum 1.
-Eigen::VectorXd least_inverses(const Side& side, const RowMatrix& image, const Eigen::VectorXd& rho,
+Eigen::VectorXd least_inverses(const AveragedSide& X, const RowMatrix& image, const Eigen::VectorXd& rho,
                                const RowMatrix& centres, const MassBounds& bounds) {
-    const Eigen::VectorXd mean = CollapsedSum(side, centres, {}).mean(image);
-    const Eigen::ArrayXd A = side.mass.array() * rho.array() * mean.array();
+    const Eigen::VectorXd mean = CollapsedSum(X, centres, {}).mean(image);
+    const Eigen::ArrayXd A = X.side.mass.array() * rho.array() * mean.array();
     return bounded_masses(A.max(1e-300).log() / 2, bounds);
 }
 
@@ -122,15 +122,17 @@ SparseMatrix averaging_operator(const SparseMatrix& weights, const Eigen::Vector
     return P;
 }
 
-void pull_landmarks(const Side& X, const Side& Y, Centres& centres) {
-    pull(X, Y, centres.row);
-    pull(Y, X, centres.column);
+void pull_landmarks(const Side& X, const Side& Y, const Partners& partners, Centres& centres) {
+    pull(partners.row, Y.points, partners.weight, centres.row);
+    pull(partners.column, X.points, partners.weight, centres.column);
 }
 
-CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed) {
-    const CollapsedSum x(X, centres.row, relaxed.row), y(Y, centres.column, relaxed.column);
+CostFactors::CostFactors(const AveragedSide& averaged_X, const AveragedSide& averaged_Y,
+                         const Centres& centres, const RelaxedMasses& relaxed) {
+    const CollapsedSum x(averaged_X, centres.row, relaxed.row), y(averaged_Y, centres.column, relaxed.column);
+    const Side &X = averaged_X.side, &Y = averaged_Y.side;
     const Eigen::Index DX = X.points.cols(), DY = Y.points.cols();
-    const Eigen::Index further = X.compared.size() > 0 ? X.compared.cols() + 2 : 0;
+    const Eigen::Index further = X.descriptor.size() > 0 ? X.descriptor.cols() + 2 : 0;
     const Eigen::Index columns = DX + DY + 4 + further;
     u_.resize(X.points.rows(), columns);
     v_.resize(Y.points.rows(), columns);
@@ -138,8 +140,8 @@ CostFactors::CostFactors(const Side& X, const Side& Y, const Centres& centres, c
     u_.leftCols(DX + DY + 4) << -2 * x.g, X.points, x.alpha, X.points.rowwise().squaredNorm(), x.c, one_x;
     v_.leftCols(DX + DY + 4) << Y.points, -2 * y.g, Y.points.rowwise().squaredNorm(), y.alpha, one_y, y.c;
     if (further == 0) return;
-    u_.rightCols(further) << -2 * X.compared, X.compared.rowwise().squaredNorm(), one_x;
-    v_.rightCols(further) << Y.compared, one_y, Y.compared.rowwise().squaredNorm();
+    u_.rightCols(further) << -2 * X.descriptor, X.descriptor.rowwise().squaredNorm(), one_x;
+    v_.rightCols(further) << Y.descriptor, one_y, Y.descriptor.rowwise().squaredNorm();
 }
 
 Eigen::VectorXd CostFactors::on(const Support& support) const {
@@ -151,31 +153,28 @@ Eigen::VectorXd CostFactors::on(const Support& support) const {
     return cost;
 }
 
-CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan, const RelaxedMasses& relaxed) {
-    SideImages rows = images_of_rows(X, Y, plan, relaxed), columns = images_of_columns(X, Y, plan, relaxed);
+CentreStep update_centres(const AveragedSide& averaged_X, const AveragedSide& averaged_Y,
+                          const Coupling& plan, const RelaxedMasses& relaxed, const Partners& partners) {
+    const Side &X = averaged_X.side, &Y = averaged_Y.side;
+    SideImages rows = images_of_rows(averaged_X, Y, plan, relaxed.row),
+               columns = images_of_columns(X, averaged_Y, plan, relaxed.column);
     CentreStep step;
     step.centres = {rows.centres(), columns.centres()};
-    pull_landmarks(X, Y, step.centres);
+    pull_landmarks(X, Y, partners, step.centres);
     step.energy = rows.energy(X.mass, step.centres.row) + columns.energy(Y.mass, step.centres.column) +
-                  rows.landmark_energy(X, Y) + columns.landmark_energy(Y, X);
+                  rows.landmark_energy(X.mass, partners.row, Y.points, partners.weight) +
+                  columns.landmark_energy(Y.mass, partners.column, X.points, partners.weight);
     step.row_image = std::move(rows.mean);
     step.column_image = std::move(columns.mean);
     return step;
 }
 
-RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan,
-                                    const Centres& centres, const MassBounds& row_bounds,
-                                    const MassBounds& column_bounds) {
-    return {least_inverses(X, row_barycentres(plan, with_squared_norms(Y.points)), row_sums(plan),
-                           centres.row, row_bounds),
-            least_inverses(Y, column_barycentres(plan, with_squared_norms(X.points)), column_sums(plan),
-                           centres.column, column_bounds)};
-}
-
-double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
-              const RelaxedMasses& relaxed) {
-    return images_of_rows(X, Y, plan, relaxed).energy(X.mass, centres.row) +
-           images_of_columns(X, Y, plan, relaxed).energy(Y.mass, centres.column);
+RelaxedMasses update_relaxed_masses(const AveragedSide& X, const AveragedSide& Y, const Coupling& plan,
+                                    const Centres& centres, const PlanBounds& bounds) {
+    return {least_inverses(X, row_barycentres(plan, with_squared_norms(Y.side.points)), row_sums(plan),
+                           centres.row, bounds.row),
+            least_inverses(Y, column_barycentres(plan, with_squared_norms(X.side.points)), column_sums(plan),
+                           centres.column, bounds.column)};
 }
 
 }  // namespace varimap

@@ -8,23 +8,35 @@
 
 namespace varimap {
 
-/// One surface at one level, as the transport problem sees it.
+/// One surface at one level, as the transport problem sees it. Solving changes nothing of it.
 struct Side {
     RowMatrix
         points;  ///< samples x D: the embedding in which the OTHER side's images are averaged and spread
-    Eigen::VectorXd mass;  ///< per sample, sums to 1
-    SparseMatrix weights;  ///< row k: W_k(x_i) over its neighbourhood
-    SparseMatrix
-        reach;  ///< pattern of the neighbourhoods by which the plan's support grows; holds the diagonal
-    SparseMatrix averaging;    ///< P: p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'); rows sum to 1
-    std::vector<int> partner;  ///< per sample: the other side's sample that it belongs to (a landmark), or -1
-    double landmark_weight = 1;  ///< W of pull_landmarks, in (0, 1]
-    RowMatrix compared;  ///< samples x F: |f_i - f_j|^2 adds to the cost of an entry (compared_terms.h); may
-                         ///< be empty
+    Eigen::VectorXd mass;     ///< per sample, sums to 1
+    SparseMatrix weights;     ///< row k: W_k(x_i) over its neighbourhood
+    SparseMatrix neighbours;  ///< pattern along which the plan's support grows; holds the diagonal
+    SparseMatrix averaging;   ///< P: p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'); rows sum to 1
+    RowMatrix descriptor;  ///< samples x F: |f_i - f_j|^2 adds to the cost of an entry (descriptor_terms.h);
+                           ///< may be empty
 };
 
 /// P of a side: weights times masses, rows normalised (the measure W_x mu / mass(W_x mu) of Eq. 1).
 SparseMatrix averaging_operator(const SparseMatrix& weights, const Eigen::VectorXd& mass);
+
+/// A side with the averaging operator that counts: its own, or that of damped samples (Sec. 4.4). Refers to
+/// both.
+struct AveragedSide {
+    const Side& side;
+    const SparseMatrix& averaging;
+    AveragedSide(const Side& own) : side(own), averaging(own.averaging) {}
+    AveragedSide(const Side& own, const SparseMatrix& other) : side(own), averaging(other) {}
+};
+
+/// Landmarks at a level: samples that belong together, and how firmly.
+struct Partners {
+    std::vector<int> row, column;  ///< per sample of X (of Y): its sample of Y (of X), or -1; empty: none
+    double weight = 1;             ///< W of pull_landmarks, in (0, 1]
+};
 
 /// The auxiliary variables eta (Sec. 2.3): images of each side's weighted neighbourhoods, in the other's
 /// embedding.
@@ -64,7 +76,8 @@ struct RelaxedMasses {
 /// collapsed into one dot product of D_X + D_Y + 4 numbers per entry: c_ij = u_i . v_j.
 class CostFactors {
   public:
-    CostFactors(const Side& X, const Side& Y, const Centres& centres, const RelaxedMasses& relaxed = {});
+    CostFactors(const AveragedSide& X, const AveragedSide& Y, const Centres& centres,
+                const RelaxedMasses& relaxed = {});
     double entry(int i, int j) const { return u_.row(i).dot(v_.row(j)); }
     Eigen::VectorXd on(const Support& support) const;
 
@@ -74,25 +87,20 @@ class CostFactors {
 
 /// Half-step over the centres: eta_xk = mean image of the samples x_i, weighted by p_ki rho_i / m'_i,
 /// landmarks pulled; and the energy C' for the plan and these centres, with what soft landmarks add, without
-/// what is compared directly.
+/// the costs of descriptors.
 struct CentreStep {
     Centres centres;
     RowMatrix row_image,
         column_image;  ///< mean images of the samples themselves (pi_X(delta_x), pi_Y(delta_y))
     double energy;
 };
-CentreStep update_centres(const Side& X, const Side& Y, const Coupling& plan,
-                          const RelaxedMasses& relaxed = {});
+CentreStep update_centres(const AveragedSide& X, const AveragedSide& Y, const Coupling& plan,
+                          const RelaxedMasses& relaxed = {}, const Partners& partners = {});
 
 /// Half-step over m' and n': with the rest fixed C' = sum_i A_i / m'_i + sum_j B_j / n'_j, A_i = m_i sum_j
 /// pi_ij cX_ij.
-RelaxedMasses update_relaxed_masses(const Side& X, const Side& Y, const Coupling& plan,
-                                    const Centres& centres, const MassBounds& row_bounds,
-                                    const MassBounds& column_bounds);
-
-/// C' for any centres, from the mean images of the samples and of their squared norms.
-double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres& centres,
-              const RelaxedMasses& relaxed = {});
+RelaxedMasses update_relaxed_masses(const AveragedSide& X, const AveragedSide& Y, const Coupling& plan,
+                                    const Centres& centres, const PlanBounds& bounds);
 
 /// Landmarks: the centre of a sample k with a partner becomes W y + (1 - W) eta_k, where y is the partner's
 /// point. W = 1 pins it, as the paper does. A smaller W makes it soft: then the blend is the best centre for
@@ -100,6 +108,6 @@ double energy(const Side& X, const Side& Y, const Coupling& plan, const Centres&
 ///   W / (1 - W) s_k m_k |eta_k - y|^2,   s_k = sum_i p_ki rho_i / m'_i (1 where masses are exact),
 /// so that the map may disagree: it pays W times what it would pay for the same images were the landmark
 /// pinned.
-void pull_landmarks(const Side& X, const Side& Y, Centres& centres);
+void pull_landmarks(const Side& X, const Side& Y, const Partners& partners, Centres& centres);
 
 }  // namespace varimap

@@ -14,10 +14,15 @@ auto clamped(const Eigen::ArrayXd& log_a, double log_phi, const MassBounds& boun
     return (log_a + log_phi).min(700.0).exp().max(bounds.lower.array()).min(bounds.upper.array());
 }
 
-/// log phi of the linear piece between two neighbouring breakpoints, where clamped() sums to 1.
+/// Between two neighbouring breakpoints: log phi.
+struct Piece {
+    double begin, end;
+};
+
+/// log phi of a linear piece in which clamped() sums to 1.
 double solve_piece(const Eigen::ArrayXd& log_a, const Eigen::ArrayXd& log_lower,
-                   const Eigen::ArrayXd& log_upper, const MassBounds& bounds, double begin, double end) {
-    const double middle = begin + (end - begin) / 2;
+                   const Eigen::ArrayXd& log_upper, const MassBounds& bounds, const Piece& piece) {
+    const double middle = piece.begin + (piece.end - piece.begin) / 2;
     double held = 0, top = -std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < log_a.size(); ++i) {
         if (log_a[i] + middle <= log_lower[i])
@@ -34,7 +39,7 @@ double solve_piece(const Eigen::ArrayXd& log_a, const Eigen::ArrayXd& log_lower,
     // Rounding may leave a piece without free lines, or the last of them without mass: then any phi of it
     // does.
     if (!(free > 0) || !(held < 1)) return middle;
-    return std::clamp(std::log((1 - held) / free) - top, begin, end);
+    return std::clamp(std::log((1 - held) / free) - top, piece.begin, piece.end);
 }
 
 }  // namespace
@@ -74,8 +79,8 @@ Eigen::VectorXd bounded_masses(const Eigen::ArrayXd& log_a, const MassBounds& bo
     // All at one end of their bounds: the sums of the bounds are 1 but for rounding.
     if (after == breakpoints.begin()) return bounds.lower;
     if (after == breakpoints.end()) return bounds.upper;
-    return clamped(log_a, solve_piece(log_a, log_lower, log_upper, bounds, *std::prev(after), *after),
-                   bounds);
+    const Piece piece{*std::prev(after), *after};
+    return clamped(log_a, solve_piece(log_a, log_lower, log_upper, bounds, piece), bounds);
 }
 
 }  // namespace varimap

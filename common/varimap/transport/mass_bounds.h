@@ -20,6 +20,11 @@ struct MassBounds {
     double excess(const Eigen::VectorXd& mass) const;
 };
 
+/// Bounds on both marginals of a plan.
+struct PlanBounds {
+    MassBounds row, column;
+};
+
 /// clamp(phi a_i, lower_i, upper_i) with the phi that makes their sum 1 (App. A; Alg. 4, Global_Mass and
 /// Update_Vector_Global_Mass). Given are the logarithms of the a_i, which may spread over any range.
 ///

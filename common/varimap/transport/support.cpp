@@ -112,6 +112,29 @@ Eigen::VectorXd column_sums(const Coupling& plan) {
     return sums;
 }
 
+std::vector<int> largest_of_rows(const Coupling& plan) {
+    const Support& s = plan.support;
+    std::vector<int> best(s.rows(), 0);
+    for (int i = 0; i < s.rows(); ++i) {
+        double largest = -1;
+        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
+            if (plan.value[e] > largest) largest = plan.value[e], best[i] = s.column[e];
+    }
+    return best;
+}
+
+std::vector<int> largest_of_columns(const Coupling& plan) {
+    const Support& s = plan.support;
+    std::vector<int> best(s.columns(), 0);
+    for (int j = 0; j < s.columns(); ++j) {
+        double largest = -1;
+        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e)
+            if (const double value = plan.value[s.by_row[e]]; value > largest)
+                largest = value, best[j] = s.row[e];
+    }
+    return best;
+}
+
 RowMatrix row_barycentres(const Coupling& plan, const RowMatrix& points) {
     const Support& s = plan.support;
     RowMatrix sums = plan.row_background * (plan.column_background.transpose() * points);

@@ -41,6 +41,11 @@ struct Coupling {
 Eigen::VectorXd row_sums(const Coupling& plan);
 Eigen::VectorXd column_sums(const Coupling& plan);
 
+/// Per row (per column): the column (the row) of its largest entry, the first of equals; 0 where the support
+/// has none.
+std::vector<int> largest_of_rows(const Coupling& plan);
+std::vector<int> largest_of_columns(const Coupling& plan);
+
 /// Mean image of each row: sum_j pi_ij points_j / sum_j pi_ij (the transfer operator pi_X, Sec. 2.1).
 RowMatrix row_barycentres(const Coupling& plan, const RowMatrix& points);
 /// Mean image of each column under pi_Y.

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/known_pair.h"
-#include "varimap/multilevel/solve_level.h"
+#include "varimap/multilevel/descent.h"
 
 namespace varimap {
 namespace {
@@ -39,19 +39,30 @@ Centres centres_after(const std::vector<int>& move, const LevelPair& pair, const
 /// Share of the mass on which a level's map is reversed, solved from the map with mirrored limbs.
 double reversed_mass(const PairContext& context, const KnownPair& figures, bool iron, double* energy) {
     constexpr int index = 7;  // about 400 samples
-    LevelPair pair = context.diffusion_level(index);
-    const Start start{centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}};
-    IroningOptions options;
-    options.enabled = iron;
-    std::vector<TraceRow> trace;
     AlternationOptions alternation;
     alternation.area_bound = 1;
-    const Solution solution = solve_level(context, pair, start, index, alternation, options, false, trace);
+    TracedDescent descent(context, alternation, {});
+    descent.enter(context.diffusion_level(index));
+    const LevelPair& pair = descent.level();
+    const Start start{centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}};
+    const Solution solution = descent.solve(start, {.index = index, .ironed = iron});
     *energy = solution.step.energy;
-    // Weights are back to what they were.
-    EXPECT_EQ(RowMatrix(pair.A.side.averaging),
-              RowMatrix(averaging_operator(pair.A.side.weights, pair.A.side.mass)));
-    return Ironing(context, pair, options).measure(solution).reversed_mass();
+    return descent.ironing().measure(pair, solution).reversed_mass();
+}
+
+TEST(Ironing, ReturnsTheOrientationOfWhatItEndsWith) {
+    const KnownPair figures = shapes::figure_pair(.6, false);
+    const PairContext context = figures.context();
+    Descent descent(context, {}, {});
+    descent.enter(context.diffusion_level(7));
+    const LevelPair& pair = descent.level();
+    AlternatingMinimization minimization =
+        descent.settled({centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}});
+    const auto orientation = descent.ironing().iron(pair, minimization, unobserved);
+    ASSERT_TRUE(orientation.has_value());
+    const PairOrientation measured = descent.ironing().measure(pair, minimization.solution());
+    EXPECT_EQ(orientation->A_to_B.determinant, measured.A_to_B.determinant);
+    EXPECT_EQ(orientation->B_to_A.determinant, measured.B_to_A.determinant);
 }
 
 TEST(Ironing, TurnsMirroredLimbsBack) {

@@ -65,8 +65,6 @@ RowMatrix expected_centres(const RowMatrix& plan, const Level& coarse_from, cons
             centres.row(k) +=
                 it.value() *
                 image.row(coarse_from.cell[std::size_t(from.level.samples[std::size_t(it.col())])]);
-        if (from.side.partner[std::size_t(k)] >= 0)
-            centres.row(k) = to.side.points.row(from.side.partner[std::size_t(k)]);
     }
     return centres;
 }
@@ -75,7 +73,7 @@ TEST(LevelTransfer, HandsDownImagesThroughParentsAndCells) {
     const PairContext context = tubes().context();
     const LevelPair coarse = context.diffusion_level(2), fine = context.diffusion_level(4);
     const Coupling plan = some_plan(coarse);
-    const Start start = hand_down(plan, coarse.A.level, coarse.B.level, fine, .01);
+    const Start start = LevelSwitch(coarse.A.level, coarse.B.level, fine).hand_down(plan, .01);
     const RowMatrix pi = dense(plan);
     EXPECT_LT((start.centres.row - expected_centres(pi, coarse.A.level, coarse.B.level, fine.A, fine.B))
                   .cwiseAbs()
@@ -97,7 +95,7 @@ TEST(LevelTransfer, OfTheIdentityStartsNearTheIdentity) {
     for (int level = 4; level < context.diffusion_levels(); ++level) {
         const LevelPair coarse = context.diffusion_level(level - 1), fine = context.diffusion_level(level);
         const Start start =
-            hand_down(identity_plan(coarse.A.level), coarse.A.level, coarse.B.level, fine, .01);
+            LevelSwitch(coarse.A.level, coarse.B.level, fine).hand_down(identity_plan(coarse.A.level), .01);
         for (int k = 0; k < start.centres.row.rows(); ++k) {
             const auto centre = start.centres.row.row(k), here = fine.A.side.points.row(k);
             EXPECT_GT(2 * centre.dot(here) / (centre.squaredNorm() + here.squaredNorm()), .6)
@@ -120,11 +118,26 @@ TEST(PairContext, PinsLandmarksAtEveryLevel) {
                       j = pair.B.level.cell[std::size_t(b.index)];
             EXPECT_EQ(pair.A.level.samples[std::size_t(i)], a.index);
             EXPECT_EQ(pair.B.level.samples[std::size_t(j)], b.index);
-            EXPECT_EQ(pair.A.side.partner[std::size_t(i)], j);
-            EXPECT_EQ(pair.B.side.partner[std::size_t(j)], i);
-            EXPECT_EQ(std::count(pair.A.side.partner.begin(), pair.A.side.partner.end(), -1),
-                      std::ptrdiff_t(pair.A.side.partner.size() - tube.landmarks.size()));
+            const Partners& partners = pair.partners;
+            EXPECT_EQ(partners.row[std::size_t(i)], j);
+            EXPECT_EQ(partners.column[std::size_t(j)], i);
+            EXPECT_EQ(std::count(partners.row.begin(), partners.row.end(), -1),
+                      std::ptrdiff_t(partners.row.size() - tube.landmarks.size()));
         }
+}
+
+TEST(PairContext, FindsALevelByItsSamples) {
+    const PairContext context = tubes().context();
+    const int last = context.diffusion_levels() - 1;
+    for (const int l : {last - 1, last}) {
+        const LevelPair pair = context.diffusion_level(l);
+        EXPECT_EQ(context.find_diffusion_level(pair.A.level.samples, pair.B.level.samples), l);
+        const Levels plain = context.diffusion_samples(l);
+        EXPECT_EQ(plain.A.cell, pair.A.level.cell);
+        EXPECT_EQ(plain.B.mass, pair.B.level.mass);
+    }
+    const Levels some = context.diffusion_samples(last);
+    EXPECT_EQ(context.find_diffusion_level(some.A.samples, some.A.samples), -1);
 }
 
 TEST(PairContext, LeadsSurfacesOfDifferentDepthToTheirVertices) {

@@ -10,6 +10,7 @@
 
 #include "fixtures/shapes.h"
 #include "fixtures/surface_data.h"
+#include "varimap/spectral/neighbourhoods.h"
 
 namespace varimap {
 namespace {
@@ -133,7 +134,10 @@ TEST(Hierarchy, EuclideanLevelsFollowTheirRules) {
         expect_weights(level);
         if (l + 1 < last) expect_euclidean_cover(level, graph);
     }
+    EXPECT_EQ(h.full_levels(), 2);
+    EXPECT_EQ(h.sampled_euclidean_levels(), int(last - 1 - first));
     for (const auto& [l, neighbours] : {std::pair{last - 1, 30}, std::pair{last, 12}}) {
+        EXPECT_TRUE(h.levels[l].full);
         EXPECT_EQ(int(h.levels[l].samples.size()), data.surface.mesh.vertex_count());
         EXPECT_EQ(h.levels[l].mass, data.surface.mass);
         const double mean = double(h.levels[l].weights.nonZeros()) / data.surface.mesh.vertex_count();
@@ -221,6 +225,33 @@ TEST(Hierarchy, IsTheSameToTheLastBitForAnyThreads) {
     EXPECT_EQ(encode(read), one);
 }
 
+TEST(Hierarchy, DescribesTheLocalShapeOfEveryVertex) {
+    const SurfaceData data = small_figure();
+    const LocalShape shape = local_shape(data.surface, data.basis);
+    EXPECT_EQ(data.hierarchy.shape.descriptors, shape.descriptors);
+    EXPECT_EQ(data.hierarchy.shape.bending, shape.bending);
+    EXPECT_EQ(shape.descriptors.rows(), data.surface.mesh.vertex_count());
+}
+
+TEST(Level, MeansOverCellsAreWeightedByMass) {
+    Level level;
+    level.samples = {0, 2};
+    level.cell = {0, 0, 1};
+    level.mass = Eigen::Vector2d(.4, .6);
+    const RowMatrix means = cell_means(level, Eigen::Vector3d(.1, .3, .6), Eigen::Vector3d(1, 5, 7));
+    EXPECT_NEAR(means(0, 0), 4, 1e-15);
+    EXPECT_NEAR(means(1, 0), 7, 1e-15);
+}
+
+TEST(Neighbourhoods, NearerPartOfThoseCutAtAHalfHasWeightsFromSevenTenthsOn) {
+    SparseMatrix weights(1, 3);
+    weights.insert(0, 0) = 1;
+    weights.insert(0, 1) = .71;
+    weights.insert(0, 2) = .69;
+    EXPECT_EQ(nearer_part(weights, .5).nonZeros(), 2);
+    EXPECT_EQ(nearer_part(weights, .95).nonZeros(), 1);
+}
+
 TEST(Hierarchy, ParentsAreTheCellsOfSamples) {
     const SurfaceData data = surface_data(unit_surface(shapes::tube(30, 16, true)), 30);
     const Level &coarse = data.hierarchy.levels[2], &fine = data.hierarchy.levels[4];
@@ -238,14 +269,16 @@ TEST(Hierarchy, TakesFurtherSamples) {
     const SurfaceData data = surface_data(unit_surface(shapes::tube(40, 20, true)), 30);
     const GeodesicGraph graph(data.surface.mesh);
     const Hierarchy& h = data.hierarchy;
+    const LevelBuilder builder(data.surface, data.basis, graph, h.options);
     for (const Level& level : h.levels) {
         const std::vector<int> wanted{level.samples[1], 17, 500};
-        const Level with = with_samples(level, wanted, data.surface, data.basis, graph, h.options);
+        const Level with = builder.with_samples(level, wanted);
+        EXPECT_EQ(with.samples, samples_with(level, wanted));
         for (int v : wanted) EXPECT_EQ(with.samples[std::size_t(with.cell[std::size_t(v)])], v);
         EXPECT_LE(with.samples.size(), level.samples.size() + 2);
         expect_cells_and_masses(with, data.surface);
         expect_weights(with);
-        const Level same = with_samples(level, level.samples, data.surface, data.basis, graph, h.options);
+        const Level same = builder.with_samples(level, level.samples);
         EXPECT_EQ(same.samples, level.samples);
         EXPECT_EQ(same.cell, level.cell);
     }

@@ -17,57 +17,61 @@ SurfaceData figure() {
     return shapes::figure_pair(1, false).A;
 }
 
+RowMatrix descriptors(const SurfaceData& data) {
+    return local_shape(data.surface, data.basis).descriptors;
+}
+
 TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
     SurfaceData data = figure();
-    const Eigen::VectorXd plain = bending(data, 4e-3);
+    const Eigen::VectorXd plain = bending(data.surface, data.basis, 4e-3);
     const TriangleMesh& mesh = data.surface.mesh;
     int tip;  // of the tail, the hindmost vertex
     mesh.vertices.col(0).minCoeff(&tip);
     EXPECT_GT(plain[tip], 2 * plain.cwiseAbs().mean());
     data.surface = with_reversed_orientation(std::move(data.surface));
-    EXPECT_LT((bending(data, 4e-3) - plain).norm(), 1e-9 * plain.norm());
+    EXPECT_LT((bending(data.surface, data.basis, 4e-3) - plain).norm(), 1e-9 * plain.norm());
 }
 
-TEST(Thickness, IsTheLengthOfChordsOfASphere) {
+TEST(ShapeDiameter, IsTheLengthOfChordsOfASphere) {
     // The cone's rays hit a sphere of radius r at 2 r cos(angle from the normal): tan = 0.5, so cos = 2 /
     // sqrt(5).
-    const Eigen::VectorXd through = thickness(sphere().surface);
+    const Eigen::VectorXd through = shape_diameter(sphere().surface);
     const double diameter = 1 / std::sqrt(M_PI), expected = diameter * (1 + 3 * 2 / std::sqrt(5)) / 4;
     EXPECT_NEAR(through.mean(), expected, .01 * expected);
     EXPECT_LT((through.array() - expected).abs().maxCoeff(), .03 * expected);
 }
 
-TEST(Thickness, IsThatOfTheLongestRayWhereNothingLiesOpposite) {
-    EXPECT_NEAR(thickness(shapes::unit_surface(shapes::square(8))).minCoeff(), .6, 1e-3);
+TEST(ShapeDiameter, IsThatOfTheLongestRayWhereNothingLiesOpposite) {
+    EXPECT_NEAR(shape_diameter(shapes::unit_surface(shapes::square(8))).minCoeff(), .6, 1e-3);
 }
 
-TEST(Thickness, IsThatOfTheLongestRayWhereThereIsNoNormal) {
+TEST(ShapeDiameter, IsThatOfTheLongestRayWhereThereIsNoNormal) {
     Surface surface = sphere().surface;
     TriangleMesh& mesh = surface.mesh;
     const Adjacency neighbours = vertex_neighbours(mesh);
     for (const int v : neighbours[0]) mesh.vertices.row(v) = mesh.vertices.row(0).eval();
-    const Eigen::VectorXd through = thickness(surface);
+    const Eigen::VectorXd through = shape_diameter(surface);
     EXPECT_TRUE(through.allFinite());
     EXPECT_NEAR(through[0], .6, 1e-3);
     EXPECT_LT(through[neighbours[0][0]], .6);  // has other faces
 }
 
 TEST(LocalShape, IsNearlyZeroWhereAllPlacesAreAlike) {
-    EXPECT_LT(local_shape(sphere()).cwiseAbs().maxCoeff(), .1);
+    EXPECT_LT(descriptors(sphere()).cwiseAbs().maxCoeff(), .1);
     const SurfaceData square = shapes::surface_data(shapes::unit_surface(shapes::square(12)), 60);
-    EXPECT_LT(local_shape(square).cwiseAbs().maxCoeff(), .1);
+    EXPECT_LT(descriptors(square).cwiseAbs().maxCoeff(), .1);
 }
 
 TEST(LocalShape, IsKeptByMotionsAndMirroring) {
     SurfaceData data = figure();
-    const RowMatrix plain = local_shape(data);
+    const RowMatrix plain = descriptors(data);
     EXPECT_GT(plain.rowwise().squaredNorm().mean(), .2);  // there is something to compare
     const Eigen::AngleAxisd turn(1, Vec3(1, 2, 3).normalized());
     data.surface.mesh.vertices = (data.surface.mesh.vertices * turn.toRotationMatrix().transpose()).eval();
     data.surface = with_reversed_orientation(std::move(data.surface));
-    // Rays in other directions around the normal measure other thicknesses.
-    EXPECT_LT((local_shape(data) - plain).leftCols(2).norm(), 1e-6 * plain.norm());
-    EXPECT_LT((local_shape(data) - plain).norm(), .2 * plain.norm());
+    // Rays in other directions around the normal measure other diameters.
+    EXPECT_LT((descriptors(data) - plain).leftCols(2).norm(), 1e-6 * plain.norm());
+    EXPECT_LT((descriptors(data) - plain).norm(), .2 * plain.norm());
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace varimap {
 namespace {
 
 /// Vertices on a line, one unit apart.
-FarthestPointSampling::Grow on_line(int n) {
-    return [n](int sample, const FarthestPointSampling::Claim& claim) {
+auto on_line(int n) {
+    return [n](int sample, const auto& claim) {
         if (!claim(sample, 0)) return;
         for (int v = sample + 1; v < n && claim(v, v - sample);) ++v;
         for (int v = sample - 1; v >= 0 && claim(v, sample - v);) --v;
@@ -21,9 +21,8 @@ FarthestPointSampling::Grow on_line(int n) {
 }
 
 /// Straight distances on a convex mesh; counts the claims.
-FarthestPointSampling::Grow over_mesh(const TriangleMesh& mesh, const GeodesicGraph& graph,
-                                      long* claims = nullptr) {
-    return [&mesh, &graph, claims](int sample, const FarthestPointSampling::Claim& claim) {
+auto over_mesh(const TriangleMesh& mesh, const GeodesicGraph& graph, long* claims = nullptr) {
+    return [&mesh, &graph, claims](int sample, const auto& claim) {
         std::vector<int> queue;
         const auto visit = [&](int v) {
             if (claims) ++*claims;
@@ -72,7 +71,7 @@ TEST(Sampling, IgnoresWhatIsASampleAlready) {
 
 TEST(Sampling, KeepsCoincidentSamplesApart) {
     // All vertices in one place.
-    FarthestPointSampling sampling(4, [](int sample, const FarthestPointSampling::Claim& claim) {
+    FarthestPointSampling sampling(4, [](int sample, const auto& claim) {
         for (int i = 0; i < 4; ++i) claim((sample + i) % 4, 0);
     });
     for (int v : {2, 0}) sampling.insert(v);
@@ -122,7 +121,7 @@ TEST(Sampling, TakesNearlyLinearWork) {
 TEST(Sampling, DoesNotLetRoundingDecideBetweenEqualVertices) {
     // The two ends are equally far but for rounding: the lower number goes first, whichever is farther by it.
     for (const double noise : {-1e-12, 0., 1e-12}) {
-        FarthestPointSampling sampling(3, [noise](int sample, const FarthestPointSampling::Claim& claim) {
+        FarthestPointSampling sampling(3, [noise](int sample, const auto& claim) {
             const double position[] = {-1 - noise, 0, 1};
             for (int v = 0; v < 3; ++v) claim(v, std::abs(position[v] - position[sample]));
         });

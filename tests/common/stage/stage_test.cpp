@@ -25,6 +25,12 @@ void decode(const std::string& payload, TestArtifact& sample) {
     sample.text = payload;
 }
 
+enum class TestStart : int { none, both };
+template <>
+struct EnumNames<TestStart> {
+    static constexpr std::array names{"none", "both"};
+};
+
 namespace {
 
 using testing::HasSubstr;
@@ -33,12 +39,12 @@ struct TestParams {
     double length = 0.1;
     int count = 5;
     bool aligned = false;
-    std::string start = "none";
+    TestStart start = TestStart::none;
     void describe(ParameterList& list) {
         list.add("length", length, "target length, units of sqrt(area)", 0, 1);
         list.add("count", count, "number of things", 1, 100);
         list.add("aligned", aligned, "whether the surfaces are aligned");
-        list.add("start", start, "where to start", {"none", "both"});
+        list.add("start", start, "where to start");
     }
 };
 
@@ -64,7 +70,7 @@ Outcome run_sample(std::vector<std::string> arguments, const std::function<void(
         stage.record_file("source", in);
         stage.record_number("levels", 4);
         if (extra) extra(stage);
-        stage.write(out, TestArtifact{params.start});
+        stage.write(out, TestArtifact{name_of(params.start)});
     });
     if (used != nullptr) *used = params;
     return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
@@ -209,7 +215,7 @@ TEST_F(StageRun, ConfigFileGivesWayToTheCommandLineAndOtherStagesSectionsDoNotCo
     EXPECT_EQ(params.length, 0.5);
     EXPECT_EQ(params.count, 8);
     EXPECT_TRUE(params.aligned);
-    EXPECT_EQ(params.start, "both");
+    EXPECT_EQ(params.start, TestStart::both);
 }
 
 TEST_F(StageRun, ConfigFileWithUnknownOrBadEntriesExitsWith2) {

@@ -12,6 +12,7 @@ namespace varimap {
 namespace {
 
 using random_plan::dense;
+using random_plan::energy;
 
 shapes::KnownPair tubes() {
     return shapes::known_pair(shapes::tube(40, 20, true), shapes::tube(36, 18, true, .4),
@@ -26,7 +27,7 @@ LevelPair tube_level() {
 Centres zero_centres(const LevelPair& pair) {
     Centres centres{RowMatrix::Zero(pair.A.side.points.rows(), pair.B.side.points.cols()),
                     RowMatrix::Zero(pair.B.side.points.rows(), pair.A.side.points.cols())};
-    pull_landmarks(pair.A.side, pair.B.side, centres);
+    pull_landmarks(pair.A.side, pair.B.side, pair.partners, centres);
     return centres;
 }
 
@@ -113,7 +114,7 @@ TEST(AlternatingMinimization, EachHalfStepOfThePaperLowersItsEnergy) {
 
         const MassBounds around_X = area_X.within(MassBounds::around(row_sums(plan), slack));
         const MassBounds around_Y = area_Y.within(MassBounds::around(column_sums(plan), slack));
-        relaxed = update_relaxed_masses(X, Y, plan, centres, around_X, around_Y);
+        relaxed = update_relaxed_masses(X, Y, plan, centres, {around_X, around_Y});
         EXPECT_NEAR(relaxed.row.sum(), 1, 1e-10);
         EXPECT_NEAR(relaxed.column.sum(), 1, 1e-10);
         EXPECT_LT(std::max(around_X.excess(relaxed.row), around_Y.excess(relaxed.column)), 1e-10);
@@ -131,21 +132,22 @@ TEST(AlternatingMinimization, EachHalfStepOfThePaperLowersItsEnergy) {
 TEST(AlternatingMinimization, TightStepKeepsTheAreaBound) {
     const LevelPair pair = tube_level();
     const Side &X = pair.A.side, &Y = pair.B.side;
-    for (const char* energy : {"transported", "paper"})
+    for (const AreaEnergy energy : {AreaEnergy::transported, AreaEnergy::paper})
         for (const double bound : {1., 1.2, 4.}) {
             AlternationOptions options;
             options.area_bound = bound;
             options.area_energy = energy;
             options.mass_penalty = 0;
-            AlternatingMinimization minimization(X, Y, options);
+            AlternatingMinimization minimization(X, Y, options, pair.partners);
             minimization.start(zero_centres(pair), {});
             for (int i = 0; i < 3; ++i) minimization.step();
             const double before = minimization.solution().step.energy;
             const double after = minimization.tight_step().energy;
             const double D = std::sqrt(bound);
             const Coupling& plan = minimization.solution().plan;
-            EXPECT_LT(MassBounds::around(X.mass, D).excess(row_sums(plan)), 1e-3) << bound << energy;
-            EXPECT_LT(MassBounds::around(Y.mass, D).excess(column_sums(plan)), 1e-3) << bound << energy;
+            EXPECT_LT(MassBounds::around(X.mass, D).excess(row_sums(plan)), 1e-3) << bound << name_of(energy);
+            EXPECT_LT(MassBounds::around(Y.mass, D).excess(column_sums(plan)), 1e-3)
+                << bound << name_of(energy);
             EXPECT_LT(std::abs(after - before), .1 * before);
         }
 }
@@ -154,7 +156,7 @@ TEST(AlternatingMinimization, RefusesAPlanThatDoesNotConverge) {
     const LevelPair pair = tube_level();
     AlternationOptions options;
     options.sinkhorn_iterations = 1;
-    AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, options, pair.partners);
     minimization.start(zero_centres(pair), {});
     EXPECT_THROW(minimization.tight_step(), ConvergenceError);
 }
@@ -164,7 +166,7 @@ TEST(AlternatingMinimization, RunsUntilTheEnergySettles) {
     AlternationOptions options;
     options.maximum_alternations = 100;
     options.area_bound = 1;
-    AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, options, pair.partners);
     minimization.start(zero_centres(pair), {});
     std::vector<Alternation> steps;
     minimization.run([&](const Alternation& step) { steps.push_back(step); });
@@ -184,7 +186,7 @@ TEST(AlternatingMinimization, RunsUntilTheEnergySettles) {
 
 TEST(AlternatingMinimization, AnnealsGammaToAShareOfTheLargestCost) {
     const LevelPair pair = tube_level();
-    AlternatingMinimization minimization(pair.A.side, pair.B.side, {});
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
     minimization.start(zero_centres(pair), {});
     const Centres centres = minimization.solution().step.centres;
     const double largest =
@@ -195,7 +197,7 @@ TEST(AlternatingMinimization, AnnealsGammaToAShareOfTheLargestCost) {
 TEST(AlternatingMinimization, KeepsLandmarksPinned) {
     const shapes::KnownPair tube = tubes();
     const LevelPair pair = tube.context().diffusion_level(5);
-    AlternatingMinimization minimization(pair.A.side, pair.B.side, {});
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
     minimization.start(zero_centres(pair), {});
     for (int i = 0; i < 3; ++i) {
         minimization.step();
@@ -213,7 +215,7 @@ TEST(AlternatingMinimization, FindsTheSameOnASupportThatFollowsThePlan) {
     const auto solve = [&](double threshold) {
         AlternationOptions options;
         options.support_threshold = threshold;
-        AlternatingMinimization minimization(pair.A.side, pair.B.side, options);
+        AlternatingMinimization minimization(pair.A.side, pair.B.side, options, pair.partners);
         minimization.start(zero_centres(pair), {});
         minimization.run([](const Alternation&) {});
         return minimization.take_solution();
@@ -226,10 +228,31 @@ TEST(AlternatingMinimization, FindsTheSameOnASupportThatFollowsThePlan) {
     EXPECT_LT((sparse.plan.row_background * sparse.plan.column_background.transpose()).sum(), 1e-3);
 }
 
+TEST(AlternatingMinimization, DampsSamplesAsLongAsItIsTold) {
+    const LevelPair pair = tube_level();
+    const Eigen::VectorXd full_X = Eigen::VectorXd::Ones(pair.A.side.mass.size()),
+                          full_Y = Eigen::VectorXd::Ones(pair.B.side.mass.size());
+    Damping damping{full_X, full_Y};
+    damping.row.head(20).setConstant(.01);
+    const auto energies = [&](const std::optional<Damping>& first, const std::optional<Damping>& second) {
+        AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
+        minimization.start(zero_start(pair).centres, {});
+        minimization.set_damping(first);
+        const double after_first = minimization.step().energy;
+        minimization.set_damping(second);
+        return std::pair(after_first, minimization.step().energy);
+    };
+    const auto plain = energies({}, {}), damped = energies(damping, {}), both = energies(damping, damping);
+    EXPECT_NE(damped.first, plain.first);
+    EXPECT_EQ(both.first, damped.first);
+    EXPECT_NE(both.second, damped.second);
+    EXPECT_EQ(energies(Damping{full_X, full_Y}, {}), plain);
+}
+
 TEST(AlternatingMinimization, KeepsTheIdentity) {
     const shapes::KnownPair tube = tubes();
     const LevelPair pair = PairContext(tube.A, tube.A, {}).diffusion_level(6);
-    AlternatingMinimization minimization(pair.A.side, pair.B.side, {});
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
     minimization.start(
         {pair.A.side.averaging * pair.A.side.points, pair.A.side.averaging * pair.A.side.points}, {});
     minimization.run([](const Alternation&) {});

@@ -1,0 +1,48 @@
+#include "varimap/multilevel/descriptor_terms.h"
+
+#include <cmath>
+
+#include "varimap/core/statistics.h"
+
+namespace varimap {
+
+namespace {
+
+/// Mean variance of a side's own neighbourhoods, in its own embedding.
+double neighbourhood_variance(const Side& side) {
+    const Eigen::VectorXd squares = side.averaging * Eigen::VectorXd(side.points.rowwise().squaredNorm());
+    return side.mass.dot(squares - Eigen::VectorXd((side.averaging * side.points).rowwise().squaredNorm()));
+}
+
+void append(Side& side, const RowMatrix& columns) {
+    RowMatrix all(columns.rows(), side.descriptor.cols() + columns.cols());
+    if (side.descriptor.cols() > 0) all.leftCols(side.descriptor.cols()) = side.descriptor;
+    all.rightCols(columns.cols()) = columns;
+    side.descriptor = std::move(all);
+}
+
+void append_shape(LevelSide& side, const RowMatrix& descriptors, double scale) {
+    append(side.side, scale * cell_means(side.level, side.vertex_mass, descriptors));
+}
+
+}  // namespace
+
+void add_wasserstein_term(LevelPair& pair, const PairContext& context, double weight) {
+    const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
+    const RowMatrix b = sample_positions(context.B().surface, pair.B.level);
+    const double ratio =
+        (variance(pair.A.side.points, pair.A.side.mass) + variance(pair.B.side.points, pair.B.side.mass)) /
+        (variance(a, pair.A.side.mass) + variance(b, pair.B.side.mass));
+    append(pair.A.side, std::sqrt(weight * ratio) * a);
+    append(pair.B.side, std::sqrt(weight * ratio) * b);
+}
+
+void add_shape_term(LevelPair& pair, const PairContext& context, double weight) {
+    if (weight == 0) return;
+    const double scale =
+        std::sqrt(weight * (neighbourhood_variance(pair.A.side) + neighbourhood_variance(pair.B.side)));
+    append_shape(pair.A, context.A().hierarchy.shape.descriptors, scale);
+    append_shape(pair.B, context.B().hierarchy.shape.descriptors, scale);
+}
+
+}  // namespace varimap

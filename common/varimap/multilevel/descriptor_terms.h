@@ -1,0 +1,20 @@
+#pragma once
+
+#include "varimap/multilevel/pair_context.h"
+
+namespace varimap {
+
+// Costs of data beside Eq. (3): squared distances of descriptors, one row per sample on either side.
+
+/// Adds the Wasserstein-2 cost between positions in space to a level's costs (Sec. 2.3), in units in which
+/// the surfaces' variances in space and in the level's embedding agree. For aligned surfaces.
+void add_wasserstein_term(LevelPair& pair, const PairContext& context, double weight);
+
+/// Adds the squared distances of descriptors of local shape (local_shape.h); samples have the means of their
+/// cells. At weight 1 a difference of 1 costs as much as the neighbourhoods' own mean variance, both sides
+/// together, at any level. Nothing is added at weight 0. The energy feels whether neighbours stay together;
+/// where shapes differ in proportions it would rather slide along a body than stretch it, and only the look
+/// of places can tell.
+void add_shape_term(LevelPair& pair, const PairContext& context, double weight);
+
+}  // namespace varimap

@@ -1,0 +1,133 @@
+#include "varimap/spectral/level_builder.h"
+
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <tuple>
+
+#include "varimap/spectral/neighbourhoods.h"
+#include "varimap/spectral/sampling.h"
+
+namespace varimap {
+
+namespace {
+
+/// Grows cells in the relative diffusion distance 1 - W, whose square root is d_diff / sqrt(K_x + K_p).
+class DiffusionGrowth {
+  public:
+    DiffusionGrowth(const RowMatrix& embedding, const GeodesicGraph& graph)
+        : embedding_(embedding), graph_(graph), kernel_(embedding.rowwise().squaredNorm()) {}
+
+    template <class Claim>
+    void operator()(int sample, const Claim& claim) {
+        queue_.clear();
+        if (claim(sample, 0)) queue_.push_back(sample);
+        for (size_t head = 0; head < queue_.size(); ++head)
+            for (int e = graph_.offset[queue_[head]]; e < graph_.offset[queue_[head] + 1]; ++e)
+                if (claim(graph_.target[e], relative_distance(sample, graph_.target[e])))
+                    queue_.push_back(graph_.target[e]);
+    }
+
+  private:
+    double relative_distance(int s, int v) const {
+        return 1 - diffusion_weight(embedding_.row(s).dot(embedding_.row(v)), kernel_[s], kernel_[v]);
+    }
+
+    const RowMatrix& embedding_;
+    const GeodesicGraph& graph_;
+    Eigen::VectorXd kernel_;
+    std::vector<int> queue_;
+};
+
+/// Grows cells in geodesic distance.
+class GeodesicGrowth {
+  public:
+    explicit GeodesicGrowth(const GeodesicGraph& graph) : graph_(graph) {}
+
+    template <class Claim>
+    void operator()(int sample, const Claim& claim) const {
+        using Entry = std::pair<double, int>;  // distance, vertex
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        if (claim(sample, 0)) queue.push({0, sample});
+        while (!queue.empty()) {
+            const auto [distance, vertex] = queue.top();
+            queue.pop();
+            for (int e = graph_.offset[vertex]; e < graph_.offset[vertex + 1]; ++e) {
+                const double d = distance + graph_.length[e];
+                if (claim(graph_.target[e], d)) queue.push({d, graph_.target[e]});
+            }
+        }
+    }
+
+  private:
+    const GeodesicGraph& graph_;
+};
+
+/// The surface's most extreme vertex: largest diagonal heat kernel; independent of numbering but for exact
+/// ties.
+int most_extreme_vertex(const RowMatrix& embedding) {
+    int best = 0;
+    for (int v = 1; v < embedding.rows(); ++v)
+        if (float(embedding.row(v).squaredNorm()) > float(embedding.row(best).squaredNorm())) best = v;
+    return best;
+}
+
+/// Samples, cells and masses of a level from a finished sampling.
+template <class Grow>
+Level level_from(const FarthestPointSampling<Grow>& sampling, LevelKind kind, double scale,
+                 const Eigen::VectorXd& vertex_mass) {
+    Level level;
+    level.kind = kind;
+    level.scale = scale;
+    level.samples = sampling.samples();
+    level.cell = sampling.cell();
+    level.mass = Eigen::VectorXd::Zero(level.samples.size());
+    for (size_t v = 0; v < level.cell.size(); ++v) level.mass[level.cell[v]] += vertex_mass[v];
+    return level;
+}
+
+}  // namespace
+
+Level LevelBuilder::diffusion(double time, const std::vector<int>& seeds, int limit) const {
+    const RowMatrix embedding = diffusion_embedding(basis_, time);
+    FarthestPointSampling sampling(surface_.mesh.vertex_count(), DiffusionGrowth(embedding, graph_));
+    if (seeds.empty()) sampling.insert(most_extreme_vertex(embedding));
+    for (int s : seeds) sampling.insert(s);
+    sampling.cover(1 - options_.density, limit);
+    Level level = level_from(sampling, LevelKind::diffusion, time, surface_.mass);
+    level.weights = diffusion_weights(embedding(level.samples, Eigen::all), options_.truncation);
+    return level;
+}
+
+Level LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int limit) const {
+    FarthestPointSampling sampling(surface_.mesh.vertex_count(), GeodesicGrowth(graph_));
+    for (int s : seeds) sampling.insert(s);
+    sampling.cover(sigma * gaussian_distance(options_.density), limit);
+    Level level = level_from(sampling, LevelKind::euclidean, sigma, surface_.mass);
+    const BallRule rule{sigma * gaussian_distance(options_.truncation), options_.minimum_neighbours,
+                        options_.truncation};
+    level.weights = geodesic_weights(level.samples, surface_, graph_, rule);
+    return level;
+}
+
+Level LevelBuilder::full(int neighbours) const {
+    Level level;
+    level.kind = LevelKind::euclidean;
+    level.full = true;
+    level.samples.resize(surface_.mesh.vertex_count());
+    std::iota(level.samples.begin(), level.samples.end(), 0);
+    level.cell = level.samples;
+    level.mass = surface_.mass;
+    level.weights = geodesic_weights(level.samples, surface_, graph_, {0, neighbours, options_.truncation});
+    return level;
+}
+
+Level LevelBuilder::with_samples(const Level& level, const std::vector<int>& vertices) const {
+    const std::vector<int> samples = samples_with(level, vertices);
+    if (samples.size() == level.samples.size()) return level;
+    const int count = int(samples.size());
+    return level.kind == LevelKind::diffusion ? diffusion(level.scale, samples, count)
+                                              : euclidean(level.scale, samples, count);
+}
+
+}  // namespace varimap

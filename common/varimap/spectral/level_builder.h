@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/spectral/eigenbasis.h"
+#include "varimap/spectral/level.h"
+
+namespace varimap {
+
+/// epsilon and tau are the paper's; the others were chosen by hand on the known pairs, not swept.
+struct HierarchyOptions {
+    double truncation = 0.5;  ///< epsilon: weights below it are dropped (Sec. 3.2)
+    double density =
+        0.9;  ///< tau: a level is dense enough when every vertex has W > tau to a sample (Sec. 4.2)
+    double growth = 1.05;  ///< diffusion levels end when the next one has fewer than this times the samples
+    int minimum_neighbours = 10;  ///< lower bound on Euclidean neighbourhoods (Sec. 4.5)
+    int full_neighbours = 30;     ///< neighbours on the first level that has every vertex
+    int last_neighbours = 12;     ///< neighbours on the last level
+};
+
+/// Makes levels of one surface. Refers to what it is given.
+class LevelBuilder {
+  public:
+    LevelBuilder(const Surface& surface, const Basis& basis, const GeodesicGraph& graph,
+                 const HierarchyOptions& options)
+        : surface_(surface), basis_(basis), graph_(graph), options_(options) {}
+
+    /// Seeds, then farthest vertices in diffusion distance until the level is dense or has `limit` samples;
+    /// with no seeds from the most extreme vertex.
+    Level diffusion(double time, const std::vector<int>& seeds, int limit) const;
+    /// The same in geodesic distance.
+    Level euclidean(double sigma, const std::vector<int>& seeds, int limit) const;
+    /// Every vertex a sample, with a sigma of its own: the distance to its `neighbours`-th neighbour has W =
+    /// epsilon.
+    Level full(int neighbours) const;
+    /// The level with further vertices as samples (landmarks must be samples at every level); cells, masses
+    /// and weights are those of the enlarged set. Returns the level unchanged if all are samples already.
+    Level with_samples(const Level& level, const std::vector<int>& vertices) const;
+
+  private:
+    const Surface& surface_;
+    const Basis& basis_;
+    const GeodesicGraph& graph_;
+    const HierarchyOptions& options_;
+};
+
+}  // namespace varimap
