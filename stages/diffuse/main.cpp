@@ -35,11 +35,11 @@ int main(int argc, char** argv) {
     PairInputs inputs(stage);
     const std::string& out =
         stage.output(ArtifactType<Diffusion>::kind, ArtifactType<Diffusion>::schema, "artifact to write");
-    const auto& landmark_files = stage.list_option(
+    const auto& landmark_files = stage.input_list_option(
         "landmarks",
         "one file of vertex pairs, or a source list and a target list; numbers of INPUT vertices", 1, 2);
     const std::string& candidates_in =
-        stage.option("candidates", "maps of varimap-explore, to continue one of them");
+        stage.input_option("candidates", "maps of varimap-explore, to continue one of them");
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);

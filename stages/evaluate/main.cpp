@@ -54,8 +54,8 @@ int main(int argc, char** argv) {
     const auto& base_text = stage.option(
         "index-base",
         "number of a list's first vertex: 0, 1 or auto (coordinates in the list decide, else 0)");
-    const auto& source_path =
-        stage.option("source-mesh", "mesh the map starts from, to check the source's points and their base");
+    const auto& source_path = stage.input_option(
+        "source-mesh", "mesh the map starts from, to check the source's points and their base");
     const auto& curve_path = stage.option("curve", "CSV to write: share of the pairs within each error");
     const auto& json = stage.flag("json", "print a JSON object");
     return stage.main(argc, argv, [&] {

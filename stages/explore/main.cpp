@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     const std::string& out =
         stage.output(ArtifactType<Candidates>::kind, ArtifactType<Candidates>::schema, "candidates to write");
     const auto& landmark_files =
-        stage.list_option("landmarks", "as for varimap-diffuse; may be too few to decide", 1, 2);
+        stage.input_list_option("landmarks", "as for varimap-diffuse; may be too few to decide", 1, 2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
         stage.record_file("mesh", in);
         const Surface surface = preprocess(input, params);
         stage.record_number("input_vertices", input.vertex_count());
+        stage.record_number("scale", surface.scale);
         stage.record_number("vertices", surface.mesh.vertex_count());
         stage.write(out, surface);
     });

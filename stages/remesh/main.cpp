@@ -18,19 +18,19 @@ SolvedPair read_solved(Stage& stage, const std::string& path) {
     return stage.read<Solved>("plan", path).value;
 }
 
-void export_map(const std::string& folder, const SurfaceMap& map, const SamplePlan& plan, const Surface& A,
-                const Surface& B) {
+void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, const SamplePlan& plan,
+                const Surface& A, const Surface& B) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
-    write_file_atomically(folder + "/source_to_target.csv", to_csv(map.A_to_B));
-    write_file_atomically(folder + "/target_to_source.csv", to_csv(map.B_to_A));
-    write_file_atomically(folder + "/source_masses.csv",
-                          masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
-    write_file_atomically(folder + "/target_masses.csv",
-                          masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
-    write_file_atomically(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
-    write_file_atomically(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
+    stage.write_file(folder + "/source_to_target.csv", to_csv(map.A_to_B));
+    stage.write_file(folder + "/target_to_source.csv", to_csv(map.B_to_A));
+    stage.write_file(folder + "/source_masses.csv",
+                     masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
+    stage.write_file(folder + "/target_masses.csv",
+                     masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
+    stage.write_file(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
+    stage.write_file(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ int main(int argc, char** argv) {
         require_surfaces(pair, A.value, B.value);
         require_surfaces(map.value, A.value, B.value);
         const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
-        if (!folder.empty()) export_map(folder, map.value, pair.plan, A.value, B.value);
-        if (!json_file.empty()) write_file_atomically(json_file, quality.json + "\n");
+        if (!folder.empty()) export_map(stage, folder, map.value, pair.plan, A.value, B.value);
+        if (!json_file.empty()) stage.write_file(json_file, quality.json + "\n");
         stage.write(out, quality);  // last, so that it tells that the rest is there
     });
 }

@@ -18,13 +18,14 @@ int main(int argc, char** argv) {
     const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
     const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
     const auto& masses =
-        stage.list_option("distortion",
-                          "source_masses.csv and target_masses.csv of varimap-remesh: shows changes "
-                          "of mass, area and angle instead of colours",
-                          2, 2);
-    const auto& candidates_in = stage.option("candidates",
-                                             "of varimap-explore: where its choice was not sure, the first "
-                                             "three also go to candidates.png beside the picture");
+        stage.input_list_option("distortion",
+                                "source_masses.csv and target_masses.csv of varimap-remesh: shows changes "
+                                "of mass, area and angle instead of colours",
+                                2, 2);
+    const auto& candidates_in =
+        stage.input_option("candidates",
+                           "of varimap-explore: where its choice was not sure, the first "
+                           "three also go to candidates.png beside the picture");
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
         const TriangleMesh A = read_mesh(source), B = read_mesh(target);
@@ -34,14 +35,14 @@ int main(int argc, char** argv) {
                 ? render(A, B, A_to_B, B_to_A, params)
                 : render_distortion(A, B, A_to_B, B_to_A, read_csv_masses(masses[0], A.vertex_count()),
                                     read_csv_masses(masses[1], B.vertex_count()), params);
-        write_file_atomically(out, to_png(image));
+        stage.write_file(out, to_png(image));
         log("{} x {} pixels to {}", image.width, image.height, out);
         if (candidates_in.empty()) return;
         const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
         const auto previews = stage.read<Candidates>("candidates", candidates_in).value.previews;
         if (previews.empty()) return;
         params.samples = std::min(params.samples, 2);  // rough maps need no smooth picture
-        write_file_atomically(beside, to_png(render_candidates(A, B, previews, params)));
+        stage.write_file(beside, to_png(render_candidates(A, B, previews, params)));
         log("the first candidates to {}", beside);
     });
 }

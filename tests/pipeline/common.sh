@@ -102,3 +102,29 @@ expect_exit() {
 same() {  # FILE FILE
     cmp -s "$1" "$2" || fail "$1 and $2 differ"
 }
+
+artifacts() {  # FOLDER: all artifacts in it
+    find "$1" -maxdepth 1 -type f -regex '.*\.\(surface\|basis\|hierarchy\|candidates\|diffusion\|plan\|map\|quality\)'
+}
+
+# same_results OUT OUT: the same tables, and the same bytes in all artifacts that the first has.
+same_results() {
+    local file
+    for file in source_to_target.csv target_to_source.csv source_on_target.ply target_on_source.ply picture.png; do
+        same "$1/$file" "$2/$file"
+    done
+    artifacts "$1/artifacts/" | while read -r file; do same "$file" "$2/artifacts/${file##*/}"; done
+}
+
+# nothing_left FOLDER...: no file of a run that has ended.
+nothing_left() {
+    local left
+    left=$(find "$@" \( -name '*.tmp.*' -o -name '*.tmp' -o -name '?*.lock' -o -name .make.log -o -name '.failures*' \) -print)
+    [[ -z $left ]] || fail "left behind: $left"
+}
+
+# printable_only FILE...: no byte that a terminal would obey.
+printable_only() {
+    ! grep -nP '[\x00-\x08\x0b-\x1f\x7f]' "$@" || fail "control characters reach the terminal"
+    cat "$@" | iconv -f UTF-8 -t UTF-8 >/dev/null || fail "what is printed is not UTF-8"
+}

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/artifact/hash.h"
+#include "varimap/artifact/temporaries.h"
 #include "varimap/core/error.h"
 
 namespace varimap {
@@ -58,16 +60,15 @@ void write_all(int descriptor, const std::string& bytes, const std::string& path
     }
 }
 
+constexpr const char* temporary_mark = ".tmp.";
+
 /// A new file beside `path` under a name nobody else uses; removed again unless it is renamed to `path`.
+/// Locked as long as its writer lives, which tells it from one that a kill left.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const std::string& path) : path_(path), file_(-1) {
-        static std::atomic<unsigned> counter{0};
-        do {
-            name_ = path + ".tmp." + std::to_string(::getpid()) + "." + std::to_string(counter++);
-            file_.descriptor = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        } while (file_.descriptor < 0 && errno == EEXIST);
-        if (file_.descriptor < 0) throw io_error("write", path);
+        do open_new();
+        while (is_lost());
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -83,9 +84,43 @@ class TemporaryFile {
     }
 
   private:
+    void open_new() {
+        static std::atomic<unsigned> counter{0};
+        if (file_.descriptor >= 0) ::close(file_.release());
+        do {
+            name_ = path_ + temporary_mark + std::to_string(::getpid()) + "." + std::to_string(counter++);
+            file_.descriptor = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        } while (file_.descriptor < 0 && errno == EEXIST);
+        if (file_.descriptor < 0) throw io_error("write", path_);
+    }
+    /// Taken for a dead one, and removed, before it was locked.
+    bool is_lost() const {
+        if (::flock(file_.descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return true;
+        struct stat status;
+        return ::fstat(file_.descriptor, &status) == 0 && status.st_nlink == 0;
+    }
+
     std::string path_, name_;
     File file_;
 };
+
+/// Whether `name` is what TemporaryFile calls a file beside `target`.
+bool is_temporary_name(std::string_view name, std::string_view target) {
+    const std::string start = std::string(target) + temporary_mark;
+    return name.size() > start.size() && name.starts_with(start) &&
+           name.find_first_not_of("0123456789.", start.size()) == std::string_view::npos;
+}
+
+void remove_if_dead(const std::string& path) {
+    const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (file.descriptor >= 0 && ::flock(file.descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+}
+
+void require_replaceable(const std::string& path) {
+    struct stat status;
+    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+        throw IoError("cannot write '" + path + "': it is there and not a regular file");
+}
 
 /// Makes the rename itself survive a power failure, where the file system can.
 void flush_folder_of(const std::string& path) {
@@ -118,10 +153,22 @@ std::string read_file(const std::string& path) {
 }
 
 void write_file_atomically(const std::string& path, const std::string& bytes) {
+    require_replaceable(path);
     TemporaryFile temporary(path);
     write_all(temporary.descriptor(), bytes, path);
     temporary.become_target();
     flush_folder_of(path);
+}
+
+void remove_dead_temporaries(const std::string& path) {
+    namespace fs = std::filesystem;
+    const fs::path target(path);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure))
+        if (is_temporary_name(entry->path().filename().string(), target.filename().string()))
+            remove_if_dead(entry->path().string());
 }
 
 }  // namespace varimap

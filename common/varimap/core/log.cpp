@@ -4,6 +4,10 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <mutex>
+
+#include "varimap/core/printable.h"
+#include "varimap/core/warnings.h"
 
 namespace varimap {
 namespace {
@@ -20,6 +24,16 @@ spdlog::logger& logger() {
     return *instance;
 }
 
+struct Warnings {
+    std::mutex mutex;
+    std::vector<std::string> list;
+};
+
+Warnings& warnings() {
+    static Warnings instance;
+    return instance;
+}
+
 }  // namespace
 
 void set_log_name(const std::string& name) {
@@ -27,11 +41,18 @@ void set_log_name(const std::string& name) {
 }
 
 void log_message(const std::string& message) {
-    logger().info(message);
+    logger().info(printable(message));
 }
 
 void log_warning(const std::string& message) {
-    logger().warn("warning: {}", message);
+    logger().warn("warning: {}", printable(message));
+    const std::lock_guard lock(warnings().mutex);
+    warnings().list.push_back(message);
+}
+
+std::vector<std::string> logged_warnings() {
+    const std::lock_guard lock(warnings().mutex);
+    return warnings().list;
 }
 
 }  // namespace varimap

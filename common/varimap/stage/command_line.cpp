@@ -4,11 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <memory>
-#include <string_view>
+#include <map>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/stage/config_file.h"
+#include "varimap/stage/nearest_name.h"
 #include "varimap/stage/parameter_text.h"
 #include "varimap/stage/process.h"
 
@@ -16,25 +17,6 @@ namespace varimap {
 namespace {
 
 constexpr int most_threads = 4096;
-
-/// One preset file serves all stages: entries in a section count only for the stage the section names.
-class SectionOfStage : public CLI::ConfigTOML {
-  public:
-    explicit SectionOfStage(std::string stage) : stage_(std::move(stage)) {}
-    std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
-        std::vector<CLI::ConfigItem> kept;
-        for (auto& item : CLI::ConfigTOML::from_config(input)) {
-            if (item.name == "++" || item.name == "--") continue;  // CLI11's marks around a section
-            if (!item.parents.empty() && item.parents.front() != stage_) continue;
-            item.parents.clear();
-            kept.push_back(std::move(item));
-        }
-        return kept;
-    }
-
-  private:
-    std::string stage_;
-};
 
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -52,13 +34,11 @@ void add_parameter(CLI::App& app, const Parameter& parameter) {
 }
 
 void add_positionals(CLI::App& app, CommandLine& line) {
-    // --stale asks about files that exist, without naming what they would be made from.
-    for (auto& file : line.positionals)
-        app.add_option(file.name, file.value, file.help)->required(!line.asks_stale)->configurable(false);
+    // Questions are answered without naming files to work on.
+    const bool required = !line.asks_parameters;
+    for (auto& file : line.positionals) app.add_option(file.name, file.value, file.help)->required(required);
     if (line.files)
-        app.add_option(line.files->name, line.files->values, line.files->help)
-            ->required(!line.asks_stale)
-            ->configurable(false);
+        app.add_option(line.files->name, line.files->values, line.files->help)->required(required);
 }
 
 void add_options(CLI::App& app, CommandLine& line) {
@@ -79,48 +59,140 @@ void add_common_options(CLI::App& app, CommandLine& line) {
         ->check(CLI::Range(1, most_threads))
         ->take_last()
         ->type_name("N");
-    app.set_config("--config", "", "TOML file of options; a section counts for the stage it names")
+    app.add_option("--config", line.config,
+                   "TOML file of parameters; a section counts for the stage it names")
+        ->take_last()
         ->type_name("FILE");
-    app.add_option("--stale", line.stale,
-                   "print those of FILE... that exist and would be written differently now, and exit")
-        ->expected(1, 1 << 20)
-        ->configurable(false)
+    app.add_flag("--parameters", line.asks_parameters,
+                 "print the parameters that are not at their defaults, as options, and exit");
+    app.add_option(
+           "--if-stale", line.if_stale,
+           "do nothing where the output is what would be written now, from the same content of the inputs; "
+           "FOLDER remembers their hashes by size and time")
+        ->take_last()
+        ->type_name("FOLDER");
+    app.add_option("--stamp", line.stamp,
+                   "file to write that tells --if-stale what outputs that are no artifacts were made from")
+        ->take_last()
+        ->type_name("FILE");
+    app.add_option("--error-file", line.error_file,
+                   "file to append \"CODE MESSAGE\" to when the stage fails, instead of saying it on stderr")
+        ->take_last()
         ->type_name("FILE");
     app.set_version_flag("--version", "varimap-" + line.stage + " " + version());
 }
 
-bool mentions_stale(int argc, char** argv) {
-    return std::any_of(argv + 1, argv + argc, [](std::string_view argument) {
-        return argument == "--stale" || argument.starts_with("--stale=");
+bool mentions(const std::vector<std::string>& arguments, const std::string& option) {
+    return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& argument) {
+        return argument == option || argument.starts_with(option + "=");
     });
+}
+
+/// Dashes as underscores, so that spellings compare.
+std::string spelling(std::string name) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+/// Long names of all options, without their dashes.
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const auto& name : option->get_lnames()) names.push_back(name);
+    return names;
+}
+
+/// Replaces the dashes and underscores of long options by those they were declared with; all behind `--`
+/// stays.
+void use_declared_spelling(std::vector<std::string>& arguments, const CLI::App& app) {
+    std::map<std::string, std::string> declared;
+    for (const auto& name : option_names(app)) declared[spelling(name)] = name;
+    for (auto& argument : arguments) {
+        if (argument == "--") return;
+        if (!argument.starts_with("--")) continue;
+        const auto end = std::min(argument.find('='), argument.size());
+        const auto known = declared.find(spelling(argument.substr(2, end - 2)));
+        if (known != declared.end()) argument = "--" + known->second + argument.substr(end);
+    }
+}
+
+/// What CLI11 says, and which option may have been meant.
+std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments,
+                      const CLI::App& app) {
+    const auto names = option_names(app);
+    for (const auto& argument : arguments) {
+        const std::string name = argument.substr(0, argument.find('='));
+        if (!name.starts_with("--") || name == "--" || app.get_option_no_throw(name) != nullptr) continue;
+        if (const std::string nearest = nearest_name(name.substr(2), names); !nearest.empty())
+            return fmt::format("there is no option {}; did you mean --{}?", name, nearest);
+    }
+    return one_line(error.what());
+}
+
+/// Values on the command line count more than those of the file.
+void use_config(const CommandLine& line, const CLI::App& app) {
+    std::map<std::string, std::string> given;
+    for (const auto& parameter : line.parameters.all())
+        if (app.count("--" + parameter.name) > 0) given[parameter.name] = parameter.text();
+    assign_config(line.config, line.stage, line.parameters);
+    for (const auto& parameter : line.parameters.all())
+        if (given.contains(parameter.name)) assign(parameter, given[parameter.name]);
+}
+
+std::string changed_parameters(const CommandLine& line,
+                               const std::vector<std::pair<std::string, std::string>>& defaults) {
+    const auto now = line.parameters.resolved();
+    std::vector<std::string> changed;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        if (now[i] != defaults[i]) changed.push_back("--" + now[i].first + " " + now[i].second);
+    return changed.empty() ? "" : fmt::format("{}\n", fmt::join(changed, " "));
 }
 
 }  // namespace
 
 std::optional<std::string> CommandLine::parse(int argc, char** argv) {
+    const auto defaults = parameters.resolved();
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     threads = available_threads();
-    asks_stale = argc > 0 && mentions_stale(argc, argv);
+    asks_parameters = mentions(arguments, "--parameters");
     CLI::App app(summary, "varimap-" + stage);
-    app.config_formatter(std::make_shared<SectionOfStage>(stage));
-    app.allow_config_extras(CLI::config_extras_mode::error);
+    app.footer("Names of options may be written with dashes or underscores.");
     for (const auto& parameter : parameters.all()) add_parameter(app, parameter);
     add_positionals(app, *this);
     add_options(app, *this);
     add_common_options(app, *this);
+    use_declared_spelling(arguments, app);
     try {
-        app.parse(argc, argv);
+        app.parse(
+            std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes the last first
     } catch (const CLI::CallForHelp&) {
         return app.help();
     } catch (const CLI::CallForVersion&) {
         return app.version() + "\n";
-    } catch (const CLI::FileError& error) {
-        throw IoError(one_line(error.what()));
-    } catch (const CLI::ConfigError& error) {
-        throw UsageError("--config: " + one_line(error.what()) + "; see varimap-" + stage + " --help");
     } catch (const CLI::ParseError& error) {
-        throw UsageError(one_line(error.what()) + "; see varimap-" + stage + " --help");
+        throw UsageError(explained(error, arguments, app) + "; see varimap-" + stage + " --help");
     }
+    if (!config.empty()) use_config(*this, app);
+    if (asks_parameters) return changed_parameters(*this, defaults);
     return std::nullopt;
+}
+
+std::vector<std::pair<std::string, std::string>> CommandLine::input_files() const {
+    std::vector<std::pair<std::string, std::string>> result;
+    const auto add = [&](const Text& text) {
+        if (text.use == Use::input && !text.value.empty()) result.emplace_back(text.name, text.value);
+    };
+    const auto add_list = [&](const TextList& list) {
+        const auto& files = list.values;
+        for (std::size_t i = 0; i < files.size() && list.use == Use::input; ++i)
+            result.emplace_back(files.size() == 1 ? list.name : list.name + "." + char('A' + i % 26),
+                                files[i]);
+    };
+    for (const auto& text : positionals) add(text);
+    if (files) add_list(*files);
+    for (const auto& text : options) add(text);
+    for (const auto& list : list_options) add_list(list);
+    return result;
 }
 
 }  // namespace varimap

@@ -3,6 +3,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "varimap/stage/parameters.h"
@@ -11,11 +12,16 @@ namespace varimap {
 
 /// What a stage's command line may hold, and after parse() what it held. Deques keep references valid.
 struct CommandLine {
+    /// What the text is: a file that is read, or anything else (an output, a folder, a word).
+    enum class Use { input, other };
     struct Text {
-        std::string name, help, value;
+        std::string name, help;
+        Use use;
+        std::string value;
     };
     struct TextList {
         std::string name, help;
+        Use use;
         int minimum, maximum;
         std::vector<std::string> values;
     };
@@ -32,12 +38,20 @@ struct CommandLine {
     std::deque<TextList> list_options;
     std::deque<Flag> flags;
     int threads = 0;
-    bool asks_stale = false;
-    std::vector<std::string> stale;
+    std::string config;
+    bool asks_parameters = false;
+    std::string if_stale;  ///< folder that remembers hashes; empty: always run
+    std::string stamp;     ///< what the files that are no artifacts were made from
 
-    /// Fills the values. Returns text to print on stdout instead of running (--help, --version).
-    /// Throws UsageError; IoError where the file of --config cannot be opened.
+    std::string error_file;
+
+    /// Fills the values. Returns text to print on stdout instead of running (--help, --version,
+    /// --parameters). Names of options may be written with dashes or underscores. Throws UsageError; IoError
+    /// where the file of --config cannot be opened.
     std::optional<std::string> parse(int argc, char** argv);
+    /// The files that are read, with the roles they have in headers: an option's two files are NAME.A and
+    /// NAME.B.
+    std::vector<std::pair<std::string, std::string>> input_files() const;
 };
 
 }  // namespace varimap

@@ -8,13 +8,23 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
 
+#include "varimap/artifact/temporaries.h"
+#include "varimap/core/printable.h"
+#include "varimap/core/warnings.h"
 #include "varimap/stage/command_line.h"
+#include "varimap/stage/file_lock.h"
+#include "varimap/stage/known_hashes.h"
 #include "varimap/stage/process.h"
+#include "varimap/stage/reporting.h"
+#include "varimap/stage/stamp.h"
 
 namespace varimap {
+
+namespace fs = std::filesystem;
 
 struct Stage::State {
     CommandLine line;
@@ -22,94 +32,101 @@ struct Stage::State {
     int output_schema = 0;
     const std::string* output_path = nullptr;
     std::vector<InputRecord> inputs;
+    std::map<std::string, FileState> states_at_start;  ///< of the input files
+    std::vector<InputRecord> identities;               ///< of the input files, where a stamp needs them
+    std::vector<std::string> files;                    ///< written by write_file
     std::map<std::string, double> numbers;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    bool wrote_artifact = false;
+    std::string written_hash;  ///< of the artifact's payload; empty: none was written
 
-    Header header() const;
-    bool is_stale(const std::string& path) const;
-    void print_stale() const;
+    Header header(std::string kind, std::vector<InputRecord> from) const;
+    std::vector<InputRecord> identify_inputs() const;
+    bool is_current() const;
+    bool artifact_is_current(const KnownHashes& known, const Header& now) const;
+    bool stamp_is_current(const KnownHashes& known, const Header& now) const;
+    std::string run_file() const { return *output_path + ".run.json"; }
+    std::vector<std::string> outputs() const;
+    void require_possible_files() const;
     void require_possible_output() const;
     void log_parameters() const;
 };
 
-namespace {
-
-/// stdout may be a closed pipe or a full disk; results that did not arrive are an error.
-void print_result(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        throw IoError("cannot write to standard output");
-}
-
-std::string first_line(const std::string& text) {
-    return text.substr(0, text.find('\n'));
-}
-
-int report(const std::string& stage, ExitCode code, const std::string& message) {
-    fmt::print(stderr, "varimap-{}: error: {}\n", stage, first_line(message));
-    return int(code);
-}
-
-/// The one place where failures become exit codes.
-int guarded(const std::string& stage, const std::function<void()>& run) {
-    try {
-        run();
-        return int(ExitCode::ok);
-    } catch (const Error& error) {
-        return report(stage, error.code(), error.what());
-    } catch (const std::bad_alloc&) {
-        return report(stage, ExitCode::internal, "out of memory; use a smaller mesh or a machine with more");
-    } catch (const std::exception& error) {
-        return report(stage, ExitCode::internal, std::string("internal: ") + error.what());
-    } catch (...) {
-        return report(stage, ExitCode::internal, "internal: unknown exception");
-    }
-}
-
-}  // namespace
-
-Header Stage::State::header() const {
+Header Stage::State::header(std::string kind, std::vector<InputRecord> from) const {
     Header header;
-    header.kind = output_kind;
-    header.schema = output_schema;
+    header.kind = std::move(kind);
+    header.schema = header.kind == stamp_kind ? stamp_schema : output_schema;
     header.stage = "varimap-" + line.stage;
     header.version = version();
     header.parameters = line.parameters.resolved();
-    header.inputs = inputs;
+    header.inputs = std::move(from);
     return header;
 }
 
-bool Stage::State::is_stale(const std::string& path) const {
+std::vector<InputRecord> Stage::State::identify_inputs() const {
+    const KnownHashes known(line.if_stale);
+    std::vector<InputRecord> found;
+    for (const auto& [role, path] : line.input_files()) found.push_back(known.identify(role, path));
+    return found;
+}
+
+/// Nothing is done for what is there already; what is missing or damaged is made.
+bool Stage::State::is_current() const {
+    if (line.if_stale.empty() || output_path == nullptr) return false;
+    if (output_schema == 0 && line.stamp.empty()) return false;
     try {
-        const Header now = header(), then = read_checked(path).first;
-        return now.kind != then.kind || now.schema != then.schema || now.stage != then.stage ||
-               now.version != then.version || now.parameters != then.parameters;
-    } catch (const ArtifactError&) {
-        return true;
+        const auto from = identify_inputs();
+        const KnownHashes known(line.if_stale);
+        if (output_schema > 0 && !artifact_is_current(known, header(output_kind, from))) return false;
+        return line.stamp.empty() || stamp_is_current(known, header(stamp_kind, from));
+    } catch (const Error&) {
+        return false;
     }
 }
 
-void Stage::State::print_stale() const {
-    if (output_schema == 0) return;  // the stage writes no artifact
-    for (const auto& path : line.stale)
-        if (std::filesystem::exists(path) && is_stale(path)) print_result(path + "\n");
+/// The side file is written last: it tells that the stage was not killed before.
+bool Stage::State::artifact_is_current(const KnownHashes& known, const Header& now) const {
+    const InputRecord there = known.identify("", *output_path);
+    return there.kind == output_kind && would_be_written(now, read_header(*output_path)) &&
+           read_file(run_file()).find("\"artifact\": \"" + there.hash + "\"") != std::string::npos;
+}
+
+bool Stage::State::stamp_is_current(const KnownHashes& known, const Header& now) const {
+    const Stamp stamp = read_stamp(line.stamp);
+    const auto paths = paths_of_stamp(line.stamp);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        if (known.identify("", paths[i]).hash != stamp.files[i].hash) return false;
+    return would_be_written(now, stamp.header);
+}
+
+/// All that the stage has written before, or is about to.
+std::vector<std::string> Stage::State::outputs() const {
+    std::vector<std::string> paths;
+    if (output_path != nullptr) paths = {*output_path, run_file()};
+    if (!line.stamp.empty()) paths.push_back(line.stamp);
+    for (const auto& file : paths_of_stamp(line.stamp)) paths.push_back(file);
+    return paths;
+}
+
+/// Opening a pipe would wait for its writer for ever.
+void Stage::State::require_possible_files() const {
+    for (const auto& [role, path] : line.input_files()) file_state(path);
+    require_possible_output();
 }
 
 /// Found out before the work, not after it.
 void Stage::State::require_possible_output() const {
-    namespace fs = std::filesystem;
     if (output_path == nullptr) return;
     std::error_code ignored;
     const auto parent = fs::path(*output_path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     if (!fs::is_directory(folder, ignored))
         throw IoError("cannot write '" + *output_path + "': there is no folder '" + folder + "'");
-    if (fs::is_directory(*output_path, ignored))
-        throw IoError("cannot write '" + *output_path + "': it is a folder");
+    if (fs::exists(*output_path, ignored) && !fs::is_regular_file(*output_path, ignored))
+        throw IoError("cannot write '" + *output_path + "': it is there and not a regular file");
     if (::access(folder.c_str(), W_OK) != 0)
         throw IoError("cannot write '" + *output_path + "': no permission to write in '" + folder + "'");
-    for (const auto& file : line.positionals)
-        if (&file.value != output_path && fs::equivalent(file.value, *output_path, ignored))
+    for (const auto& [role, path] : line.input_files())
+        if (fs::equivalent(path, *output_path, ignored))
             throw UsageError("'" + *output_path + "' is both an input and the output");
 }
 
@@ -132,30 +149,43 @@ void Stage::parameters(const std::function<void(ParameterList&)>& describe) {
 }
 
 const std::string& Stage::input(const std::string& role, const std::string& help) {
-    return state_->line.positionals.emplace_back(CommandLine::Text{role, help, {}}).value;
+    return state_->line.positionals.emplace_back(CommandLine::Text{role, help, CommandLine::Use::input, {}})
+        .value;
 }
 
 const std::vector<std::string>& Stage::input_list(const std::string& role, const std::string& help) {
-    return state_->line.files.emplace(CommandLine::TextList{role, help, 1, 1 << 20, {}}).values;
+    return state_->line.files
+        .emplace(CommandLine::TextList{role, help, CommandLine::Use::input, 1, 1 << 20, {}})
+        .values;
 }
 
 const std::string& Stage::output(const std::string& kind, int schema, const std::string& help) {
     state_->output_kind = kind;
     state_->output_schema = schema;
     // "output-" keeps the name apart from an input of the same kind.
-    const std::string& path = input("output-" + kind, help);
+    auto& positionals = state_->line.positionals;
+    const std::string& path =
+        positionals.emplace_back(CommandLine::Text{"output-" + kind, help, CommandLine::Use::other, {}})
+            .value;
     state_->output_path = &path;
     return path;
 }
 
-const std::string& Stage::option(const std::string& name, const std::string& help) {
-    return state_->line.options.emplace_back(CommandLine::Text{name, help, {}}).value;
+const std::string& Stage::input_option(const std::string& name, const std::string& help) {
+    return state_->line.options.emplace_back(CommandLine::Text{name, help, CommandLine::Use::input, {}})
+        .value;
 }
 
-const std::vector<std::string>& Stage::list_option(const std::string& name, const std::string& help,
-                                                   int minimum, int maximum) {
-    return state_->line.list_options.emplace_back(CommandLine::TextList{name, help, minimum, maximum, {}})
+const std::vector<std::string>& Stage::input_list_option(const std::string& name, const std::string& help,
+                                                         int minimum, int maximum) {
+    return state_->line.list_options
+        .emplace_back(CommandLine::TextList{name, help, CommandLine::Use::input, minimum, maximum, {}})
         .values;
+}
+
+const std::string& Stage::option(const std::string& name, const std::string& help) {
+    return state_->line.options.emplace_back(CommandLine::Text{name, help, CommandLine::Use::other, {}})
+        .value;
 }
 
 const bool& Stage::flag(const std::string& name, const std::string& help) {
@@ -163,24 +193,43 @@ const bool& Stage::flag(const std::string& name, const std::string& help) {
 }
 
 int Stage::main(int argc, char** argv, const std::function<void()>& body) {
-    return guarded(state_->line.stage, [&] {
+    open_standard_descriptors();
+    ErrorReport report{"varimap-" + state_->line.stage, ""};
+    return guarded(report, [&] {
         if (const auto text = state_->line.parse(argc, argv)) return print_result(*text);
-        if (state_->line.asks_stale) return state_->print_stale();
-        state_->require_possible_output();
-        state_->log_parameters();
-        using tbb::global_control;
-        const global_control limit(global_control::max_allowed_parallelism, std::size_t(threads()));
-        body();
-        if (std::fflush(stdout) != 0) throw IoError("cannot write to standard output");
-        write_run_file();
-        const Usage used = usage();
-        log("done: wall {:.2f} s, CPU {:.2f} s, peak memory {:.0f} MB", used.wall_seconds, used.cpu_seconds,
-            used.peak_megabytes);
+        report.file = state_->line.error_file;
+        state_->require_possible_files();
+        for (const auto& path : state_->outputs()) remove_dead_temporaries(path);
+        if (state_->is_current()) return;
+        std::optional<FileLock> lock;
+        if (state_->output_path != nullptr) lock.emplace(*state_->output_path);
+        // Another run may have made it while this one waited.
+        if (!state_->is_current()) run(body);
     });
 }
 
+void Stage::run(const std::function<void()>& body) {
+    State& state = *state_;
+    for (const auto& [role, path] : state.line.input_files()) state.states_at_start[path] = file_state(path);
+    if (!state.line.stamp.empty()) state.identities = state.identify_inputs();
+    state.log_parameters();
+    using tbb::global_control;
+    const global_control limit(global_control::max_allowed_parallelism, std::size_t(threads()));
+    body();
+    if (std::fflush(stdout) != 0) throw IoError("cannot write to standard output");
+    write_run_file();
+    if (!state.line.stamp.empty())
+        write_stamp(state.line.stamp, state.header(stamp_kind, state.identities), state.files);
+    const Usage used = usage();
+    log("done: wall {:.2f} s, CPU {:.2f} s, peak memory {:.0f} MB", used.wall_seconds, used.cpu_seconds,
+        used.peak_megabytes);
+}
+
 void Stage::record_file(const std::string& role, const std::string& path) {
-    record_input({role, "file", file_hash(path)});
+    record_input({role, kind_of_file(path), file_hash(path)});
+    const auto start = state_->states_at_start.find(path);
+    if (start != state_->states_at_start.end() && start->second != file_state(path))
+        throw IoError("'" + path + "' changed while it was read; run again");
 }
 
 void Stage::record_input(InputRecord record) {
@@ -209,24 +258,34 @@ Stage::Usage Stage::usage() const {
 
 void Stage::write_encoded(const std::string& path, const std::string& kind, int schema,
                           const std::string& payload) {
-    Header header = state_->header();
+    Header header = state_->header(state_->output_kind, state_->inputs);
     if (header.kind != kind || header.schema != schema)
         throw std::logic_error("varimap-" + state_->line.stage + " declared another output than a " + kind);
     write_payload(path, std::move(header), payload);
-    state_->wrote_artifact = true;
+    state_->written_hash = content_hash(payload);
+}
+
+void Stage::write_file(const std::string& path, const std::string& bytes) {
+    write_file_atomically(path, bytes);
+    state_->files.push_back(path);
 }
 
 void Stage::write_run_file() const {
-    if (!state_->wrote_artifact) return;
+    if (state_->written_hash.empty()) return;
     const Usage used = usage();
     nlohmann::ordered_json run;
     run["stage"] = state_->line.stage;
+    run["version"] = version();
     run["wall_seconds"] = used.wall_seconds;
     run["cpu_seconds"] = used.cpu_seconds;
     run["peak_megabytes"] = used.peak_megabytes;
     run["threads"] = threads();
     for (const auto& [name, value] : state_->numbers) run[name] = value;
-    write_file_atomically(*state_->output_path + ".run.json", run.dump(2) + "\n");
+    run["warnings"] = nlohmann::ordered_json::array();
+    for (const auto& warning : logged_warnings()) run["warnings"].push_back(printable(warning));
+    run["artifact"] = state_->written_hash;
+    for (const auto& input : state_->inputs) run["inputs"][input.role] = input.hash;
+    write_file_atomically(state_->run_file(), run.dump(2) + "\n");
 }
 
 }  // namespace varimap

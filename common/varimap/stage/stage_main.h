@@ -26,9 +26,10 @@ namespace varimap {
 ///       });
 ///   }
 ///
-/// Every stage answers --help, --version, --threads N, --config FILE, and --stale FILE... (prints those of
-/// FILE... that it would write differently now: other parameters, schema or varimap version, or a damaged
-/// file).
+/// Every stage answers --help, --version, --threads N, --config FILE, --parameters (prints those that are not
+/// at their defaults), and --if-stale FOLDER: does nothing where the output is whole and was made by this
+/// version with these parameters from inputs of the same content, whatever the files' times say. While it
+/// works a stage holds a lock on its output (file_lock.h), so runs that share artifacts make each once.
 class Stage {
   public:
     Stage(const std::string& name, const std::string& summary);
@@ -41,12 +42,14 @@ class Stage {
     /// One or more positional files behind the others.
     const std::vector<std::string>& input_list(const std::string& role, const std::string& help);
     /// The positional file that is written; at most one per stage. Schema 0: a file that is no artifact, such
-    /// as a picture; it gets no side file and --stale never prints it.
+    /// as a picture; it gets no side file, and --if-stale needs --stamp for it.
     const std::string& output(const std::string& kind, int schema, const std::string& help);
+    /// Files that may be read besides: none where the value is empty.
+    const std::string& input_option(const std::string& name, const std::string& help);
+    const std::vector<std::string>& input_list_option(const std::string& name, const std::string& help,
+                                                      int minimum = 1, int maximum = 1 << 20);
     /// Options that do not belong to the parameters (they do not change an artifact's meaning).
     const std::string& option(const std::string& name, const std::string& help);
-    const std::vector<std::string>& list_option(const std::string& name, const std::string& help,
-                                                int minimum = 1, int maximum = 1 << 20);
     const bool& flag(const std::string& name, const std::string& help);
 
     /// Parses, runs `body`, reports; returns the process's exit code. Never throws.
@@ -60,7 +63,8 @@ class Stage {
         record_input({role, artifact.header.kind, artifact.header.payload_hash});
         return artifact;
     }
-    /// Records a foreign file (a mesh, a landmark list) as a direct input, by its content.
+    /// Records a foreign file (a mesh, a landmark list) as a direct input, by its content. Call it after
+    /// reading: throws IoError where the file has changed since the stage began.
     void record_file(const std::string& role, const std::string& path);
     void record_input(InputRecord record);
     /// Refuses (ArtifactError) unless `child` was made from the artifact `parent` in that role.
@@ -71,6 +75,8 @@ class Stage {
         using Type = ArtifactType<T>;
         write_encoded(path, Type::kind, Type::schema, encode(value));
     }
+    /// Writes a file that is no artifact, atomically, and notes it for --stamp.
+    void write_file(const std::string& path, const std::string& bytes);
     /// A number for the side file <artifact>.run.json (levels, iterations, ...). Last value wins.
     void record_number(const std::string& name, double value);
     /// Number of threads of this run.
@@ -85,6 +91,7 @@ class Stage {
     void write_encoded(const std::string& path, const std::string& kind, int schema,
                        const std::string& payload);
     void write_run_file() const;
+    void run(const std::function<void()>& body);
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -1,10 +1,21 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "fixtures/temporary_folder.h"
+#include "varimap/core/printable.h"
+#include "varimap/stage/known_hashes.h"
+#include "varimap/stage/nearest_name.h"
 #include "varimap/stage/stage_main.h"
 
 namespace varimap {
@@ -40,11 +51,13 @@ struct TestParams {
     int count = 5;
     bool aligned = false;
     TestStart start = TestStart::none;
+    int long_name = 0;
     void describe(ParameterList& list) {
         list.add("length", length, "target length, units of sqrt(area)", 0, 1);
         list.add("count", count, "number of things", 1, 100);
         list.add("aligned", aligned, "whether the surfaces are aligned");
         list.add("start", start, "where to start");
+        list.add("long_name", long_name, "nothing", 0, 9);
     }
 };
 
@@ -94,14 +107,15 @@ TEST_F(StageRun, WritesTheArtifactWithItsHistory) {
     EXPECT_EQ(artifact.header.stage, "varimap-sample");
     EXPECT_EQ(artifact.header.input_hash("source"), content_hash("input"));
     const decltype(artifact.header.parameters) expected{
-        {"length", "0.25"}, {"count", "5"}, {"aligned", "false"}, {"start", "none"}};
+        {"length", "0.25"}, {"count", "5"}, {"aligned", "false"}, {"start", "none"}, {"long_name", "0"}};
     EXPECT_EQ(artifact.header.parameters, expected);
 }
 
 TEST_F(StageRun, LogsParametersFirstAndResourcesLast) {
     const Outcome run = run_sample({in, out, "--threads", "3"});
     EXPECT_EQ(run.out, "");
-    EXPECT_TRUE(run.err.starts_with("[sample] length=0.1 count=5 aligned=false start=none threads=3\n"))
+    EXPECT_TRUE(
+        run.err.starts_with("[sample] length=0.1 count=5 aligned=false start=none long_name=0 threads=3\n"))
         << run.err;
     const std::string last = run.err.substr(run.err.rfind('\n', run.err.size() - 2) + 1);
     EXPECT_THAT(last, testing::AllOf(HasSubstr("wall"), HasSubstr("CPU"), HasSubstr("peak memory")));
@@ -200,8 +214,9 @@ TEST_F(StageRun, UnreachableFilesExitWith6BeforeTheWork) {
 TEST_F(StageRun, HelpNamesDefaultAndRange) {
     const Outcome run = run_sample({"--help"});
     EXPECT_EQ(run.code, 0);
-    for (const char* part : {"--length", "units of sqrt(area)", "default 0.1", "from 0 to 1",
-                             "one of none, both", "true or false", "--threads", "--stale", "--config"})
+    for (const char* part :
+         {"--length", "units of sqrt(area)", "default 0.1", "from 0 to 1", "one of none, both",
+          "true or false", "--threads", "--if-stale", "--config", "--parameters"})
         EXPECT_THAT(run.out, HasSubstr(part));
     EXPECT_EQ(run_sample({"--version"}).out, "varimap-sample " + version() + "\n");
 }
@@ -209,7 +224,7 @@ TEST_F(StageRun, HelpNamesDefaultAndRange) {
 TEST_F(StageRun, ConfigFileGivesWayToTheCommandLineAndOtherStagesSectionsDoNotCount) {
     write_file_atomically(
         folder / "preset.toml",
-        "[sample]\nlength = 0.5\ncount = 9\naligned = true\nstart = \"both\"\n[other]\ncount = 3\n");
+        "[sample]\nlength = 0.5\ncount = 9\naligned = true\nstart = \"both\"\n[eigen]\ncount = 3\n");
     TestParams params;
     EXPECT_EQ(run_sample({in, out, "--config", folder / "preset.toml", "--count", "8"}, {}, &params).code, 0);
     EXPECT_EQ(params.length, 0.5);
@@ -218,11 +233,75 @@ TEST_F(StageRun, ConfigFileGivesWayToTheCommandLineAndOtherStagesSectionsDoNotCo
     EXPECT_EQ(params.start, TestStart::both);
 }
 
-TEST_F(StageRun, ConfigFileWithUnknownOrBadEntriesExitsWith2) {
-    for (const char* bad : {"[sample]\ncuont = 9\n", "[sample]\ncount = many\n", "cuont = 9\n"}) {
-        write_file_atomically(folder / "preset.toml", bad);
-        EXPECT_EQ(run_sample({in, out, "--config", folder / "preset.toml"}).code, 2) << bad;
+TEST_F(StageRun, MistakesInAConfigFileNameFileLineAndNearestName) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"[sample]\ncuont = 9\n", "line 2: varimap-sample has no parameter cuont; did you mean count?"},
+        {"cuont = 9\n", "line 1: varimap-sample has no parameter cuont"},
+        {"\n# comment\n[eigne]\n", "line 3: no stage is called eigne; did you mean eigen?"},
+        {"eigne.count = 3\n", "line 1: no stage is called eigne; did you mean eigen?"},
+        {"[unheard_of]\n", "no stage is called unheard_of; there are "},
+        {"[sample]\ncount = many\n", "line 2: --count: 'many' is not a whole number from 1 to 100"},
+        {"[sample]\ncount = 1\ncount = 2\n", "line 3: count is there twice"},
+        {"[sample]\ncount = [1, 2]\n", "line 2: neither"},
+        {"[sample\ncount = 1\n", "line 1: neither"},
+        {"count\n", "line 1: neither"},
+        {"count =\n", "line 1: neither"},
+        {"start = \"both\n", "line 1: neither"},
+        {"start = \"both\" none\n", "line 1: neither"}};
+    const std::string file = folder / "preset.toml";
+    for (const auto& [text, message] : mistakes) {
+        write_file_atomically(file, text);
+        const Outcome run = run_sample({in, out, "--config", file});
+        EXPECT_EQ(run.code, 2) << text;
+        EXPECT_THAT(run.err, HasSubstr("error: " + file + ", ")) << text;
+        EXPECT_THAT(run.err, HasSubstr(message)) << text;
+        EXPECT_EQ(line_count(run.err), 1u) << run.err;
     }
+}
+
+TEST_F(StageRun, ConfigFilesMayHoldCommentsQuotesDashesAndDots) {
+    write_file_atomically(folder / "preset.toml",
+                          "\xef\xbb\xbf  # at the start\r\n\r\nsample.count = 7 # seven\r\n"
+                          "['sample']\r\nlength=2.5e-1\r\n start = 'both' # quoted\r\n");
+    TestParams params;
+    ASSERT_EQ(run_sample({in, out, "--config=" + (folder / "preset.toml")}, {}, &params).code, 0);
+    EXPECT_EQ(params.count, 7);
+    EXPECT_EQ(params.length, .25);
+    EXPECT_EQ(params.start, TestStart::both);
+}
+
+TEST_F(StageRun, DashesAndUnderscoresAreAlike) {
+    for (const char* spelt : {"--long_name", "--long-name"}) {
+        TestParams params;
+        ASSERT_EQ(run_sample({in, out, spelt, "3"}, {}, &params).code, 0);
+        EXPECT_EQ(params.long_name, 3);
+        ASSERT_EQ(run_sample({in, out, std::string(spelt) + "=4"}, {}, &params).code, 0);
+        EXPECT_EQ(params.long_name, 4);
+    }
+}
+
+TEST_F(StageRun, AMistypedOptionIsAnsweredWithTheNearestOne) {
+    EXPECT_THAT(run_sample({in, out, "--lenght", "1"}).err, HasSubstr("did you mean --length?"));
+    EXPECT_THAT(run_sample({in, out, "--long-nam=1"}).err, HasSubstr("did you mean --long_name?"));
+}
+
+TEST_F(StageRun, PrintsTheParametersThatAreNotAtTheirDefaults) {
+    write_file_atomically(folder / "preset.toml", "[sample]\ncount = 9\nlength = 0.5\n");
+    EXPECT_EQ(run_sample({"--parameters"}).out, "");
+    EXPECT_EQ(
+        run_sample({"--parameters", "--config", folder / "preset.toml", "--count=5", "--start", "both"}).out,
+        "--length 0.5 --start both\n");
+    EXPECT_EQ(run_sample({"--parameters", "--count", "0"}).code, 2);
+}
+
+TEST(NearestName, CountsLettersAndGivesUpOnStrangers) {
+    const std::vector<std::string> names{"tolerance", "gamma", "seed"};
+    EXPECT_EQ(nearest_name("tolernace", names), "tolerance");
+    EXPECT_EQ(nearest_name("gama", names), "gamma");
+    EXPECT_EQ(nearest_name("gamma", names), "gamma");
+    EXPECT_EQ(nearest_name("colour", names), "");
+    EXPECT_EQ(nearest_name("", names), "");
+    EXPECT_EQ(nearest_name(std::string(100000, 'g'), names), "");
 }
 
 TEST_F(StageRun, ValuesReadBackExactlyAndTheLastOneCounts) {
@@ -234,55 +313,234 @@ TEST_F(StageRun, ValuesReadBackExactlyAndTheLastOneCounts) {
     }
 }
 
-class Stale : public StageRun {
+/// The sample stage asked to make its output only where that is not what it would write.
+class IfStale : public StageRun {
   protected:
     void SetUp() override {
         StageRun::SetUp();
+        std::filesystem::create_directory(folder / "hashes");
         ASSERT_EQ(run_sample({in, out}).code, 0);
+    }
+    bool runs(std::vector<std::string> extra = {}) {
+        bool ran = false;
+        std::vector<std::string> arguments{in, out, "--if-stale", folder / "hashes"};
+        arguments.insert(arguments.end(), extra.begin(), extra.end());
+        const Outcome run = run_sample(arguments, [&](Stage&) { ran = true; });
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_EQ(run.err.empty(), !ran);
+        return ran;
+    }
+    /// As it is, but for what `change` does to the header.
+    void rewrite(const std::function<void(Header&)>& change) {
+        auto [header, payload] = read_checked(out);
+        change(header);
+        write_payload(out, header, payload);
+    }
+    void set_times(const std::string& path, int seconds_from_now) {
+        namespace fs = std::filesystem;
+        fs::last_write_time(path, fs::file_time_type::clock::now() + std::chrono::seconds(seconds_from_now));
     }
 };
 
-TEST_F(Stale, PrintsNothingForWhatItWouldWriteAgain) {
-    const Outcome run = run_sample({"--stale", out, folder / "missing"});
-    EXPECT_EQ(run.code, 0);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(run_sample({"--threads", "7", "--stale", out}).out, "");
-    EXPECT_EQ(run_sample({"--length", "1e-1", "--stale", out}).out, "");
+TEST_F(IfStale, DoesNothingForWhatItWouldWriteAgain) {
+    const std::string before = read_file(out);
+    EXPECT_FALSE(runs());
+    EXPECT_FALSE(runs({"--threads", "7"}));
+    EXPECT_FALSE(runs({"--length", "1e-1"}));
+    EXPECT_EQ(read_file(out), before);
 }
 
-TEST_F(Stale, PrintsOtherParameters) {
-    EXPECT_EQ(run_sample({"--count", "6", "--stale", out}).out, out + "\n");
-    EXPECT_EQ(run_sample({"--stale", out, "--start", "both"}).out, out + "\n");
+TEST_F(IfStale, RunsForOtherParametersAndOutputs) {
+    EXPECT_TRUE(runs({"--count", "6"}));
+    EXPECT_TRUE(runs());
+    for (const auto& missing : {out, out + ".run.json"}) {
+        std::filesystem::remove(missing);
+        EXPECT_TRUE(runs());
+        EXPECT_FALSE(runs());
+    }
+    // The side file of another artifact: the stage was killed before it wrote its own.
+    write_file_atomically(out + ".run.json", "{\"artifact\": \"" + content_hash("other") + "\"}");
+    EXPECT_TRUE(runs());
+    EXPECT_FALSE(runs());
 }
 
-TEST_F(Stale, PrintsOtherKindsSchemasStagesAndDamagedFiles) {
-    const auto [header, payload] = read_checked(out);
-    const auto stale_after = [&, h = header, p = payload](const std::function<void(Header&)>& change) {
-        Header changed = h;
-        change(changed);
-        write_payload(out, changed, p);
-        return run_sample({"--stale", out}).out == out + "\n";
-    };
-    EXPECT_FALSE(stale_after([](Header&) {}));
-    EXPECT_TRUE(stale_after([](Header& h) { h.kind = "surface"; }));
-    EXPECT_TRUE(stale_after([](Header& h) { h.schema = 2; }));
-    EXPECT_TRUE(stale_after([](Header& h) { h.stage = "varimap-other"; }));
-    EXPECT_TRUE(stale_after([](Header& h) { h.parameters.pop_back(); }));
+TEST_F(IfStale, ContentDecidesAndTimesDoNot) {
+    for (const int seconds : {-86400, 86400}) {
+        set_times(in, seconds);
+        EXPECT_FALSE(runs());
+        set_times(out, 10 * seconds);
+        EXPECT_FALSE(runs());
+        write_file_atomically(in, "other input");
+        set_times(in, -100 * 86400);
+        EXPECT_TRUE(runs());
+        EXPECT_FALSE(runs());
+        write_file_atomically(in, "input");
+        EXPECT_TRUE(runs());
+    }
+}
+
+TEST_F(IfStale, RunsForOtherKindsSchemasStagesVersionsInputsAndDamagedFiles) {
+    const std::vector<std::function<void(Header&)>> changes{
+        [](Header& h) { h.kind = "surface"; },
+        [](Header& h) { h.schema = 2; },
+        [](Header& h) { h.stage = "varimap-other"; },
+        [](Header& h) { h.parameters.pop_back(); },
+        [](Header& h) { h.inputs.front().hash = "0"; },
+        [](Header& h) { h.inputs.front().role = "other"; },
+        [](Header& h) { h.inputs.clear(); },
+        [](Header& h) { h.inputs.push_back(h.inputs.front()); }};
+    rewrite([](Header&) {});
+    EXPECT_FALSE(runs());
+    for (const auto& change : changes) {
+        rewrite(change);
+        EXPECT_TRUE(runs());
+        EXPECT_FALSE(runs());
+    }
+    Header older = read_header(out);
+    const std::string rest = read_file(out).substr(header_text(older).size());
+    older.version = "0.0.0";
+    write_file_atomically(out, header_text(older) + rest);
+    EXPECT_TRUE(runs());
     std::string bytes = read_file(out);
-    bytes[bytes.size() / 2] ^= 1;
+    bytes[bytes.size() - 40] ^= 1;
     write_file_atomically(out, bytes);
-    const Outcome run = run_sample({"--stale", in, out});
-    EXPECT_EQ(run.code, 0);
-    EXPECT_EQ(run.out, in + "\n" + out + "\n");
+    EXPECT_TRUE(runs());
+    write_file_atomically(out, "nothing of the kind");
+    EXPECT_TRUE(runs());
 }
 
-TEST_F(Stale, PrintsOtherVersions) {
-    auto [header, payload] = read_checked(out);
-    header.version = "0.0.0";
-    write_file_atomically(out,
-                          header_text(header) + read_file(out).substr(header_text(read_header(out)).size()));
-    EXPECT_EQ(read_header(out).version, "0.0.0");
-    EXPECT_EQ(run_sample({"--stale", out}).out, out + "\n");
+TEST_F(IfStale, FilesThatAreNoArtifactsHaveAStamp) {
+    const std::string stamp = folder / "stamp", first = folder / "first.txt", second = folder / "second.txt";
+    bool ran = false;
+    const auto make = [&](bool both, const std::string& count) {
+        ran = false;
+        const Outcome run =
+            run_sample({in, out, "--if-stale", folder / "hashes", "--stamp", stamp, "--count", count},
+                       [&](Stage& stage) {
+                           ran = true;
+                           stage.write_file(first, "first");
+                           if (both) stage.write_file(second, "second");
+                       });
+        EXPECT_EQ(run.code, 0) << run.err;
+        return ran;
+    };
+    EXPECT_TRUE(make(true, "5"));
+    EXPECT_FALSE(make(true, "5"));
+    write_file_atomically(first, "altered");
+    EXPECT_TRUE(make(true, "5"));
+    EXPECT_EQ(read_file(first), "first");
+    std::filesystem::remove(second);
+    EXPECT_TRUE(make(true, "5"));
+    write_file_atomically(in, "other input");
+    EXPECT_TRUE(make(true, "5"));
+    // What it does not write any more is removed.
+    EXPECT_TRUE(make(false, "6"));
+    EXPECT_FALSE(std::filesystem::exists(second));
+    EXPECT_FALSE(make(false, "6"));
+    write_file_atomically(stamp, "damaged");
+    EXPECT_TRUE(make(false, "6"));
+}
+
+TEST_F(IfStale, AFileAtRestIsReadOnceAndAChangedOneAgain) {
+    const KnownHashes known(folder / "hashes");
+    const auto rest = [&](const std::string& path) {
+        set_times(path, -3600);
+        std::this_thread::sleep_for(std::chrono::milliseconds(3100));  // the time of change cannot be set
+    };
+    rest(in);
+    EXPECT_EQ(known.identify("mesh", in).hash, content_hash("input"));
+    std::filesystem::path memory;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "hashes")) memory = entry.path();
+    // What is remembered is believed.
+    std::string line = read_file(memory);
+    line.resize(line.rfind('|') + 1);
+    line.replace(line.find(content_hash("input")), 32, std::string(32, '0'));
+    write_file_atomically(memory, line + content_hash(line) + "\n");
+    EXPECT_EQ(known.identify("mesh", in).hash, std::string(32, '0'));
+    // But not of a line that was cut, nor of other content of the same size and time.
+    write_file_atomically(memory, line);
+    EXPECT_EQ(known.identify("mesh", in).hash, content_hash("input"));
+    std::ofstream(in, std::ios::in | std::ios::out) << "INPUT";
+    set_times(in, -3600);
+    EXPECT_EQ(known.identify("mesh", in).hash, content_hash("INPUT"));
+}
+
+TEST_F(StageRun, TheLockIsHeldWhileTheOutputIsMadeAndLeavesNothing) {
+    bool locked = false;
+    ASSERT_EQ(run_sample({in, out},
+                         [&](Stage&) {
+                             const int file = ::open((out + ".lock").c_str(), O_RDONLY);
+                             locked = file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) != 0;
+                             ::close(file);
+                         })
+                  .code,
+              0);
+    EXPECT_TRUE(locked);
+    write_file_atomically(out + ".lock", "left by a kill");
+    EXPECT_EQ(run_sample({in, out}).code, 0);
+    EXPECT_EQ(folder.file_count(), 3u);  // input, output and its side file
+}
+
+TEST_F(StageRun, TemporaryFilesOfTheDeadAreRemovedAndOthersStay) {
+    for (const char* name : {"out.sample.tmp.1.0", "out.sample.run.json.tmp.99.7"})
+        std::ofstream(folder / name) << "left by a kill";
+    std::ofstream(folder / "out.sample.tmp.mine") << "no name of ours";
+    const std::string held = folder / "out.sample.tmp.5.5";
+    std::ofstream(held) << "being written";
+    const int writer = ::open(held.c_str(), O_RDONLY);
+    ASSERT_EQ(::flock(writer, LOCK_EX), 0);
+    ASSERT_EQ(run_sample({in, out}).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.sample.tmp.1.0"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.sample.run.json.tmp.99.7"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.sample.tmp.mine"));
+    EXPECT_TRUE(std::filesystem::exists(held));
+    ::close(writer);
+}
+
+TEST_F(StageRun, WhatIsNoRegularFileIsNeitherReadNorReplaced) {
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    std::filesystem::create_directory(folder / "sub");
+    for (const std::string& odd : {folder / "pipe", folder / "sub", std::string("/dev/null")}) {
+        EXPECT_EQ(run_sample({odd, out}).code, 6) << odd;
+        EXPECT_EQ(run_sample({in, odd}).code, 6) << odd;
+        EXPECT_THROW(write_file_atomically(odd, "x"), IoError) << odd;
+    }
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+}
+
+TEST_F(StageRun, AnInputThatChangesWhileItIsReadIsRefused) {
+    const Outcome run = run_sample({in, out}, [&](Stage& stage) {
+        write_file_atomically(in, "changed");
+        stage.record_file("source", in);
+    });
+    EXPECT_EQ(run.code, 6);
+    EXPECT_THAT(run.err, HasSubstr("changed while it was read"));
+}
+
+TEST_F(StageRun, TheSideFileHoldsTheWarningsAndTheInputs) {
+    ASSERT_EQ(run_sample({in, out}, [](Stage&) { warn("look at {}", "this"); }).code, 0);
+    const auto run = nlohmann::json::parse(read_file(out + ".run.json"));
+    EXPECT_THAT(run["warnings"].get<std::vector<std::string>>(), testing::Contains("look at this"));
+    EXPECT_EQ(run["inputs"]["source"], content_hash("input"));
+}
+
+TEST_F(StageRun, AnErrorFileTakesTheMessage) {
+    const std::string errors = folder / "errors";
+    const Outcome run =
+        run_sample({in, out, "--error-file", errors}, [](Stage&) { throw InputError("bad\x1b[2J"); });
+    EXPECT_EQ(run.code, 3);
+    EXPECT_THAT(run.err, testing::Not(HasSubstr("error")));
+    EXPECT_EQ(read_file(errors), "3 varimap-sample: error: bad\\x1b[2J\n");
+}
+
+TEST(Printable, ShowsTextAndDisarmsTheRest) {
+    EXPECT_EQ(printable("plain é 漢 😀"), "plain é 漢 😀");
+    EXPECT_EQ(printable("\x1b[2J\a\n\x7f"), "\\x1b[2J\\x07\\x0a\\x7f");
+    EXPECT_EQ(printable("\xff\xfe a\xc3"), "\\xff\\xfe a\\xc3");
+    EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");           // the C1 form of an escape
+    EXPECT_EQ(printable("\xe2\x80\xae"), "\\xe2\\x80\\xae");  // turns the direction of the text
+    EXPECT_EQ(printable("\xc0\x9b\xed\xa0\x80"), "\\xc0\\x9b\\xed\\xa0\\x80");  // overlong, surrogate
+    EXPECT_EQ(printable(""), "");
 }
 
 TEST(Lineage, AcceptsTheParentAndRefusesAnother) {

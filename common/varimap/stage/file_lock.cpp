@@ -1,0 +1,49 @@
+#include "varimap/stage/file_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+
+namespace varimap {
+namespace {
+
+void wait_for_lock(int descriptor, const std::string& name) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
+    if (errno == EWOULDBLOCK) log("waiting for another run that holds '{}'", name);
+    while (::flock(descriptor, LOCK_EX) != 0 && errno == EINTR) {
+    }
+}
+
+/// Whether the open file is still the one of that name: the holder before may have removed it.
+bool is_named(int descriptor, const std::string& name) {
+    struct stat open, named;
+    return ::fstat(descriptor, &open) == 0 && ::stat(name.c_str(), &named) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+FileLock::FileLock(const std::string& path) : name_(path + ".lock") {
+    for (;;) {
+        descriptor_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor_ < 0)
+            throw IoError("cannot write '" + name_ + "': " + std::generic_category().message(errno));
+        wait_for_lock(descriptor_, name_);
+        if (is_named(descriptor_, name_)) return;
+        ::close(descriptor_);
+    }
+}
+
+FileLock::~FileLock() {
+    ::unlink(name_.c_str());  // before the lock goes, so that nobody can hold a removed file
+    ::close(descriptor_);
+}
+
+}  // namespace varimap

@@ -1,0 +1,30 @@
+# Joins quality.json: the numbers of varimap-remesh, then what the stages recorded of their runs, what they warned of, and
+# where everything comes from.
+#   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH --arg landmarks_1 FILE
+#       --arg landmarks_2 FILE --arg command TEXT RUN_FILE...
+def stage_and_artifact($file): .stage + " " + ($file | sub(".*/"; "") | sub("[.][a-z]+[.]run[.]json$"; ""));
+def of_stage($stage): map(.value | select(.stage == $stage));
+def mesh($file): {file: $file, hash: .inputs.mesh, area: (1 / (.scale * .scale)), scale};
+def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
+
+# Line by line, so that one damaged run file costs its own entry alone.
+(reduce inputs as $line ({}; .[input_filename] += $line + "\n")) as $texts
+| [$texts | to_entries[] | {key, value: (.value | try fromjson catch null)}] as $all
+| ($all | map(select(.value | type == "object" and has("stage")))) as $runs
+| ($runs | of_stage("preprocess")) as $surfaces
+| $numbers[0]
++ {stages: [$runs[] | {key: (.key as $file | .value | stage_and_artifact($file)),
+        value: (.value | del(.stage, .version, .warnings, .artifact, .inputs))}] | from_entries,
+    warnings: ([$runs[] | .key as $file | .value | stage_and_artifact($file) as $stage | .warnings[]?
+            | {stage: $stage, message: .}]
+        + [$all[] | select(.value == null or (.value | type != "object" or (has("stage") | not)))
+            | {stage: "quality.json", message: "the run file \(.key) is damaged: that stage's times are missing"}]),
+    provenance: ({
+        schema: 1,
+        version: ($runs | of_stage("remesh") | .[0].version),
+        command: (if $command == "" then null else $command end),
+        source: ($surfaces[0] | if . then mesh($source) else null end),
+        target: ($surfaces[-1] | if . then mesh($target) else null end),
+        landmarks: [$runs | of_stage("diffuse")[] | list("landmarks"; $landmarks_1), list("landmarks.A"; $landmarks_1),
+            list("landmarks.B"; $landmarks_2)]}
+    | del(.[] | nulls))}

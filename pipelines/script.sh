@@ -1,0 +1,133 @@
+# shellcheck shell=bash
+# What the scripts share: where things are, how a command line is read, and how a failure is said. To be sourced.
+#
+# A script sets `name` (its own, for messages) before that, then `options`, and defines two functions:
+#   declare -A options=([out]=value [explore]=flag [landmarks]=words)
+#   option NAME [VALUE]   called for each option, in order; NAME with dashes, whatever was typed
+#   word TEXT             called for everything else
+# flag: no value; value: the next argument, or behind `=`; words: as flag, but `--NAME=WORD` is `--NAME WORD`.
+# Options that are not in the list go to the array `other_options` where that is set, as they stand.
+set -euo pipefail
+shopt -s inherit_errexit
+unset CDPATH
+: "${name:?}"
+# One language of sorting, numbers and letters: in Turkish the capital of i is none of A-Z.
+export LC_ALL=C
+
+# The project's pipelines folder, or PREFIX/share/varimap; beside it are the front end and the executables.
+share=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")" && pwd)
+# shellcheck disable=SC2034  # used where this is sourced
+if [[ -x $share/varimap ]]; then
+    varimap=$share/varimap bin=$share/../build/bin
+else
+    bin=$share/../../bin varimap=$share/../../bin/varimap
+fi
+VARIMAP_BIN=$(realpath -m -- "${VARIMAP_BIN:-$bin}")
+export VARIMAP_BIN
+
+# printable TEXT: TEXT without what a terminal would obey instead of showing it.
+printable() {
+    local text=$1
+    iconv -f UTF-8 -t UTF-8 <<<"$text" &>/dev/null || text=${text//[$'\x80'-$'\xff']/?}
+    text=${text//$'\xc2'[$'\x80'-$'\x9f']/?}
+    printf '%s\n' "${text//[[:cntrl:]]/?}"
+}
+
+fail() {  # CODE MESSAGE
+    printable "$name: error: $2" >&2 || true  # stderr may be closed
+    exit "$1"
+}
+
+require() {  # PROGRAM
+    command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
+}
+
+require_number() {  # OPTION VALUE LEAST
+    [[ $2 =~ ^[0-9]{1,6}$ && $((10#$2)) -ge $3 ]] || fail 2 "$1 $2: give a whole number, at least $3"
+}
+
+# The kind of the option NAME; an unknown one ends the script.
+kind_of() {  # NAME AS_TYPED
+    [[ $1 =~ ^[a-z][a-z-]*$ && -n ${options[$1]:-} ]] || fail 2 "unknown option $2; $name --help explains"
+    echo "${options[$1]}"
+}
+
+declare -A short=([-o]=--out [-j]=--cores)
+
+# parse_options ARGUMENTS: calls `option` and `word` as the head of this file says.
+parse_options() {
+    local typed long kind
+    while (($#)); do
+        typed=$1
+        shift
+        case $typed in
+        --)
+            while (($#)); do word "$1"; shift; done
+            return
+            ;;
+        -h) typed=--help ;;
+        -o | -j) typed=${short[$typed]} ;;
+        -o?* | -j?*) typed=${short[${typed::2}]}=${typed:2} ;;
+        -?*) ;;
+        *) word "$typed"; continue ;;
+        esac
+        long=${typed%%=*} long=${long#--} long=${long//_/-}
+        if declare -p other_options &>/dev/null && [[ -z ${options[$long]:-} ]]; then
+            other_options+=("$typed")
+            continue
+        fi
+        kind=$(kind_of "$long" "${typed%%=*}")
+        case $kind-$typed in
+        flag-*=*) fail 2 "${typed%%=*} takes no value" ;;
+        words-*=*) option "$long"; word "${typed#*=}" ;;
+        value-*=*) option "$long" "${typed#*=}" ;;
+        value-*)
+            (($#)) || fail 2 "$typed needs a value; $name --help explains"
+            option "$long" "$1"
+            shift
+            ;;
+        *) option "$long" ;;
+        esac
+    done
+}
+
+# help_topic TOPIC: the page help/TOPIC.md as plain text; false where there is none.
+help_topic() {
+    [[ $1 =~ ^[a-z][a-z-]*$ && -r $share/help/$1.md ]] || return
+    awk '
+        function show_table(    r, c, line) {
+            for (r = 1; r <= rows; r++) {
+                line = "   "
+                for (c = 1; c < columns; c++) line = line sprintf(" %-" width[c] "s ", cell[r, c])
+                print line " " cell[r, columns]
+            }
+            for (c in width) delete width[c]
+            rows = 0
+        }
+        function plain(text) {
+            gsub(/`|\*\*/, "", text)
+            while (match(text, /\[[^]]*\]\([^)]*\)/)) {
+                link = substr(text, RSTART + 1, RLENGTH - 2); sub(/\]\(.*/, "", link)
+                text = substr(text, 1, RSTART - 1) link substr(text, RSTART + RLENGTH)
+            }
+            return text
+        }
+        /^```/ { code = !code; next }
+        code { print "    " $0; next }
+        /^\|[-:| ]+\|$/ { next }
+        /^\|.*\|$/ {
+            row = plain($0); gsub(/\\\|/, "\001", row)
+            columns = split(substr(row, 2, length(row) - 2), cells, "|")
+            rows++
+            for (c = 1; c <= columns; c++) {
+                gsub(/^ +| +$/, "", cells[c]); gsub(/\001/, "|", cells[c])
+                cell[rows, c] = cells[c]
+                if (length(cells[c]) > width[c]) width[c] = length(cells[c])
+            }
+            next
+        }
+        rows { show_table() }
+        /^#/ { sub(/^#+ */, ""); print toupper(plain($0)); next }
+        { print plain($0) }
+        END { if (rows) show_table() }' "$share/help/$1.md"
+}

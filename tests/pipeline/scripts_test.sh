@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# How the scripts read their command lines, what else the front end calls, and an installed prefix.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+figure a.off 6
+figure b.off 6 .5
+seq 0 2 >list.txt
+
+says() {  # TEXT COMMAND...: stdout holds TEXT
+    "${@:2}" >out.txt 2>log || fail "exit $?: ${*:2}"
+    grep -Fq -- "$1" out.txt || fail "'$1' is not in what ${*:2} prints"
+}
+
+# Spellings of options.
+map a.off b.off -oout --landmark_weight=.5 --landmarks list.txt list.txt --area_bound=2 --set render.width=64 -j2
+map --landmarks=list.txt list.txt a.off b.off --out=out --landmark-weight .5 --area-bound 2 --set=render.width=64 --cores 2
+expect_ran ""
+map --out out --landmarks=list.txt list.txt --landmark-weight=.5 --set diffuse.area-bound=2 --set refine.area_bound=2 -j 1 -- a.off b.off
+expect_ran ""
+expect_exit 2 "$varimap" map a.off b.off -o out --explore=yes
+expect_exit 2 "$varimap" map a.off b.off -o out --out
+expect_exit 2 "$varimap" map a.off b.off -o out --area_bounds=2
+expect_exit 2 "$varimap" map a.off b.off -o out -x
+says "--area_bound 3 --landmark_weight 0.5" "$VARIMAP_BIN/varimap-diffuse" --landmark-weight=.5 --area-bound 3 --parameters
+
+# A configuration file; --set counts more, and what comes to the same reruns nothing.
+printf '[eigen]\ncount = 30\n[refine]\ntolerance = 0.01  # coarse\n[diffuse]\narea-bound = 2\n' >good.toml
+map a.off b.off -o configured --config good.toml
+map a.off b.off -o configured --set eigen.count=30 --set refine.tolerance=.01 --set diffuse.area_bound=2
+expect_ran ""
+map a.off b.off -o configured --config=good.toml --set refine.tolerance=1e-2
+expect_ran ""
+refuse_config() {  # TEXT MESSAGE
+    printf '%b' "$1" >bad.toml
+    expect_exit 2 "$varimap" map a.off b.off -o none --config bad.toml
+    grep -Fq -- "$2" log || fail "no '$2' for $1"
+}
+refuse_config '[eigen]\n\ncuont = 30\n' 'bad.toml, line 3: varimap-eigen has no parameter cuont; did you mean count?'
+refuse_config '[eigne]\ncount = 30\n' 'bad.toml, line 1: no stage is called eigne; did you mean eigen?'
+refuse_config '[render]\nwidth = wide\n' 'bad.toml, line 2: '
+refuse_config '[eigen]\ncount 30\n' 'bad.toml, line 2: '
+expect_exit 6 "$varimap" map a.off b.off -o none --config absent.toml
+expect_exit 6 "$varimap" map a.off b.off -o none --config .
+[[ ! -e none ]] || fail "a refused configuration left files"
+
+# Tools, help and version.
+check_front_end() {  # VARIMAP
+    local version
+    version=$("$VARIMAP_BIN/varimap-eigen" --version)
+    says "varimap ${version#varimap-eigen }" "$1" --version
+    says "--check" "$1" inspect --help
+    "$1" inspect --check out/artifacts/a.surface 2>log || fail "inspect through $1"
+    says "degree" "$1" verify a.off b.off out/source_to_target.csv
+    says "varimap map SOURCE TARGET" "$1" --help
+    says "varimap map SOURCE TARGET" "$1" help
+    says "--landmark-weight W" "$1" help map
+    says "--landmark-weight W" "$1" map --help
+    says "--count" "$1" help eigen
+    says "bench LIST" "$1" bench --help
+    expect_exit 2 "$1" help nothing
+    expect_exit 2 "$1" help ../map
+    expect_exit 2 "$1" nothing
+    expect_exit 2 "$1" eigen
+    expect_exit 2 "$1"
+}
+check_front_end "$varimap"
+
+# From an installed prefix, and through a link to it.
+mkdir -p prefix/bin prefix/share/varimap/help elsewhere
+cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
+cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,script.sh,bench,selftest,torus} prefix/share/varimap
+cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
+ln -s ../prefix/bin/varimap elsewhere/varimap
+(
+    unset VARIMAP_BIN VARIMAP_SOURCE
+    prefix/bin/varimap map "${small_picture[@]}" a.off b.off -o installed >/dev/null 2>log || fail "from the prefix"
+    elsewhere/varimap map "${small_picture[@]}" a.off b.off -o installed >/dev/null 2>log || fail "through a link"
+    expect_ran ""
+)
+check_front_end elsewhere/varimap
+
+# Markdown as plain text.
+cat >prefix/share/varimap/help/page.md <<'TEXT'
+# A page
+Some `code`, **bold**, and [a link](other.md).
+
+| name | meaning |
+|---|---|
+| `one` | 1 \| more |
+| twelve | 12 |
+
+```
+kept  as it is
+```
+TEXT
+prefix/bin/varimap help page >page.txt
+same page.txt - <<'TEXT'
+A PAGE
+Some code, bold, and a link.
+
+    name    meaning
+    one     1 | more
+    twelve  12
+
+    kept  as it is
+TEXT

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# Runs that share artifacts at the same time, and runs that are killed at random moments: the same bytes in the end.
+# VARIMAP_KILLS: how many runs are killed (default 12).
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+kills=${VARIMAP_KILLS:-12}
+figure a.off 6
+figure b.off 6 .5
+start=$EPOCHREALTIME
+map a.off b.off -o good -j 2
+map b.off a.off -o back -j 2
+milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 2000))
+
+# run OUT OPTION...: in the background, in a session of its own
+run() {
+    setsid "$varimap" map "${small_picture[@]}" "${@:2}" -o "$1" >"$1.out" 2>"$1.log" </dev/null &
+}
+finish() {  # OUT PROCESS
+    local code=0
+    wait "$2" || code=$?
+    ((code == 0)) || { cat "$1.log"; fail "$1: exit $code"; }
+}
+
+# Two runs at once that share artifacts, each made once; then two whose folders are each other's.
+run one a.off b.off --artifacts shared
+one=$!
+run two a.off b.off --artifacts shared
+two=$!
+finish one $one
+finish two $two
+same_results good one
+same_results good two
+cat one.log two.log >log
+for stage in preprocess eigen hierarchy; do [[ $(grep -c "^\[$stage\] done" log) == 2 ]] || fail "$stage did not run twice"; done
+for stage in explore diffuse refine; do [[ $(grep -c "^\[$stage\] done" log) == 1 ]] || fail "$stage did not run once"; done
+run p a.off b.off --artifacts q
+one=$!
+run q b.off a.off --artifacts p
+two=$!
+finish p $one
+finish q $two
+same p/source_to_target.csv good/source_to_target.csv
+same q/source_to_target.csv back/source_to_target.csv
+
+# Two runs that disagree on a parameter of a shared artifact: both finish with what they asked for.
+map a.off b.off -o good_30 --set eigen.count=30
+run left a.off b.off --artifacts disputed
+one=$!
+run right a.off b.off --artifacts disputed --set eigen.count=30
+two=$!
+wait $one || true
+wait $two || true
+map a.off b.off -o left --artifacts disputed
+same_results good left
+map a.off b.off -o right --artifacts disputed --set eigen.count=30
+same_results good_30 right
+
+# Killed: everything, or the front end alone, or one stage.
+victims() {  # KIND SESSION
+    case $1 in
+    0) pgrep -s "$2" || true ;;
+    1) echo "$2" ;;
+    2) pgrep -s "$2" varimap- | head -n 1 || true ;;
+    esac
+}
+RANDOM=1
+for ((i = 0; i < kills; ++i)); do
+    out=killed/$((RANDOM % 2))
+    mkdir -p killed
+    options=(--artifacts killed/artifacts)
+    ((RANDOM % 2)) || options+=(--set eigen.count=30)
+    run $out a.off b.off "${options[@]}"
+    session=$!
+    sleep "$(printf '%d.%03d' $((RANDOM % milliseconds / 1000)) $((RANDOM % 1000 * milliseconds / 1000 % 1000)))"
+    # shellcheck disable=SC2046
+    kill -9 $(victims $((RANDOM % 3)) $session) 2>/dev/null || true
+    wait $session 2>/dev/null || true
+    ((RANDOM % 4)) || rm -rf $out
+done
+for out in killed/0 killed/1; do
+    map a.off b.off -o $out --artifacts killed/artifacts
+    same_results good $out
+done
+artifacts killed/artifacts | xargs "$VARIMAP_BIN/varimap-inspect" --check 2>log || fail "a damaged artifact was left"
+nothing_left good one two p q killed
+echo "$kills runs of about $milliseconds ms were killed"

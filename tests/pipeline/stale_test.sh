@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# Files that lie about their age, stand in the wrong place or were altered: the result is that of a run from nothing.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+figure a.off 6
+figure b.off 6 .5
+figure c.off 6 -.5
+landmarks_of_figure a.off >tips.txt
+map a.off b.off -o good --landmarks tips.txt
+map a.off c.off -o good_c --landmarks tips.txt
+map a.off b.off -o good_30 --landmarks tips.txt --set eigen.count=30
+cp -r good out
+here=out/artifacts
+
+to_the_future() { touch -d '+2 days' out/* out/.[a-z]* "$here"/*; }
+
+again() {  # [EXPECTED [OPTION...]]: maps a onto b in out again
+    map a.off b.off -o out --landmarks tips.txt "${@:2}"
+    [[ -z ${1:-} ]] || same_results "$1" out
+}
+
+# What was made lies in the future: changes of a mesh, of landmarks and of parameters count all the same.
+again good
+expect_ran ""
+to_the_future
+again good
+expect_ran ""
+cp b.off kept.off
+cp c.off b.off
+again
+same out/source_to_target.csv good_c/source_to_target.csv
+to_the_future
+cp kept.off b.off
+again good
+to_the_future
+again good_30 --set eigen.count=30
+to_the_future
+again good
+to_the_future
+head -n 4 tips.txt >four.txt
+map a.off b.off -o out --landmarks four.txt
+map a.off b.off -o four --landmarks four.txt
+same out/source_to_target.csv four/source_to_target.csv
+
+# Other content with the same size and the same time.
+again good
+awk 'NR == 5 { held = $0; next } { print } NR == 6 { print held }' a.off >other.off
+touch -r a.off other.off
+cp a.off kept.off
+cp -p other.off a.off
+map a.off b.off -o out --landmarks tips.txt
+[[ $(ran) == *preprocess* ]] || fail "a mesh of the same size and time was not noticed"
+cp kept.off a.off
+again good
+
+# Artifacts swapped, foreign, or of an older run, and as new as can be.
+for kind in surface basis hierarchy; do
+    mv $here/a.$kind swapped
+    mv $here/b.$kind $here/a.$kind
+    mv swapped $here/b.$kind
+    to_the_future
+    again good
+    cp good_c/artifacts/c.$kind $here/b.$kind
+    to_the_future
+    again good
+done
+for artifact in a.basis a.hierarchy a--b.diffusion a--b.plan a--b.map a--b.quality; do
+    cp good_30/artifacts/$artifact $here/$artifact
+    to_the_future
+    again good
+    cp good/artifacts/a.surface $here/$artifact
+    again good
+done
+
+# Results that somebody altered or replaced.
+for file in source_to_target.csv source_on_target.ply; do
+    echo 0 >>out/$file
+    again good
+    cp good_30/$file out/$file
+    to_the_future
+    again good
+done
+cp good/source_on_target.ply out/picture.png
+again good
+rm out/.exports out/.picture out/.numbers.json
+again good
+
+# Stages called by hand refuse what does not belong together.
+both=(good/artifacts/{a,b}.{surface,basis,hierarchy})
+expect_exit 4 "$VARIMAP_BIN/varimap-refine" "${both[@]}" good_30/artifacts/a--b.diffusion new.plan
+expect_exit 4 "$VARIMAP_BIN/varimap-hierarchy" good/artifacts/a.surface good_30/artifacts/b.basis new.hierarchy
+expect_exit 4 "$VARIMAP_BIN/varimap-diffuse" good/artifacts/{a.surface,a.basis} good_30/artifacts/a.hierarchy \
+    good/artifacts/b.{surface,basis,hierarchy} new.diffusion
+expect_exit 4 "$VARIMAP_BIN/varimap-relax" good_c/artifacts/{a,c}.surface good/artifacts/a--b.plan new.map
+expect_exit 4 "$VARIMAP_BIN/varimap-remesh" good/artifacts/{a,b}.surface good_30/artifacts/a--b.plan good/artifacts/a--b.map new.quality
+[[ $(find . -maxdepth 1 -name 'new.*') == "" ]] || fail "something was written"
+nothing_left out
