@@ -201,7 +201,7 @@ TEST_F(MeshFile, BadFilesGetOneClearLine) {
     EXPECT_THAT(complaint("a.obj", "v 0 0 0\nf 1 1\n"), HasSubstr("3 corners"));
     EXPECT_THAT(complaint("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n"), HasSubstr("ends before"));
     EXPECT_THAT(complaint("a.off", "OFF\n999999999999 1 0\n0 0 0\n1 0 0\n"), HasSubstr("ends before"));
-    EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), HasSubstr("missing"));
+    EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), HasSubstr("ends before"));
     EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"), HasSubstr("face 0"));
     EXPECT_THAT(complaint("a.off", "OFF BINARY\n3 1 0\n"), HasSubstr("binary"));
     EXPECT_THAT(complaint("a.off", "hello\n"), HasSubstr(":1"));
