@@ -123,11 +123,13 @@ void report_end(const Bisection& bisection, double target, const TriangleMesh& i
                         "choose a larger "
                         "target_edge_length or a larger max_vertices",
                         target, params.max_vertices));
+    const int thinnest = thinnest_of(input);
     warn(
-        "slivers: bisection ends at {} vertices, four times those of the input or 2500, with edges up to "
-        "{:.3f} "
-        "where {:.3f} were wanted; the map is coarse there (--target_edge_length has no such bound)",
-        vertices, bisection.longest_left, target);
+        "slivers, the worst is face {} (height {:.1g} of its length): bisection ends at {} vertices, four "
+        "times "
+        "those of the input or 2500, with edges up to {:.3f} where {:.3f} were wanted; the map is coarse "
+        "there",
+        thinnest, thinness(input, thinnest), vertices, bisection.longest_left, target);
 }
 
 }  // namespace
@@ -150,7 +152,7 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
     const double target = target_edge_length(params, normalised.vertex_count());
     const Bisection bisection =
         bisect_longest_edges(repair.mesh, target, most_vertices(params, normalised.vertex_count()));
-    report_end(bisection, target, params);
+    report_end(bisection, target, input, params);
     record_way_back(bisection, repair, surface);
     surface.mesh = bisection.mesh;
     surface.mass = voronoi_masses(surface.mesh);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "varimap/landmarks/landmark_points.h"
 
@@ -45,14 +46,23 @@ std::vector<Guess> all_guesses() {
     return guesses;
 }
 
+/// Points shrunk to one, which may lie on the surface by chance, tell nothing.
+double extent(const std::vector<Vec3>& points) {
+    double farthest = 0;
+    for (const Vec3& p : points) farthest = std::max(farthest, (p - points.front()).stableNorm());
+    return farthest;
+}
+
 }  // namespace
 
 std::string likely_cause(const std::vector<Vec3>& positions, const TriangleMesh& mesh) {
     std::string cause = "is this the list of another mesh?";
     std::size_t most_near = positions.size() / 2;
+    const double least_extent = .1 * std::sqrt(surface_area(mesh));
     for (const Guess& guess : all_guesses()) {
         std::vector<Vec3> changed;
         for (const Vec3& p : positions) changed.push_back(guess.change * p);
+        if (extent(changed) < least_extent) continue;
         const std::vector<double> distances = snap(changed, mesh).distances;
         const auto near = std::size_t(std::count_if(distances.begin(), distances.end(),
                                                     [](double d) { return d <= far_from_surface; }));
