@@ -165,14 +165,6 @@ std::vector<PickedPoint> read_picked_points(const std::string& path) {
     return points;
 }
 
-LandmarkSpace landmark_space_from(const std::string& text) {
-    if (text == "stated") return LandmarkSpace::stated;
-    if (text == "as-is") return LandmarkSpace::as_is;
-    if (text == "lps") return LandmarkSpace::lps;
-    if (text == "ras") return LandmarkSpace::ras;
-    throw UsageError("landmark space '" + printable(text) + "': use stated, as-is, lps or ras");
-}
-
 Vec3 in_axes_of(const TriangleMesh& mesh, const PickedPoint& point, LandmarkSpace how) {
     const Space space = how == LandmarkSpace::stated ? point.space
                         : how == LandmarkSpace::lps  ? Space::lps

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "varimap/core/enum_names.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -25,9 +27,11 @@ std::vector<PickedPoint> read_picked_points(const std::string& path);
 
 /// Which axes the coordinates of landmarks use: those that their file states; those of the mesh, whatever
 /// either file says; LPS; or RAS.
-enum class LandmarkSpace { stated, as_is, lps, ras };
-/// From "stated", "as-is", "lps" or "ras". Throws UsageError.
-LandmarkSpace landmark_space_from(const std::string& text);
+enum class LandmarkSpace : int { stated = 0, as_is = 1, lps = 2, ras = 3 };
+template <>
+struct EnumNames<LandmarkSpace> {
+    static constexpr std::array names{"stated", "as-is", "lps", "ras"};
+};
 
 /// Where a point is in the mesh's coordinates: x and y are negated where one of the two is LPS and the other
 /// RAS. A mesh that states nothing then counts as LPS, as in 3D Slicer.
