@@ -49,14 +49,18 @@ Surface with_reversed_orientation(Surface surface) {
     return surface;
 }
 
-namespace {
-
-void swap_last_corners(PointMap& points) {
-    for (SurfacePoint& point : points) std::swap(point.barycentric[1], point.barycentric[2]);
-}
-
-}  // namespace
-
+Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {
+    const auto own = mesh.faces.row(point.face), other = mesh.faces.row(face);
+    Vec3 result = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+        if (point.barycentric[i] == 0) continue;
+        const auto at = std::find(other.begin(), other.end(), own[i]);
+        if (at == other.end())
+            return closest_barycentric(position(mesh, point), mesh.vertex(other[0]), mesh.vertex(other[1]),
+                                       mesh.vertex(other[2]));
+        result[at - other.begin()] += point.barycentric[i];
+    }
+    return result;
 }
 
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {
