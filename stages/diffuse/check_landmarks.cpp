@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/descent.h"
 
@@ -12,6 +13,9 @@ namespace {
 /// From here on maps that differ have different energies; finer levels only cost more. Chosen by hand on the
 /// known pairs, not swept.
 constexpr std::size_t enough_samples = 100;
+
+/// Each landmark costs a coarse map: 642 took 97 s of CPU time. So many decide a map that one hardly counts.
+constexpr std::size_t most_landmarks = 100;
 
 using Landmark = VertexPairs<MeshVertex>::value_type;
 
@@ -80,6 +84,11 @@ double distance_to_partner(const Landmark& landmark, const Solution& lacking, co
 std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const AlternationOptions& options) {
     const VertexPairs<MeshVertex>& landmarks = context.landmarks();
     if (landmarks.size() < 2) return {};  // nothing to contradict
+    if (landmarks.size() > most_landmarks) {
+        warn("{} landmarks are not checked against each other: beyond {} it takes too long", landmarks.size(),
+             most_landmarks);
+        return {};
+    }
     Descent descent(context, options, {});
     PinnedMaps maps;
     int next = 0;

@@ -10,7 +10,8 @@ namespace varimap {
 /// Per landmark: the coarse levels, up to the first with 100 samples, are solved once more with all other
 /// landmarks, and what becomes of this one is compared with the map that has them all. A landmark that the
 /// others contradict is carried far away, and the energy falls. Here landmarks are pinned, also where they
-/// are soft in the map: what a wrong one costs shows best so.
+/// are soft in the map: what a wrong one costs shows best so. None are checked where there are more than 100,
+/// which is said: the time is linear in their number.
 std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const AlternationOptions& options);
 
 }  // namespace varimap

@@ -42,7 +42,8 @@ int main(int argc, char** argv) {
         stage.input_option("candidates", "maps of varimap-explore, to continue one of them");
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
-        const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);
+        const auto landmarks =
+            read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
         const PairContext context(std::move(A), std::move(B), std::move(vertices), params.landmark_weight);
         const auto candidates = read_candidates(stage, inputs, candidates_in);

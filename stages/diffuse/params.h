@@ -25,6 +25,7 @@ struct DiffuseParams {
     double shape_weight =
         0.25;           ///< of add_shape_term beside Eq. (3); at 0.5 the map of a bust onto another was lost
     int candidate = 1;  ///< which of the candidates of varimap-explore is continued
+    LandmarkSpace landmark_space = LandmarkSpace::stated;
     double landmark_weight = 1;   ///< W of pull_landmarks (cost.h); 1: pinned
     bool check_landmarks = true;  ///< compares the map with one that lacks each landmark in turn
     int levels = 0;               ///< stop after this many diffusion levels; 0: all
@@ -41,6 +42,7 @@ struct DiffuseParams {
                  0.0, 100.0);
         list.add("candidate", candidate,
                  "which of the maps that varimap-explore found is continued (1: the best)", 1, 100);
+        varimap::describe(list, landmark_space);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);
         list.add("check_landmarks", check_landmarks, "names landmarks that the others contradict");

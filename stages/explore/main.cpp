@@ -38,7 +38,8 @@ int main(int argc, char** argv) {
         stage.input_list_option("landmarks", "as for varimap-diffuse; may be too few to decide", 1, 2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
-        const auto landmarks = read_landmarks(stage, landmark_files, A.surface, B.surface);
+        const auto landmarks =
+            read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
         const PairContext context(std::move(A), std::move(B), std::move(vertices), params.landmark_weight);
         const Candidates found = explore(context, params.exploration, params.alternation, params.ironing);

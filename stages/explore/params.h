@@ -9,6 +9,7 @@ struct ExploreParams {
     AlternationOptions alternation;
     IroningOptions ironing;
     ExplorationOptions exploration;
+    LandmarkSpace landmark_space = LandmarkSpace::stated;
     double landmark_weight = 1;  ///< W of pull_landmarks (cost.h); 1: pinned
 
     ExploreParams() { ironing.maximum_rounds = 0; }
@@ -26,6 +27,7 @@ struct ExploreParams {
                  "of the energy on the first Euclidean level, in the ranking", 0.0, 10.0);
         list.add("bending_weight", exploration.bending_weight, "of the agreement of bending, in the ranking",
                  0.0, 10.0);
+        varimap::describe(list, landmark_space);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);
     }

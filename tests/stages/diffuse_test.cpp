@@ -165,6 +165,13 @@ TEST(Diffuse, NamesTheLandmarkThatTheOthersContradict) {
     EXPECT_GT(checks[2].energy_fall, checks[1].energy_fall);
 }
 
+TEST(Diffuse, ChecksNoMoreLandmarksThanTimeAllows) {
+    KnownPair pair = ellipsoids_with_landmarks();
+    pair.landmarks.clear();
+    for (int v = 0; v < 101; ++v) pair.landmarks.emplace_back(MeshVertex{v}, MeshVertex{v});
+    EXPECT_TRUE(check_landmarks(pair.context(), DiffuseParams().alternation).empty());
+}
+
 TEST(Diffuse, ContinuesTheCandidateAskedFor) {
     const KnownPair pair = ellipsoids_with_landmarks();
     const PairContext context = pair.context();

@@ -1,14 +1,19 @@
 #include "stages/preprocess/preprocess.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fixtures/shapes.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
+#include "varimap/mesh/repair.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {
+
+using ::testing::HasSubstr;
 
 PreprocessParams with_target(double target) {
     PreprocessParams params;
@@ -90,6 +95,82 @@ TEST(Preprocess, MirrorsBothMeshesAndKeepsEveryPointWhereItIs) {
         EXPECT_LT(
             (position(mirrored.input, mirrored.on_input[v]) - position(input, plain.on_input[v])).norm(),
             1e-12);
+}
+
+/// How far the way back to the input leads from the mesh at most, units of sqrt(area).
+double error_of_way_back(const Surface& surface) {
+    double error = 0;
+    for (int f = 0; f < surface.mesh.face_count(); ++f)
+        for (const Vec3& b : {Vec3(.4, .3, .3), Vec3(1, 0, 0)}) {
+            const Vec3 there = position(surface.input, to_input(surface, {f, b}));
+            const Vec3 here = position(surface.mesh, {f, b});
+            error = std::max(error, ((there - surface.centre) * surface.scale - here).norm());
+        }
+    return error;
+}
+
+TEST(Preprocess, RemovesNeedlesWithoutAreaAndKeepsTheWayBack) {
+    TriangleMesh mesh = shapes::ellipsoid(2);
+    const int other = vertex_neighbours(mesh)[40][0];
+    mesh.vertices.row(40) = mesh.vertices.row(other).eval();
+    const Surface surface = preprocess(mesh, {});
+    EXPECT_EQ(surface.vertex_of_input[40], surface.vertex_of_input[other]);
+    EXPECT_EQ(surface.input.faces, mesh.faces);
+    EXPECT_NO_THROW(require_manifold(surface.mesh, "mesh"));
+    EXPECT_LT(error_of_way_back(surface), 1e-12);
+    for (int f = 0; f < surface.mesh.face_count(); ++f) EXPECT_GT(thinness(surface.mesh, f), 1e-3);
+    Surface copy;
+    EXPECT_NO_THROW(decode(encode(surface), copy));
+}
+
+TEST(Preprocess, RemovesCapsWithoutAreaAndKeepsTheWayBack) {
+    int cap;
+    const Surface surface = preprocess(shapes::with_cap(shapes::ellipsoid(1), 0, cap), {});
+    EXPECT_LT(error_of_way_back(surface), 1e-12);
+    EXPECT_EQ(std::count(surface.input_face.begin(), surface.input_face.end(), cap), 0);
+    Surface copy;
+    EXPECT_NO_THROW(decode(encode(surface), copy));
+}
+
+/// A tetrahedron of length 1 and the given height and width.
+TriangleMesh sliver(double width) {
+    return shapes::make_mesh({{0, 0, 0}, {1, 0, 0}, {.5, width, 0}, {.5, 0, width}},
+                             {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+}
+
+TEST(Preprocess, NamesThePlaceOfWhatItCannotRepair) {
+    try {
+        preprocess(sliver(1e-9), {});
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the first is face 0"));
+    }
+}
+
+TEST(Preprocess, EndsBisectionOfSliversInProportion) {
+    EXPECT_EQ(preprocess(sliver(1e-5), {}).mesh.vertex_count(), 10000);
+    const Surface fine = preprocess(sliver(1e-5), with_target(.5));  // on request, any number
+    for (const auto& [a, b] : find_edges(fine.mesh).vertices)
+        EXPECT_LE((fine.mesh.vertex(a) - fine.mesh.vertex(b)).norm(), .5 * (1 + 1e-9));
+}
+
+TEST(Preprocess, ServesTetrahedraAndPlacesFarFromTheOrigin) {
+    const TriangleMesh tetrahedron = shapes::make_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                                                       {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+    const Surface rest = preprocess(tetrahedron, {});
+    TriangleMesh far = tetrahedron;  // as UTM coordinates are, in metres
+    far.vertices.rowwise() += Eigen::RowVector3d(5e5, 5e6, 300);
+    const Surface utm = preprocess(far, {});
+    EXPECT_EQ(utm.mesh.faces, rest.mesh.faces);
+    EXPECT_LT((utm.mesh.vertices - rest.mesh.vertices).cwiseAbs().maxCoeff(), 1e-9);
+    for (const double scale : {1e-45, 1e45}) {
+        TriangleMesh scaled = tetrahedron;
+        scaled.vertices *= scale;
+        const Surface surface = preprocess(scaled, {});
+        EXPECT_EQ(surface.mesh.faces, rest.mesh.faces);
+        EXPECT_LT((surface.mesh.vertices - rest.mesh.vertices).cwiseAbs().maxCoeff(), 1e-12);
+        EXPECT_LT(error_of_way_back(surface), 1e-9);
+    }
 }
 
 }  // namespace

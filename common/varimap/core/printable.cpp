@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <string_view>
 
 namespace varimap {
 namespace {
@@ -33,7 +32,7 @@ std::size_t shown_bytes(std::string_view text) {
 
 }  // namespace
 
-std::string printable(const std::string& text) {
+std::string printable(std::string_view text) {
     std::string shown;
     for (std::string_view rest = text; !rest.empty();) {
         const std::size_t size = shown_bytes(rest);
@@ -44,6 +43,10 @@ std::string printable(const std::string& text) {
         rest.remove_prefix(size > 0 ? size : 1);
     }
     return shown;
+}
+
+std::string excerpt(std::string_view text) {
+    return printable(text.substr(0, 40));
 }
 
 }  // namespace varimap

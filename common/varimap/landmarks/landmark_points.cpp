@@ -11,7 +11,9 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/printable.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
 
@@ -29,7 +31,7 @@ double number(std::string_view text, const std::string& path, int line) {
     double value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        fail(path, line, fmt::format("'{}' is not a coordinate", text.substr(0, 40)));
+        fail(path, line, fmt::format("'{}' is not a coordinate", excerpt(text)));
     return value;
 }
 
@@ -46,35 +48,57 @@ std::optional<std::string_view> attribute(std::string_view tag, const std::strin
 
 std::vector<PickedPoint> read_pp(const std::string& path, std::string_view bytes) {
     std::vector<PickedPoint> points;
+    std::size_t counted = 0;
+    int line = 1;
     for (std::size_t at = bytes.find("<point "); at != std::string_view::npos;
          at = bytes.find("<point ", at + 1)) {
         const std::string_view tag = bytes.substr(at, bytes.find('>', at) - at);
+        line += int(std::count(bytes.begin() + counted, bytes.begin() + at, '\n'));
+        counted = at;
         PickedPoint point;
-        point.line = 1 + int(std::count(bytes.begin(), bytes.begin() + std::ptrdiff_t(at), '\n'));
-        for (int axis = 0; axis < 3; ++axis) {
+        point.line = line;
+        point.name = attribute(tag, "name").value_or("");
+        point.defined = attribute(tag, "active") != "0";
+        for (int axis = 0; axis < 3 && point.defined; ++axis) {
             const auto text = attribute(tag, std::string(1, "xyz"[axis]));
             if (!text) fail(path, point.line, "a point without x, y or z");
             point.position[axis] = number(*text, path, point.line);
         }
-        point.name = attribute(tag, "name").value_or("");
-        if (attribute(tag, "active") != "0") points.push_back(std::move(point));
+        points.push_back(std::move(point));
     }
     return points;
 }
 
-std::vector<PickedPoint> read_mrk_json(const std::string& path, const std::string& bytes) {
+/// The words of 3D Slicer's files; 0 and 1 are those of its versions before 4.11.
+Space space_from(std::string_view word, const std::string& path) {
+    if (word == "LPS" || word == "1") return Space::lps;
+    if (word == "RAS" || word == "0") return Space::ras;
+    throw InputError(
+        fmt::format("{}: its coordinate system '{}' is neither LPS nor RAS", path, excerpt(word)));
+}
+
+PickedPoint control_point(const nlohmann::json& control, Space space) {
+    PickedPoint point;
+    point.name = control.value("label", "");
+    point.space = space;
+    point.defined = control.value("positionStatus", "defined") == "defined";
+    for (int axis = 0; axis < 3 && point.defined; ++axis)
+        point.position[axis] = control.at("position").at(std::size_t(axis)).get<double>();
+    return point;
+}
+
+std::vector<PickedPoint> read_mrk_json(const std::string& path, std::string_view bytes) {
     std::vector<PickedPoint> points;
     try {
         const auto file = nlohmann::json::parse(bytes);
-        for (const auto& markup : file.at("markups"))
+        for (const auto& markup : file.at("markups")) {
+            // LPS is the default of the format.
+            const Space space = space_from(markup.value("coordinateSystem", "LPS"), path);
             for (const auto& control : markup.at("controlPoints")) {
-                PickedPoint point;
-                point.line = int(points.size()) + 1;
-                point.name = control.value("label", "");
-                for (int axis = 0; axis < 3; ++axis)
-                    point.position[axis] = control.at("position").at(axis).get<double>();
-                points.push_back(std::move(point));
+                points.push_back(control_point(control, space));
+                points.back().line = int(points.size());
             }
+        }
     } catch (const nlohmann::json::exception&) {
         throw InputError(path +
                          ": is not a 3D Slicer markups file with markups, controlPoints and positions");
@@ -92,18 +116,32 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
     }
 }
 
+std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(" \t\r");
+    return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+/// `# CoordinateSystem = LPS`
+void read_fcsv_comment(std::string_view text, const std::string& path, Space& space) {
+    const std::size_t equals = text.find('=');
+    if (equals != text.npos && trimmed(text.substr(1, equals - 1)) == "CoordinateSystem")
+        space = space_from(trimmed(text.substr(equals + 1)), path);
+}
+
 /// Columns: id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,...
 std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view bytes) {
     constexpr std::size_t label = 11;
     std::vector<PickedPoint> points;
+    Space space = Space::unstated;
     int line = 0;
     for (std::string_view text : split(bytes, '\n')) {
         ++line;
         if (text.ends_with('\r')) text.remove_suffix(1);
+        if (text.starts_with('#')) read_fcsv_comment(text, path, space);
         if (text.empty() || text.starts_with('#')) continue;
         const auto fields = split(text, ',');
         if (fields.size() < 4) fail(path, line, "expected id,x,y,z,...");
-        PickedPoint point{line, fields.size() > label ? std::string(fields[label]) : "", Vec3::Zero()};
+        PickedPoint point{line, fields.size() > label ? std::string(fields[label]) : "", Vec3::Zero(), space};
         for (std::size_t axis = 0; axis < 3; ++axis)
             point.position[Eigen::Index(axis)] = number(fields[axis + 1], path, line);
         points.push_back(std::move(point));
@@ -118,7 +156,8 @@ bool is_picked_points(const std::string& path) {
 }
 
 std::vector<PickedPoint> read_picked_points(const std::string& path) {
-    const std::string bytes = read_file(path);
+    const std::string file = read_file(path);
+    const std::string_view bytes = without_byte_order_mark(file, path);
     const auto points = ends_with(path, ".pp")     ? read_pp(path, bytes)
                         : ends_with(path, ".json") ? read_mrk_json(path, bytes)
                                                    : read_fcsv(path, bytes);
@@ -126,17 +165,27 @@ std::vector<PickedPoint> read_picked_points(const std::string& path) {
     return points;
 }
 
-Snapped snap(const std::vector<PickedPoint>& picked, const TriangleMesh& mesh) {
+Vec3 in_axes_of(const TriangleMesh& mesh, const PickedPoint& point, LandmarkSpace how) {
+    const Space space = how == LandmarkSpace::stated ? point.space
+                        : how == LandmarkSpace::lps  ? Space::lps
+                        : how == LandmarkSpace::ras  ? Space::ras
+                                                     : Space::unstated;
+    const Space of_mesh = mesh.space == Space::unstated ? Space::lps : mesh.space;
+    const Vec3& p = point.position;
+    return space == Space::unstated || space == of_mesh ? p : Vec3(-p[0], -p[1], p[2]);
+}
+
+Snapped snap(const std::vector<Vec3>& positions, const TriangleMesh& mesh) {
     const ClosestPoint closest(mesh);
     const double unit = std::sqrt(surface_area(mesh));
     Snapped snapped;
-    for (const PickedPoint& point : picked) {
-        const ClosestPoint::Hit hit = closest(point.position);
+    for (const Vec3& position_in_space : positions) {
+        const SurfacePoint point = closest(position_in_space).point;
         int corner;
-        hit.point.barycentric.maxCoeff(&corner);
-        snapped.points.push_back(hit.point);
-        snapped.vertices.push_back(mesh.faces(hit.point.face, corner));
-        snapped.distances.push_back(std::sqrt(hit.squared_distance) / unit);
+        point.barycentric.maxCoeff(&corner);
+        snapped.points.push_back(point);
+        snapped.vertices.push_back(mesh.faces(point.face, corner));
+        snapped.distances.push_back((position_in_space - position(mesh, point)).stableNorm() / unit);
     }
     return snapped;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "varimap/core/enum_names.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -11,22 +13,43 @@ namespace varimap {
 struct PickedPoint {
     int line = 0;                  ///< of the file, from 1; where the format has no lines, the point's number
     std::string name;              ///< empty where the format has none
-    Vec3 position = Vec3::Zero();  ///< in the mesh file's coordinates
+    Vec3 position = Vec3::Zero();  ///< as the file says it
+    Space space = Space::unstated;  ///< the axes that the file says it uses
+    bool defined = true;            ///< false: switched off or never placed, and position means nothing
 };
 
 /// Whether the file's ending is that of picked points: .pp, .json, .fcsv.
 bool is_picked_points(const std::string& path);
 
-/// Reads MeshLab's .pp, 3D Slicer's .mrk.json or .fcsv; points that are switched off are left out.
+/// Reads MeshLab's .pp, 3D Slicer's .mrk.json or .fcsv.
 /// Throws IoError; InputError naming the file for anything malformed and for a file without points.
 std::vector<PickedPoint> read_picked_points(const std::string& path);
 
-/// Where picked points lie on a mesh.
+/// Which axes the coordinates of landmarks use: those that their file states; those of the mesh, whatever
+/// either file says; LPS; or RAS.
+enum class LandmarkSpace : int { stated = 0, as_is = 1, lps = 2, ras = 3 };
+template <>
+struct EnumNames<LandmarkSpace> {
+    static constexpr std::array names{"stated", "as-is", "lps", "ras"};
+};
+
+/// Where a point is in the mesh's coordinates: x and y are negated where one of the two is LPS and the other
+/// RAS. A mesh that states nothing then counts as LPS, as in 3D Slicer.
+Vec3 in_axes_of(const TriangleMesh& mesh, const PickedPoint& point, LandmarkSpace space);
+
+/// Where points lie on a mesh.
 struct Snapped {
     PointMap points;                ///< the closest points of the surface
     std::vector<int> vertices;      ///< of their faces, the nearest corner
     std::vector<double> distances;  ///< from the positions to the points, units of sqrt(area)
 };
-Snapped snap(const std::vector<PickedPoint>& picked, const TriangleMesh& mesh);
+Snapped snap(const std::vector<Vec3>& positions, const TriangleMesh& mesh);
+
+/// A point farther than this from its surface, in units of sqrt(area), was not picked on it: it is an edge of
+/// a mesh with 2500 vertices.
+inline constexpr double far_from_surface = .02;
+/// Why most positions may lie far from a surface, as the end of a message: other axes, other units, or
+/// another mesh.
+std::string likely_cause(const std::vector<Vec3>& positions, const TriangleMesh& mesh);
 
 }  // namespace varimap

@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
+#include "varimap/core/printable.h"
 #include "varimap/landmarks/landmark_points.h"
+#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -28,6 +28,8 @@ struct Row {
     std::vector<double> numbers;
 };
 
+constexpr int no_vertex = -1;  ///< of a point that is not defined
+
 /// A vertex that a line of a file names.
 struct Named {
     int line, vertex;
@@ -39,34 +41,23 @@ struct Named {
     throw InputError(fmt::format("{}:{}: {}", path, line, message));
 }
 
-std::vector<double> parse_numbers(std::string_view text, const std::string& path, int line) {
-    constexpr std::string_view blank = " \t\r\v\f";
+std::vector<double> numbers_of(const TextScanner& scanner) {
     std::vector<double> numbers;
-    text = text.substr(0, text.find('#'));
-    while (true) {
-        text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
-        if (text.empty()) return numbers;
-        const std::string_view token = text.substr(0, text.find_first_of(blank));
-        double number = 0;
-        const auto [end, status] = std::from_chars(token.data(), token.data() + token.size(), number);
-        if (status != std::errc() || end != token.data() + token.size() || !std::isfinite(number))
-            fail(path, line, fmt::format("'{}' is not a number", token.substr(0, 40)));
+    for (const auto word : scanner.words()) {
+        double number;
+        if (!to_number(word, number) || !std::isfinite(number))
+            scanner.fail(fmt::format("'{}' is not a number", excerpt(word)));
         numbers.push_back(number);
-        text.remove_prefix(token.size());
     }
+    return numbers;
 }
 
 /// The lines that hold something.
 std::vector<Row> read_rows(const std::string& path) {
     const std::string bytes = read_file(path);
-    std::string_view text = bytes;
+    TextScanner scanner(without_byte_order_mark(bytes, path), path);
     std::vector<Row> rows;
-    for (int line = 1; !text.empty(); ++line) {
-        const size_t end = std::min(text.find('\n'), text.size());
-        auto numbers = parse_numbers(text.substr(0, end), path, line);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        if (!numbers.empty()) rows.push_back({line, std::move(numbers)});
-    }
+    while (scanner.next_line()) rows.push_back({scanner.line(), numbers_of(scanner)});
     if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
     return rows;
 }
@@ -161,20 +152,56 @@ bool is_vts(const std::string& path) {
     return path.size() >= 4 && path.substr(path.size() - 4) == ".vts";
 }
 
-/// Picked points as the vertices nearest to where they lie on the surface.
-std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path,
-                                const TriangleMesh& mesh) {
-    constexpr double far = .02;  // units of sqrt(area); an edge of a mesh with 2500 vertices
-    const Snapped snapped = snap(picked, mesh);
-    std::vector<Named> list;
-    for (size_t i = 0; i < picked.size(); ++i) {
-        const double distance = snapped.distances[i];
-        const std::string what = fmt::format("{}:{}: landmark {}", path, picked[i].line, picked[i].name);
-        log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, distance,
+/// Most of a list's points far from the surface: it is read wrongly, or belongs elsewhere.
+void refuse_far_list(const std::vector<Named>& list, const std::vector<Vec3>& positions,
+                     const std::vector<double>& distances, const std::string& path,
+                     const TriangleMesh& mesh) {
+    const auto far = std::count_if(distances.begin(), distances.end(),
+                                   [](double distance) { return distance > far_from_surface; });
+    if (2 * std::size_t(far) <= distances.size()) return;
+    const auto farthest = std::max_element(distances.begin(), distances.end()) - distances.begin();
+    throw InputError(
+        fmt::format("{}:{}: {} of {} landmarks lie farther than {} from the surface, in units of sqrt(area), "
+                    "this one {:.3g}; {}",
+                    path, list[std::size_t(farthest)].line, far, list.size(), far_from_surface,
+                    distances[std::size_t(farthest)], likely_cause(positions, mesh)));
+}
+
+/// Points in the mesh's axes, as the vertices nearest to where they lie on the surface.
+void place(std::vector<Named>& list, const std::vector<Vec3>& positions, const std::string& path,
+           const TriangleMesh& mesh) {
+    const Snapped snapped = snap(positions, mesh);
+    refuse_far_list(list, positions, snapped.distances, path, mesh);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string what =
+            fmt::format("{}:{}: landmark {}", path, list[i].line, excerpt(list[i].name));
+        log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, snapped.distances[i],
             snapped.vertices[i]);
-        if (distance > far) warn("{} lies far from the surface: is the list that of this mesh?", what);
-        list.push_back({picked[i].line, snapped.vertices[i], picked[i].name, snapped.points[i]});
+        if (snapped.distances[i] > far_from_surface)
+            warn("{} lies far from the surface: is the list that of this mesh?", what);
+        list[i].vertex = snapped.vertices[i];
+        list[i].point = snapped.points[i];
     }
+}
+
+/// Points that are not defined keep their place in the list, so that rows still match, without a vertex.
+std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path,
+                                const TriangleMesh& mesh, LandmarkSpace space) {
+    std::vector<Named> defined, list;
+    std::vector<Vec3> positions;
+    for (const PickedPoint& point : picked) {
+        if (!point.defined) continue;
+        defined.push_back({point.line, no_vertex, point.name});
+        positions.push_back(in_axes_of(mesh, point, space));
+    }
+    if (defined.empty()) throw InputError(path + ": none of its points is defined");
+    place(defined, positions, path, mesh);
+    auto next = defined.begin();
+    for (const PickedPoint& point : picked)
+        list.push_back(point.defined ? *next++ : Named{point.line, no_vertex, point.name});
+    if (defined.size() < picked.size())
+        warn("{}: {} of {} points are not defined, or switched off, and are left out", path,
+             picked.size() - defined.size(), picked.size());
     return list;
 }
 
@@ -188,24 +215,25 @@ std::vector<PickedPoint> points_of_rows(const std::vector<Row>& rows, size_t fir
 }
 
 /// The list of one side: picked points, rows of coordinates, or vertex numbers.
-std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh) {
-    if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh);
+std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh, LandmarkSpace space) {
+    if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh, space);
     const auto rows = read_rows(path);
     if (rows[0].numbers.size() == 3) {
         require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
-        return snapped_list(points_of_rows(rows, 0), path, mesh);
+        return snapped_list(points_of_rows(rows, 0), path, mesh, space);
     }
     return read_list(path, is_vts(path) ? IndexBase::automatic : IndexBase::zero, &mesh);
 }
 
 /// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
-std::vector<Named> read_pair_side(const std::string& path, size_t column, const TriangleMesh& mesh) {
+std::vector<Named> read_pair_side(const std::string& path, size_t column, const TriangleMesh& mesh,
+                                  LandmarkSpace space) {
     const auto rows = is_picked_points(path) ? std::vector<Row>{} : read_rows(path);
     if (rows.empty())
         throw UsageError(path + ": holds the points of one surface; give one such file for each");
     if (rows[0].numbers.size() != 6) return read_column(path, column, &mesh);
     require_count(rows, path, 6, 6, "two points, x y z x y z, as in the first row");
-    return snapped_list(points_of_rows(rows, 3 * column), path, mesh);
+    return snapped_list(points_of_rows(rows, 3 * column), path, mesh, space);
 }
 
 bool have_distinct_names(const std::vector<Named>& list) {
@@ -249,6 +277,7 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
     for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
     std::map<int, int> lines;
     for (const auto& [line, vertex, name, point] : list) {
+        if (vertex == no_vertex) continue;
         const auto [it, added] = lines.try_emplace(vertex, line);
         if (!added)
             fail(path, line,
@@ -274,7 +303,7 @@ std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const
 }
 
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input) {
+                         const TriangleMesh& target_input, LandmarkSpace space) {
     if (files.size() != 1 && files.size() != 2)
         throw UsageError(
             "landmarks: give one file of pairs, or a list for the source and one for the target");
@@ -282,17 +311,19 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
     std::vector<Named> lists[2];
     for (size_t side : {0, 1}) {
         const std::string& path = files[files.size() == 1 ? 0 : side];
-        lists[side] =
-            files.size() == 1 ? read_pair_side(path, side, *meshes[side]) : read_side(path, *meshes[side]);
+        lists[side] = files.size() == 1 ? read_pair_side(path, side, *meshes[side], space)
+                                        : read_side(path, *meshes[side], space);
         require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
     }
     Landmarks landmarks;
     bool picked = false;
     for (const auto& [source, target] : matched(lists, files)) {
+        if (source.vertex == no_vertex || target.vertex == no_vertex) continue;
         landmarks.vertices.emplace_back(InputVertex{source.vertex}, InputVertex{target.vertex});
         landmarks.points.emplace_back(place_of(source, source_input), place_of(target, target_input));
         picked = picked || source.point || target.point;
     }
+    if (landmarks.vertices.empty()) throw InputError(files[0] + ": no landmark is defined on both surfaces");
     if (!picked) landmarks.points.clear();
     return landmarks;
 }

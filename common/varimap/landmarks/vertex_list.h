@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "varimap/landmarks/landmark_points.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/mesh/vertex_index.h"
 
@@ -29,10 +30,11 @@ struct Landmarks {
 /// a .vts, coordinates decide whether numbers start at 0; in any other list they do). Instead of vertices a
 /// file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of picked
 /// points (landmark_points.h; matched by name where all have distinct ones). A point stands for the vertex
-/// nearest to where it lies on the surface where vertices are needed; its distance is logged. Throws
-/// InputError also for a different number of rows, a vertex that two rows name or that no face uses;
-/// UsageError for any other number of files.
+/// nearest to where it lies on the surface where vertices are needed; its distance is logged. Points that are
+/// switched off or not defined are left out with their partners. Throws InputError also where most points lie
+/// far from the surface, naming the likely cause, for a different number of rows, a vertex that two rows name
+/// or that no face uses; UsageError for any other number of files.
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input);
+                         const TriangleMesh& target_input, LandmarkSpace space = LandmarkSpace::stated);
 
 }  // namespace varimap

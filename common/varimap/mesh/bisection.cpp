@@ -1,7 +1,5 @@
 #include "varimap/mesh/bisection.h"
 
-#include <fmt/format.h>
-
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
@@ -95,12 +93,7 @@ void Bisector::offer(OpenMesh::SmartEdgeHandle e) {
 }
 
 void Bisector::run(std::size_t max_vertices) {
-    while (!queue_.empty()) {
-        if (mesh_.n_vertices() >= max_vertices)
-            throw InputError(fmt::format(
-                "bisection to edges of at most {:.3g} needs more than max_vertices = {} vertices; "
-                "choose a larger target_edge_length or a larger max_vertices",
-                std::sqrt(limit_), max_vertices));
+    while (!queue_.empty() && mesh_.n_vertices() < max_vertices) {
         const auto longest = queue_.top().edge;
         queue_.pop();
         split(OpenMesh::make_smart(longest, mesh_));
@@ -142,6 +135,7 @@ Bisection Bisector::result() const {
         result.origin.push_back(mesh_.data(f).origin);
     }
     result.on_origin = on_origin_;
+    if (!queue_.empty()) result.longest_left = mesh_.calc_edge_length(queue_.top().edge);
     return result;
 }
 

@@ -76,7 +76,7 @@ struct ClosestPoint::State {
 };
 
 void ClosestPoint::State::build() {
-    const Vec3 low = mesh.vertices.colwise().minCoeff(), high = mesh.vertices.colwise().maxCoeff();
+    const auto [low, high] = bounding_box(mesh);
     centre = 0.5 * (low + high);
     const double extent = (high - low).maxCoeff();
     if (extent > 0) scale = 1 / extent;
@@ -154,6 +154,9 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 
 ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* normal, int guess) const {
     const Vec3 local = (query - centre) * scale;
+    constexpr double far = 1e6;  // squared distances stay numbers, in single precision too
+    if (!(local.cwiseAbs().maxCoeff() <= far))
+        return search(centre + local.cwiseMax(-far).cwiseMin(far) / scale, normal, guess);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     Search search{mesh, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};

@@ -19,7 +19,8 @@ class ClosestPoint {
         SurfacePoint point;
         double squared_distance;
     };
-    /// The closest point; among equals, the lowest face. `guess`: a face that may be near, which saves time.
+    /// The closest point; among equals, the lowest face. The query must be finite; each coordinate beyond 1e6
+    /// times the mesh's size counts as that far. `guess`: a face that may be near, which saves time.
     Hit operator()(const Vec3& query, int guess = -1) const;
     /// The closest point whose unit face normal has a positive product with `normal`, so that the other side
     /// of a thin part does not attract; where no such face exists, the closest point of all.

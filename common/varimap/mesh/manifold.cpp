@@ -104,10 +104,17 @@ void refuse_several_components(const TriangleMesh& mesh, const std::string& path
         "{}: the surface has {} components, the second starts at vertex {}; keep one", path, count, second));
 }
 
-void refuse_no_area(const TriangleMesh& mesh, const std::string& path) {
-    const double area = surface_area(mesh);
-    if (!(area > 0)) throw InputError(path + ": the surface has no area (are its points all on one line?)");
-    if (!std::isfinite(area)) throw InputError(path + ": the coordinates are too large; scale the mesh down");
+/// Within these sizes no product of lengths that the method needs leaves the range of double precision.
+void refuse_extreme_sizes(const TriangleMesh& mesh, const std::string& path) {
+    constexpr double least = 1e-50, largest = 1e50;
+    const auto [low, high] = bounding_box(mesh);
+    const double size = (high - low).maxCoeff();
+    if (size == 0) throw InputError(path + ": the surface has no area (its points are all the same)");
+    if (!(least < size && size < largest))
+        throw InputError(fmt::format("{}: the surface is {:.2g} long, outside {} to {}; scale it", path, size,
+                                     least, largest));
+    if (!(surface_area(mesh) > 0))
+        throw InputError(path + ": the surface has no area (are its points all on one line?)");
 }
 
 }  // namespace
@@ -120,7 +127,7 @@ void require_manifold(const TriangleMesh& mesh, const std::string& path) {
     refuse_inconsistent_orientation(mesh, edges, path);
     refuse_pinched_vertices(mesh, edges, path);
     refuse_several_components(mesh, path);
-    refuse_no_area(mesh, path);
+    refuse_extreme_sizes(mesh, path);
 }
 
 }  // namespace varimap

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "varimap/artifact/cereal_eigen.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/surface_check.h"
 
 namespace varimap {
 
@@ -18,19 +20,11 @@ void serialize(Archive& archive, SurfacePoint& point) {
 
 template <class Archive>
 void serialize(Archive& archive, Surface& surface) {
-    archive(surface.mesh, surface.mass, surface.input, surface.vertex_of_input, surface.input_face,
-            surface.on_input, surface.centre, surface.scale, surface.mirrored);
+    archive(surface.mesh, surface.mass, surface.input, surface.input.space, surface.vertex_of_input,
+            surface.input_face, surface.on_input, surface.centre, surface.scale, surface.mirrored);
 }
 
 namespace {
-
-void require_valid(bool valid) {
-    if (!valid) throw ArtifactError("the parts of a surface contradict each other; rerun varimap-preprocess");
-}
-
-void require_below(const int* begin, std::size_t count, int least, int limit) {
-    require_valid(std::all_of(begin, begin + count, [&](int i) { return least <= i && i < limit; }));
-}
 
 void swap_last_corners(PointMap& points) {
     for (SurfacePoint& point : points) std::swap(point.barycentric[1], point.barycentric[2]);
@@ -44,16 +38,7 @@ std::string encode(const Surface& surface) {
 
 void decode(const std::string& payload, Surface& surface) {
     cereal_decode(payload, surface);
-    const TriangleMesh &mesh = surface.mesh, &input = surface.input;
-    require_valid(surface.mass.size() == mesh.vertex_count());
-    require_valid(int(surface.vertex_of_input.size()) == input.vertex_count());
-    require_valid(int(surface.input_face.size()) == mesh.face_count());
-    require_valid(int(surface.on_input.size()) == mesh.vertex_count());
-    require_below(mesh.faces.data(), mesh.faces.size(), 0, mesh.vertex_count());
-    require_below(input.faces.data(), input.faces.size(), 0, input.vertex_count());
-    require_below(surface.vertex_of_input.data(), surface.vertex_of_input.size(), -1, mesh.vertex_count());
-    require_below(surface.input_face.data(), surface.input_face.size(), 0, input.face_count());
-    for (const SurfacePoint& point : surface.on_input) require_below(&point.face, 1, 0, input.face_count());
+    require_complete(surface);
 }
 
 Surface with_reversed_orientation(Surface surface) {
@@ -64,23 +49,26 @@ Surface with_reversed_orientation(Surface surface) {
     return surface;
 }
 
-PointMap between_input_and_file(PointMap points, const Surface& surface) {
-    if (surface.mirrored) swap_last_corners(points);
-    return points;
+Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {
+    const auto own = mesh.faces.row(point.face), other = mesh.faces.row(face);
+    Vec3 result = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+        if (point.barycentric[i] == 0) continue;
+        const auto at = std::find(other.begin(), other.end(), own[i]);
+        if (at == other.end())
+            return closest_barycentric(position(mesh, point), mesh.vertex(other[0]), mesh.vertex(other[1]),
+                                       mesh.vertex(other[2]));
+        result[at - other.begin()] += point.barycentric[i];
+    }
+    return result;
 }
 
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {
     SurfacePoint result{surface.input_face[on_mesh.face], Vec3::Zero()};
-    const auto target = surface.input.faces.row(result.face);
     for (int c = 0; c < 3; ++c) {
-        // A corner's own input face may be the one next door; both name the same input vertices, and only
-        // those that the faces share have a coordinate other than zero.
+        // A corner's own input face may be the one next door.
         const SurfacePoint& corner = surface.on_input[surface.mesh.faces(on_mesh.face, c)];
-        const auto own = surface.input.faces.row(corner.face);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                if (own[i] == target[j])
-                    result.barycentric[j] += on_mesh.barycentric[c] * corner.barycentric[i];
+        result.barycentric += on_mesh.barycentric[c] * barycentric_on(surface.input, result.face, corner);
     }
     result.barycentric = result.barycentric.cwiseMax(0).cwiseMin(1);
     return result;

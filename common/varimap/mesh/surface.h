@@ -12,7 +12,9 @@ namespace varimap {
 ///
 /// `mesh` has unit area, its area centroid at the origin, and edges no longer than the target length
 /// (Sec. 5, Limitations: recursive longest-edge bisection). Each of its faces lies inside one input face, and
-/// the used input vertices are its first vertices, in input order.
+/// the used input vertices are its first vertices, in input order. Where the input has faces too thin for the
+/// method (repair.h), these have no counterpart, input vertices that are the same for all purposes share one
+/// of `mesh`, and a face may lie off its input face by that little.
 struct Surface {
     TriangleMesh mesh;     ///< normalised and bisected
     Eigen::VectorXd mass;  ///< per vertex of mesh: Voronoi area, sums to 1 (Sec. 2.1)
@@ -29,7 +31,7 @@ template <>
 struct ArtifactType<Surface> {
     static constexpr const char* kind = "surface";
     static constexpr const char* stage = "varimap-preprocess";
-    static constexpr int schema = 2;
+    static constexpr int schema = 3;
 };
 std::string encode(const Surface& surface);
 void decode(const std::string& payload, Surface& surface);
@@ -40,6 +42,10 @@ Surface with_reversed_orientation(Surface surface);
 /// The same points, from the faces of `surface.input` to those of its mesh file or back: where it is
 /// mirrored, their last two corners are exchanged.
 PointMap between_input_and_file(PointMap points, const Surface& surface);
+
+/// A point of a mesh as barycentric coordinates of another face that holds it too: exact by the vertices that
+/// both faces name; where these are not enough, because a repair moved the point, those of the closest point.
+Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point);
 
 /// The same point, from a face of `surface.mesh` to the input face that holds it. Coordinates clamped to [0,
 /// 1].

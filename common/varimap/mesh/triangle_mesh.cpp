@@ -1,8 +1,30 @@
 #include "varimap/mesh/triangle_mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace varimap {
+
+bool are_points(const PointMap& points, int faces) {
+    constexpr double rounding = 1e-6;  // of coordinates that were clamped
+    return std::all_of(points.begin(), points.end(), [&](const SurfacePoint& point) {
+        const Vec3& b = point.barycentric;
+        if (point.face == -1) return true;
+        return point.face >= 0 && (faces < 0 || point.face < faces) && b.allFinite() &&
+               b.minCoeff() >= -rounding && std::abs(b.sum() - 1) <= rounding;
+    });
+}
+
+Box bounding_box(const TriangleMesh& mesh) {
+    Box box{Vec3::Constant(std::numeric_limits<double>::infinity()),
+            Vec3::Constant(-std::numeric_limits<double>::infinity())};
+    for (const int v : mesh.faces.reshaped()) {
+        box.low = box.low.cwiseMin(mesh.vertex(v));
+        box.high = box.high.cwiseMax(mesh.vertex(v));
+    }
+    return box;
+}
 
 double surface_area(const TriangleMesh& mesh) {
     double twice = 0;

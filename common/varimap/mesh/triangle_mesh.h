@@ -11,10 +11,15 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< 
 using Faces = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;      ///< one triangle per row
 using Vec3 = Eigen::Vector3d;
 
+/// The axes that medical programs mean by x, y and z: towards the patient's Left, Posterior, Superior, or
+/// Right, Anterior, Superior. The one is the other with x and y negated.
+enum class Space : int { unstated = 0, lps = 1, ras = 2 };
+
 /// An indexed triangle mesh. Faces are counter-clockwise seen from outside.
 struct TriangleMesh {
     Points vertices;
     Faces faces;
+    Space space = Space::unstated;  ///< what its file says of its axes
 
     int vertex_count() const { return int(vertices.rows()); }
     int face_count() const { return int(faces.rows()); }
@@ -29,6 +34,10 @@ struct SurfacePoint {
 
 /// Images of the vertices of one mesh on another: one point per vertex, in the vertices' order.
 using PointMap = std::vector<SurfacePoint>;
+
+/// Whether each is nowhere or has barycentric coordinates in [0, 1] of sum 1; `faces`: their number, if
+/// known.
+bool are_points(const PointMap& points, int faces = -1);
 
 /// Points of two surfaces that belong together.
 using PointPairs = std::vector<std::pair<SurfacePoint, SurfacePoint>>;
@@ -46,6 +55,11 @@ inline Vec3 face_normal(const TriangleMesh& mesh, int f) {
     return (mesh.vertex(mesh.faces(f, 1)) - a).cross(mesh.vertex(mesh.faces(f, 2)) - a);
 }
 
+/// The box around the vertices that faces use.
+struct Box {
+    Vec3 low, high;
+};
+Box bounding_box(const TriangleMesh& mesh);
 /// Total area.
 double surface_area(const TriangleMesh& mesh);
 /// Unit normals at vertices: face normals weighted by the corner's angle. Zero where no face has area.

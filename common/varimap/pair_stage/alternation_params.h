@@ -1,5 +1,6 @@
 #pragma once
 
+#include "varimap/landmarks/landmark_points.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/stage/parameters.h"
 #include "varimap/transport/alternating_minimization.h"
@@ -53,6 +54,11 @@ inline void describe(ParameterList& list, IroningOptions& o) {
              0.0, 1.0);
     list.add("reflection_mass", o.reflected_mass,
              "a map that reverses more than this share of the mass is reflected", 0.0, 1.0);
+}
+
+inline void describe(ParameterList& list, LandmarkSpace& space) {
+    list.add("landmark_space", space,
+             "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
 }
 
 }  // namespace varimap

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "varimap/artifact/consistency.h"
 #include "varimap/landmarks/vertex_list.h"
 
 namespace varimap {
@@ -34,6 +35,9 @@ SurfaceData PairInputs::read(Stage& stage, const std::string& name, const Paths&
     Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "basis", basis.header, paths.basis);
+    const Eigen::Index vertices = surface.value.mesh.vertex_count();
+    require<Basis>(basis.value.functions.rows() == vertices, "vertices");
+    require<Hierarchy>(Eigen::Index(hierarchy.value.levels.front().cell.size()) == vertices, "vertices");
     hierarchies_.emplace_back(name + ".hierarchy", hierarchy.header);
     return {std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
 }
@@ -45,9 +49,9 @@ void PairInputs::require_same(const Header& plan, const std::string& plan_path) 
 }
 
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
-                         const Surface& B) {
+                         const Surface& B, LandmarkSpace space) {
     if (files.empty()) return {};
-    const Landmarks landmarks = read_landmarks(files, A.input, B.input);
+    const Landmarks landmarks = read_landmarks(files, A.input, B.input, space);
     for (size_t i = 0; i < files.size(); ++i)
         stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);
     return landmarks;

@@ -32,7 +32,7 @@ class PairInputs {
 
 /// Reads landmarks (vertex_list.h) and records their files as inputs.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
-                         const Surface& B);
+                         const Surface& B, LandmarkSpace space);
 /// The vertices that landmarks became on the preprocessed meshes. Throws InputError for those no face uses.
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B);

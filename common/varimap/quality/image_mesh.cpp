@@ -7,9 +7,8 @@ namespace varimap {
 
 TriangleMesh unit_area(const TriangleMesh& mesh) {
     TriangleMesh result = mesh;
-    const Eigen::RowVector3d centre =
-        (mesh.vertices.colwise().minCoeff() + mesh.vertices.colwise().maxCoeff()) / 2;
-    result.vertices.rowwise() -= centre;
+    const Box box = bounding_box(mesh);
+    result.vertices.rowwise() -= ((box.low + box.high) / 2).transpose();
     result.vertices /= std::sqrt(surface_area(result));
     return result;
 }

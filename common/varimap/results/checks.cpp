@@ -7,16 +7,6 @@ namespace varimap {
 
 namespace {
 
-/// Of sums over a million masses, and of barycentric coordinates that were clamped.
-constexpr double rounding = 1e-6;
-
-bool is_point(const SurfacePoint& point, int faces) {
-    const Vec3& b = point.barycentric;
-    if (point.face == -1) return true;
-    return point.face >= 0 && (faces < 0 || point.face < faces) && b.allFinite() &&
-           b.minCoeff() >= -rounding && std::abs(b.sum() - 1) <= rounding;
-}
-
 /// Row or column sums: none negative.
 bool are_transported(const Eigen::VectorXd& sums) {
     return sums.allFinite() && sums.minCoeff() >= 0 && sums.sum() > 0;
@@ -71,28 +61,9 @@ std::string inconsistency(const PairRecord& record, Eigen::Index vertices_A, Eig
 
 }  // namespace
 
-bool are_in_range(const std::vector<int>& indices, Eigen::Index count) {
-    return std::all_of(indices.begin(), indices.end(), [&](int i) { return i >= 0 && i < count; });
-}
-
-bool are_distinct_in_range(const std::vector<int>& indices, Eigen::Index count) {
-    std::vector<int> sorted = indices;
-    std::sort(sorted.begin(), sorted.end());
-    return are_in_range(indices, count) && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-}
-
-bool are_masses(const Eigen::VectorXd& mass) {
-    return mass.size() > 0 && mass.allFinite() && mass.minCoeff() > 0 && std::abs(mass.sum() - 1) <= rounding;
-}
-
 bool are_plan_entries(const SparseMatrix& entries) {
     return entries.nonZeros() > 0 && entries.coeffs().isFinite().all() && entries.coeffs().minCoeff() >= 0 &&
            entries.coeffs().maxCoeff() > 0;
-}
-
-bool are_points(const PointMap& points, int faces) {
-    return std::all_of(points.begin(), points.end(),
-                       [&](const SurfacePoint& point) { return is_point(point, faces); });
 }
 
 std::string inconsistency(const SolvedPair& pair, Eigen::Index vertices_A, Eigen::Index vertices_B) {

@@ -10,6 +10,7 @@
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/error.h"
 #include "varimap/spectral/laplacian.h"
+#include "varimap/spectral/spectral_check.h"
 
 namespace varimap {
 
@@ -197,6 +198,7 @@ std::string encode(const Basis& basis) {
 }
 void decode(const std::string& payload, Basis& basis) {
     cereal_decode(payload, basis);
+    require_complete(basis);
 }
 
 }  // namespace varimap

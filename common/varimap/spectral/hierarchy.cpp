@@ -6,6 +6,7 @@
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/log.h"
 #include "varimap/spectral/neighbourhoods.h"
+#include "varimap/spectral/spectral_check.h"
 
 namespace varimap {
 
@@ -97,6 +98,7 @@ std::string encode(const Hierarchy& hierarchy) {
 }
 void decode(const std::string& payload, Hierarchy& hierarchy) {
     cereal_decode(payload, hierarchy);
+    require_complete(hierarchy);
 }
 
 }  // namespace varimap

@@ -97,7 +97,7 @@ Ball shrink_ball(const ClosestPoint& closest, const TriangleMesh& mesh, const Ve
 }  // namespace
 
 std::optional<double> map_degree(const TriangleMesh& image, const TriangleMesh& target) {
-    const Vec3 low = target.vertices.colwise().minCoeff(), high = target.vertices.colwise().maxCoeff();
+    const auto [low, high] = bounding_box(target);
     const double inside = signed_volume(target, (low + high) / 2) < 0 ? 1 : -1,
                  thinnest = mean_edge(image) / 2;
     const ClosestPoint to_target(target), to_image(image);

@@ -1,7 +1,11 @@
 #include "varimap/landmarks/vertex_list.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
 
 #include "fixtures/temporary_folder.h"
 #include "varimap/artifact/artifact.h"
@@ -10,6 +14,7 @@
 namespace varimap {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -172,6 +177,81 @@ TEST_F(VertexList, RefusesDamagedFilesOfPickedPoints) {
     EXPECT_THAT(error_of({write("d.json", "{\"markups\": 3"), good}),
                 HasSubstr("is not a 3D Slicer markups file"));
     EXPECT_THAT(error_of({write("e.fcsv", "1,2\n"), good}), HasSubstr("e.fcsv:1: expected id,x,y,z"));
+}
+
+/// A markups file of 3D Slicer; `status` is that of its second point.
+std::string slicer(const std::string& space, const std::vector<Vec3>& points,
+                   const std::string& status = "defined") {
+    nlohmann::json controls;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        controls.push_back({{"label", fmt::format("p{}", i)},
+                            {"position", {points[i][0], points[i][1], points[i][2]}},
+                            {"positionStatus", i == 1 ? status : "defined"}});
+    return nlohmann::json{{"markups", {{{"coordinateSystem", space}, {"controlPoints", controls}}}}}.dump();
+}
+
+const std::vector<Vec3> picked{{2, 0, .4}, {3, 1, .7}, {4, 1, .9}};
+const std::vector<Vec3> negated{{-2, 0, .4}, {-3, -1, .7}, {-4, -1, .9}};
+
+TEST_F(VertexList, HonoursTheAxesThatFilesState) {
+    const auto expected = are({{4, 4}, {7, 7}, {9, 9}});
+    const auto lps = write("a.mrk.json", slicer("LPS", picked)),
+               ras = write("b.mrk.json", slicer("RAS", negated));
+    EXPECT_THAT(read_landmarks({lps, ras}, mesh_, mesh_).vertices, expected) << "a mesh without axes is LPS";
+    TriangleMesh in_ras = mesh_;
+    in_ras.space = Space::ras;
+    const auto straight = write("c.mrk.json", slicer("RAS", picked));
+    EXPECT_THAT(read_landmarks({lps, straight}, mesh_, in_ras).vertices, expected);
+    for (const char* word : {"RAS", "0"}) {
+        std::string text = fmt::format("# Markups version = 4.10\n# CoordinateSystem = {}\n", word);
+        for (std::size_t i = 0; i < 3; ++i)
+            text +=
+                fmt::format("n,{},{},{},0,0,0,1,1,1,0,p{}\n", negated[i][0], negated[i][1], negated[i][2], i);
+        EXPECT_THAT(read_landmarks({lps, write("d.fcsv", text)}, mesh_, mesh_).vertices, expected) << word;
+    }
+    EXPECT_THAT(error_of({lps, write("e.fcsv", "# CoordinateSystem = IJK\n1,0,0,0\n")}), HasSubstr("'IJK'"));
+}
+
+TEST_F(VertexList, TheUserKnowsTheAxesBetter) {
+    const auto expected = are({{4, 4}, {7, 7}, {9, 9}});
+    const auto wrong = write("a.mrk.json", slicer("RAS", picked));
+    EXPECT_THAT(read_landmarks({wrong, wrong}, mesh_, mesh_, LandmarkSpace::as_is).vertices, expected);
+    EXPECT_THAT(read_landmarks({wrong, wrong}, mesh_, mesh_, LandmarkSpace::lps).vertices, expected);
+    const auto rows = write("b.txt", "-2 0 .4\n-3 -1 .7\n-4 -1 .9\n");
+    EXPECT_THAT(read_landmarks({rows, rows}, mesh_, mesh_, LandmarkSpace::ras).vertices, expected);
+}
+
+TEST_F(VertexList, NamesTheLikelyCauseWhereMostPointsLieFarFromTheSurface) {
+    const auto good = write("good.txt", "2 0 .4\n3 1 .7\n4 1 .9\n");
+    const auto complaint = [&](const std::function<Vec3(Vec3)>& change) {
+        std::string rows;
+        for (const Vec3& p : picked) {
+            const Vec3 q = change(p);
+            rows += fmt::format("{} {} {}\n", q[0], q[1], q[2]);
+        }
+        return error_of({good, write("far.txt", rows)});
+    };
+    EXPECT_EQ(complaint([](const Vec3& p) { return p; }), "");
+    EXPECT_THAT(
+        complaint([](const Vec3& p) { return Vec3(-p[0], -p[1], p[2]); }),
+        AllOf(HasSubstr("far.txt:3: 3 of 3"), HasSubstr("RAS for LPS"), HasSubstr("--landmark_space")));
+    EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(1000 * p); }), HasSubstr("0.001 times"));
+    EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(p[1], p[2], p[0]); }),
+                HasSubstr("z x y for x y z"));
+    EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(p + Vec3(50, 60, 71)); }),
+                HasSubstr("another mesh"));
+    EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(1e155 * p); }), HasSubstr("far.txt:3: 3 of 3"));
+}
+
+TEST_F(VertexList, PointsThatAreNotDefinedAreLeftOutWithTheirPartners) {
+    const auto all = write("a.mrk.json", slicer("LPS", picked));
+    const auto named = write("b.mrk.json", slicer("LPS", picked, "undefined"));
+    EXPECT_THAT(read_landmarks({all, named}, mesh_, mesh_).vertices, are({{4, 4}, {9, 9}}));
+    const auto rows = write("c.txt", "2 0 .4\n3 1 .7\n4 1 .9\n");
+    EXPECT_THAT(read_landmarks({rows, named}, mesh_, mesh_).vertices, are({{4, 4}, {9, 9}}));
+    const auto none =
+        write("d.mrk.json", R"({"markups": [{"controlPoints": [{"positionStatus": "undefined"}]}]})");
+    EXPECT_THAT(error_of({none, none}), HasSubstr("none of its points is defined"));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "fixtures/shapes.h"
-#include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
 
@@ -109,9 +108,13 @@ TEST(Bisection, ServesNeedlesAndFacesWithoutArea) {
     EXPECT_LT(result.mesh.vertex_count(), 3000);
 }
 
-TEST(Bisection, RefusesToExplode) {
-    EXPECT_THROW(bisect_longest_edges(shapes::ellipsoid(1), 1e-4, 5000), InputError);
-    EXPECT_NO_THROW(bisect_longest_edges(shapes::ellipsoid(1), 10, 3));
+TEST(Bisection, EndsEarlyRatherThanExplode) {
+    const Bisection ended = bisect_longest_edges(shapes::ellipsoid(1), 1e-4, 5000);
+    EXPECT_EQ(ended.mesh.vertex_count(), 5000);
+    EXPECT_NEAR(ended.longest_left, longest_edge(ended.mesh), 1e-3 * ended.longest_left);
+    EXPECT_GT(ended.longest_left, 1e-4);
+    const Bisection reached = bisect_longest_edges(shapes::ellipsoid(1), 10, 3);
+    EXPECT_EQ(reached.longest_left, 0);
 }
 
 }  // namespace

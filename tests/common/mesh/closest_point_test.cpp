@@ -132,5 +132,21 @@ TEST_F(ClosestPointTest, MeshWithoutExtentIsServed) {
     EXPECT_EQ(closest({1, 1, 3}, {0, 0, 1}).point.face, 0);
 }
 
+TEST(ClosestPoint, UnusedVerticesAndFarQueriesLeadNowhereElse) {
+    TriangleMesh mesh = shapes::ellipsoid(2);
+    const ClosestPoint plain(mesh);
+    mesh.vertices.conservativeResize(mesh.vertex_count() + 1, 3);
+    mesh.vertices.bottomRows(1).setConstant(1e200);  // no face uses it
+    const ClosestPoint closest(mesh);
+    for (const Vec3& query : {Vec3(.3, .2, 1), Vec3(5, 0, 0)})
+        EXPECT_EQ(closest(query).point.face, plain(query).point.face);
+    for (const double far : {1e10, 1e100, 1e155, 1e300}) {
+        const auto hit = closest(Vec3(0, 0, far));
+        ASSERT_GE(hit.point.face, 0) << far;
+        EXPECT_GT(position(mesh, hit.point)[2], .8) << far;
+        EXPECT_GE(closest(Vec3(-far, far, 0), Vec3(0, 0, 1)).point.face, 0);
+    }
+}
+
 }  // namespace
 }  // namespace varimap

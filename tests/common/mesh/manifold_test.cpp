@@ -100,8 +100,21 @@ TEST(Manifold, NoAreaOrTooLarge) {
     EXPECT_THAT(complaint(mesh), HasSubstr("no area"));
     mesh = shapes::square(1);
     mesh.vertices *= 1e200;
-    EXPECT_THAT(complaint(mesh), HasSubstr("too large"));
+    EXPECT_THAT(complaint(mesh), HasSubstr("scale it"));
     EXPECT_THAT(complaint({}), HasSubstr("no faces"));
+}
+
+TEST(Manifold, SizesAtTheEndOfTheRangeOfNumbers) {
+    for (const double scale : {1e-150, 1e150, 1e300}) {
+        TriangleMesh mesh = shapes::ellipsoid(1);
+        mesh.vertices *= scale;
+        EXPECT_THAT(complaint(mesh), HasSubstr("scale it")) << scale;
+    }
+    for (const double scale : {1e-45, 1e45}) {
+        TriangleMesh mesh = shapes::ellipsoid(1);
+        mesh.vertices *= scale;
+        EXPECT_EQ(complaint(mesh), "") << scale;
+    }
 }
 
 }  // namespace

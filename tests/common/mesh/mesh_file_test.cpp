@@ -160,6 +160,61 @@ TEST_F(MeshFile, StlIsWeldedByFirstAppearance) {
     EXPECT_THAT(complaint("c.stl", text + "vertex 1 2 3\nendsolid x\n"), HasSubstr("facet"));
 }
 
+TEST_F(MeshFile, WhatPlyCommentsSayMeansNothing) {
+    const TriangleMesh mesh = read("good.ply", to_ply(square_mesh()));
+    std::string bytes = to_ply(square_mesh());
+    bytes.insert(
+        bytes.find("element vertex"),
+        "comment texture C:\\dir\\\ncomment before end_header comes data\nobj_info element vertex 9 #\n");
+    expect_equal(read("a.ply", bytes), mesh);
+}
+
+TEST_F(MeshFile, PlyTriangleStripsAreFaces) {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n";
+    // Two strips; in the second a repeated vertex carries it on.
+    const TriangleMesh mesh = read("a.ply", head + "11 0 1 2 3 -1 2 3 4 4 5 3\n");
+    ASSERT_EQ(mesh.face_count(), 4);
+    EXPECT_EQ(mesh.faces, (Faces(4, 3) << 0, 1, 2, 2, 1, 3, 2, 3, 4, 5, 4, 3).finished());
+    EXPECT_THAT(complaint("b.ply", head + "3 0 1 7\n"), HasSubstr("outside"));
+    EXPECT_THAT(complaint("c.ply", head + "1 0\n"), HasSubstr("no faces"));
+}
+
+TEST_F(MeshFile, OffElementsMayGoOnInTheNextLineOrShareOne) {
+    const TriangleMesh mesh = square_mesh();
+    const std::string long_lines = ".1 0 0 1 0 0 1 1 0 0 1 0\n", lines = ".1 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    expect_equal(read("a.off", "OFF 4\n2 0\n.1 0\n0\n1 0 0\n1\n1\n0\n0 1 0\n3 0 1\n2\n3\n0 2 3\n"), mesh);
+    expect_equal(read("b.off", "OFF\n4 2 0\n" + long_lines + "3 0 1 2\n3 0 2 3\n"), mesh);
+    expect_equal(read("c.off", "OFF\n4 2 0\n" + lines + "3 0 1 2 3 0 2 3\n"), mesh);
+    const std::string coloured =
+        "OFF\n4 2 0\n.1 0 0 5 5 5\n1 0 0 9 9 9\n1 1 0 1 1 1\n0 1 0 0 0 0\n3 0 1 2 7 8\n";
+    expect_equal(read("d.off", coloured + "3 0 2 3\n"), mesh);
+    EXPECT_NE(complaint("e.off", coloured), "") << "cut short";
+}
+
+TEST_F(MeshFile, ByteOrderMarksAndUtf16) {
+    expect_equal(read("a.obj", std::string("\xef\xbb\xbf") + square_obj), square_mesh());
+    std::string wide;
+    for (const char c : off(square_mesh())) wide += std::string{c, '\0'};
+    EXPECT_THAT(complaint("a.off", "\xff\xfe" + wide), HasSubstr("UTF-16"));
+    EXPECT_THAT(complaint("b.off", wide), HasSubstr("UTF-16"));
+    EXPECT_THAT(complaint("c.ply", std::string(1, '\0') + wide), HasSubstr("UTF-16"));
+}
+
+TEST_F(MeshFile, AxesThatSlicerStates) {
+    EXPECT_EQ(read("a.obj", square_obj).space, Space::unstated);
+    EXPECT_EQ(read("b.obj", std::string("# 3D Slicer output. SPACE=RAS\n") + square_obj).space, Space::ras);
+    EXPECT_EQ(read("c.obj", std::string(square_obj) + "# SPACE=RAS\n").space, Space::unstated);
+    std::string ply = to_ply(square_mesh());
+    ply.insert(ply.find("element"), "comment 3D Slicer output. SPACE=LPS\n");
+    EXPECT_EQ(read("d.ply", ply).space, Space::lps);
+    std::string stl = binary_stl(square_mesh());
+    stl.replace(0, 30, "3D Slicer output. SPACE=RAS;  ");
+    EXPECT_EQ(read("e.stl", stl).space, Space::ras);
+}
+
 TEST_F(MeshFile, DoublesAreKeptAndTheLocaleDoesNotMatter) {
     const char* before = std::setlocale(LC_ALL, nullptr);
     const std::string restore = before ? before : "C";
@@ -201,7 +256,7 @@ TEST_F(MeshFile, BadFilesGetOneClearLine) {
     EXPECT_THAT(complaint("a.obj", "v 0 0 0\nf 1 1\n"), HasSubstr("3 corners"));
     EXPECT_THAT(complaint("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n"), HasSubstr("ends before"));
     EXPECT_THAT(complaint("a.off", "OFF\n999999999999 1 0\n0 0 0\n1 0 0\n"), HasSubstr("ends before"));
-    EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), HasSubstr("missing"));
+    EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), HasSubstr("ends before"));
     EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"), HasSubstr("face 0"));
     EXPECT_THAT(complaint("a.off", "OFF BINARY\n3 1 0\n"), HasSubstr("binary"));
     EXPECT_THAT(complaint("a.off", "hello\n"), HasSubstr(":1"));

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
+
 #include "fixtures/shapes.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
@@ -127,6 +130,47 @@ TEST_F(SurfaceTest, ContradictionsAreRefused) {
     surface = make();
     surface.mass.conservativeResize(5);
     EXPECT_THROW(decode(encode(surface), copy), ArtifactError);
+}
+
+/// Every part of a surface can be wrong with a right hash.
+TEST_F(SurfaceTest, ForgedPartsAreRefused) {
+    const Surface good = make();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::pair<const char*, std::function<void(Surface&)>> forgeries[] = {
+        {"no faces", [](Surface& s) { s.mesh.faces.resize(0, 3), s.input_face.clear(); }},
+        {"no input faces", [](Surface& s) { s.input.faces.resize(0, 3); }},
+        {"empty", [](Surface& s) { s = {}; }},
+        {"nan", [&](Surface& s) { s.mesh.vertices(3, 1) = nan; }},
+        {"nan of the input", [&](Surface& s) { s.input.vertices(3, 1) = nan; }},
+        {"moved vertex", [](Surface& s) { s.mesh.vertices(3, 1) += 1; }},
+        {"corner twice", [](Surface& s) { s.mesh.faces(2, 0) = s.mesh.faces(2, 1); }},
+        {"reversed face", [](Surface& s) { std::swap(s.mesh.faces(2, 0), s.mesh.faces(2, 1)); }},
+        {"unused vertex",
+         [](Surface& s) {
+             s.mesh.vertices.conservativeResize(s.mesh.vertex_count() + 1, 3);
+             s.mesh.vertices.bottomRows(1) = s.mesh.vertices.row(s.mesh.vertex_count() - 2).eval();
+             s.mass.conservativeResize(s.mesh.vertex_count()), s.mass.tail(1).setConstant(1e-9);
+             s.on_input.push_back(s.on_input.back());
+         }},
+        {"mass of zero", [](Surface& s) { s.mass[5] = 0; }},
+        {"negative mass", [](Surface& s) { s.mass[5] *= -1; }},
+        {"masses of another sum", [](Surface& s) { s.mass *= 2; }},
+        {"nan mass", [&](Surface& s) { s.mass[5] = nan; }},
+        {"vertex of no mesh", [](Surface& s) { s.vertex_of_input[1] = s.mesh.vertex_count(); }},
+        {"used vertex lost", [](Surface& s) { s.vertex_of_input[1] = -1; }},
+        {"nowhere", [](Surface& s) { s.on_input[4].face = -1; }},
+        {"beyond its face", [](Surface& s) { s.on_input[4].barycentric = Vec3(2, -1, 0); }},
+        {"nan coordinates", [&](Surface& s) { s.on_input[4].barycentric[0] = nan; }},
+        {"scale", [](Surface& s) { s.scale = 0; }},
+        {"centre", [&](Surface& s) { s.centre[0] = nan; }},
+        {"axes", [](Surface& s) { s.input.space = Space(7); }}};
+    Surface copy;
+    EXPECT_NO_THROW(decode(encode(good), copy));
+    for (const auto& [what, forge] : forgeries) {
+        Surface forged = good;
+        forge(forged);
+        EXPECT_THROW(decode(encode(forged), copy), ArtifactError) << what;
+    }
 }
 
 }  // namespace

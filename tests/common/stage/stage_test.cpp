@@ -533,16 +533,6 @@ TEST_F(StageRun, AnErrorFileTakesTheMessage) {
     EXPECT_EQ(read_file(errors), "3 varimap-sample: error: bad\\x1b[2J\n");
 }
 
-TEST(Printable, ShowsTextAndDisarmsTheRest) {
-    EXPECT_EQ(printable("plain é 漢 😀"), "plain é 漢 😀");
-    EXPECT_EQ(printable("\x1b[2J\a\n\x7f"), "\\x1b[2J\\x07\\x0a\\x7f");
-    EXPECT_EQ(printable("\xff\xfe a\xc3"), "\\xff\\xfe a\\xc3");
-    EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");           // the C1 form of an escape
-    EXPECT_EQ(printable("\xe2\x80\xae"), "\\xe2\\x80\\xae");  // turns the direction of the text
-    EXPECT_EQ(printable("\xc0\x9b\xed\xa0\x80"), "\\xc0\\x9b\\xed\\xa0\\x80");  // overlong, surrogate
-    EXPECT_EQ(printable(""), "");
-}
-
 TEST(Lineage, AcceptsTheParentAndRefusesAnother) {
     Header parent, other, child;
     parent.payload_hash = content_hash("parent");

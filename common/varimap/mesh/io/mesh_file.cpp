@@ -10,6 +10,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/polygon_soup.h"
+#include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
 namespace {
@@ -20,7 +21,7 @@ std::string lower_case_ending(const std::string& path) {
     return ending;
 }
 
-PolygonSoup parse(const std::string& bytes, const std::string& path) {
+PolygonSoup parse(std::string_view bytes, const std::string& path) {
     const std::string ending = lower_case_ending(path);
     if (ending == ".obj") return parse_obj(bytes, path);
     if (ending == ".off") return parse_off(bytes, path);
@@ -48,6 +49,7 @@ void require_valid(const PolygonSoup& soup, const std::string& path) {
 /// Fans every polygon from its first corner.
 TriangleMesh fan(const PolygonSoup& soup) {
     TriangleMesh mesh;
+    mesh.space = soup.space;
     mesh.vertices.resize(soup.points.size(), 3);
     for (std::size_t v = 0; v < soup.points.size(); ++v) mesh.vertices.row(v) = soup.points[v].transpose();
     mesh.faces.resize(soup.corners.size() - 2 * soup.ends.size(), 3);
@@ -69,11 +71,19 @@ void append(std::string& bytes, const T* values, std::size_t count) {
 
 }  // namespace
 
+Space stated_space(std::string_view comments) {
+    if (comments.find("SPACE=LPS") != comments.npos) return Space::lps;
+    return comments.find("SPACE=RAS") != comments.npos ? Space::ras : Space::unstated;
+}
+
 TriangleMesh read_mesh(const std::string& path) {
     if (std::filesystem::is_directory(path)) throw IoError("cannot read '" + path + "': it is a folder");
-    const std::string bytes = read_file(path);
+    return parse_mesh(read_file(path), path);
+}
+
+TriangleMesh parse_mesh(std::string_view bytes, const std::string& path) {
     if (bytes.empty()) throw InputError(path + ": the file is empty");
-    const PolygonSoup soup = parse(bytes, path);
+    const PolygonSoup soup = parse(without_byte_order_mark(bytes, path), path);
     require_valid(soup, path);
     return fan(soup);
 }

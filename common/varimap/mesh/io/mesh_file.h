@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "varimap/mesh/triangle_mesh.h"
 
@@ -12,13 +13,16 @@ namespace varimap {
 /// Not OpenMesh's readers: OpenMesh 9 rounds coordinates in OBJ, OFF and ascii PLY to single precision, and
 /// reports success on broken files, with faces left out (index out of range) or made up (file cut short).
 TriangleMesh read_mesh(const std::string& path);
+/// The same from the bytes of such a file; `path` tells the format, and is named in messages.
+TriangleMesh parse_mesh(std::string_view bytes, const std::string& path);
 
 /// Binary little-endian PLY with double coordinates.
 std::string to_ply(const TriangleMesh& mesh);
 
 /// Refuses what this version cannot serve: several components, edges of three or more faces, vertices whose
-/// faces do not form one fan, inconsistent or non-orientable faces, degenerate indices, zero area.
-/// The one line names the defect, how many there are and the first element (0-based). Throws InputError.
+/// faces do not form one fan, inconsistent or non-orientable faces, faces that name a vertex twice, zero
+/// area, sizes outside 1e-50 to 1e50. The one line names the defect, how many there are and the first element
+/// (0-based). Throws InputError.
 void require_manifold(const TriangleMesh& mesh, const std::string& path);
 
 }  // namespace varimap

@@ -14,10 +14,19 @@ long long corner_vertex(const TextScanner& scanner, std::string_view word, std::
     return static_cast<long long>(points) + index;
 }
 
+/// The comments in front of everything else.
+std::string_view leading_comments(std::string_view bytes) {
+    std::size_t end = 0;
+    while (end < bytes.size() && (bytes[end] == '#' || bytes[end] == '\n' || bytes[end] == '\r'))
+        end = std::min(bytes.find_first_of("\r\n", end), bytes.size() - 1) + 1;
+    return bytes.substr(0, end);
+}
+
 }  // namespace
 
-PolygonSoup parse_obj(const std::string& bytes, const std::string& path) {
+PolygonSoup parse_obj(std::string_view bytes, const std::string& path) {
     PolygonSoup soup;
+    soup.space = stated_space(leading_comments(bytes));
     TextScanner scanner(bytes, path);
     while (scanner.next_line()) {
         const auto& words = scanner.words();

@@ -4,45 +4,93 @@
 namespace varimap {
 namespace {
 
-void require_line(TextScanner& scanner, const char* what) {
-    if (!scanner.next_line()) scanner.fail(std::string("the file ends before ") + what);
+/// The words behind the keyword, line after line.
+class OffWords {
+  public:
+    OffWords(std::string_view bytes, const std::string& path) : scanner_(bytes, path) {}
+
+    void read_keyword();
+    /// The next word; goes on in the next line where this one ends.
+    long long integer(const char* what) { return scanner_.integer(step(what), what); }
+    double number(const char* what) { return scanner_.number(step(what), what); }
+    /// Leaves what is left of the line.
+    void end_line() { at_ = scanner_.words().size(); }
+    /// Whether enough lines are left for each of `count` elements to start one.
+    bool has_lines_for(long long count) const;
+    bool at_end() const { return at_ == scanner_.words().size() && !has_lines_for(1); }
+    [[noreturn]] void fail(const std::string& message) const { scanner_.fail(message); }
+
+  private:
+    void require_line(const char* what) {
+        if (!scanner_.next_line()) fail(std::string("the file ends before ") + what);
+        at_ = 0;
+    }
+    std::size_t step(const char* what) {
+        if (at_ == scanner_.words().size()) require_line(what);
+        return at_++;
+    }
+
+    TextScanner scanner_;
+    std::size_t at_ = 0;
+};
+
+/// The keyword may be missing; the counts may stand behind it.
+void OffWords::read_keyword() {
+    require_line("its header");
+    const std::string keyword(scanner_.words()[0]);
+    if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF") return;
+    if (keyword.find_first_of("4n") != keyword.npos) fail("only OFF files in three dimensions are read");
+    if (scanner_.words().size() > 1 && scanner_.words()[1] == "BINARY")
+        fail("binary OFF files are not read; save it as ascii");
+    at_ = 1;
 }
 
-/// Reads the keyword, which may be missing, and leaves the scanner on the line with the counts.
-/// Returns the position of the first count in that line.
-std::size_t read_keyword(TextScanner& scanner) {
-    require_line(scanner, "its header");
-    const std::string keyword(scanner.words()[0]);
-    if (keyword.size() < 3 || keyword.substr(keyword.size() - 3) != "OFF") return 0;
-    if (keyword.find_first_of("4n") != keyword.npos)
-        scanner.fail("only OFF files in three dimensions are read");
-    if (scanner.words().size() > 1 && scanner.words()[1] == "BINARY")
-        scanner.fail("binary OFF files are not read; save it as ascii");
-    if (scanner.words().size() > 1) return 1;
-    require_line(scanner, "the counts of vertices and faces");
-    return 0;
+bool OffWords::has_lines_for(long long count) const {
+    TextScanner ahead = scanner_;
+    while (count > 0 && ahead.next_line()) --count;
+    return count <= 0;
+}
+
+/// Sums of two counts must not overflow.
+long long bounded(long long count) {
+    return std::clamp(count, 0ll, 1ll << 60);
+}
+
+void read_vertices(OffWords& words, long long count, bool packed, PolygonSoup& soup) {
+    for (long long v = 0; v < count; ++v) {
+        const double x = words.number("the x of a vertex"), y = words.number("the y of a vertex");
+        soup.points.emplace_back(x, y, words.number("the z of a vertex"));
+        if (!packed) words.end_line();
+    }
+}
+
+void read_faces(OffWords& words, long long count, bool packed, PolygonSoup& soup) {
+    for (long long f = 0; f < count; ++f) {
+        const long long corners = words.integer("the count of a face's corners");
+        if (corners < 3) words.fail("a face has fewer than 3 corners");
+        for (long long c = 0; c < corners; ++c) soup.corners.push_back(words.integer("a corner of a face"));
+        soup.end_polygon();
+        if (!packed) words.end_line();
+    }
 }
 
 }  // namespace
 
-PolygonSoup parse_off(const std::string& bytes, const std::string& path) {
+PolygonSoup parse_off(std::string_view bytes, const std::string& path) {
     PolygonSoup soup;
-    TextScanner scanner(bytes, path);
-    const std::size_t at = read_keyword(scanner);
-    const long long vertices = scanner.integer(at, "the count of vertices");
-    const long long faces = scanner.integer(at + 1, "the count of faces");
-    for (long long v = 0; v < vertices; ++v) {
-        require_line(scanner, "its last vertex");
-        soup.points.emplace_back(scanner.number(0, "x"), scanner.number(1, "y"), scanner.number(2, "z"));
-    }
-    for (long long f = 0; f < faces; ++f) {
-        require_line(scanner, "its last face");
-        const long long corners = scanner.integer(0, "the count of corners");
-        if (corners < 3) scanner.fail("a face has fewer than 3 corners");
-        for (long long c = 1; c <= corners; ++c)
-            soup.corners.push_back(scanner.integer(c, "a corner of a face"));
-        soup.end_polygon();
-    }
+    OffWords words(bytes, path);
+    words.read_keyword();
+    const long long vertices = words.integer("the count of vertices");
+    const long long faces = words.integer("the count of faces");
+    words.end_line();
+    const bool packed_vertices = !words.has_lines_for(bounded(vertices) + bounded(faces));
+    read_vertices(words, vertices, packed_vertices, soup);
+    const bool packed_faces = !words.has_lines_for(faces);
+    read_faces(words, faces, packed_faces, soup);
+    // A truncated file has fewer lines too; what follows its elements is read as them, and does not come out
+    // even.
+    if ((packed_vertices || packed_faces) && !words.at_end())
+        words.fail("there are fewer lines than vertices and faces, and more numbers than these need");
     return soup;
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "varimap/core/error.h"
+#include "varimap/core/printable.h"
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -69,6 +70,7 @@ struct Element {
 struct PlyHeader {
     std::string format;
     std::vector<Element> elements;
+    std::size_t bytes = 0;  ///< its length
 };
 
 void read_property(const TextScanner& scanner, PlyHeader& header) {
@@ -83,23 +85,33 @@ void read_property(const TextScanner& scanner, PlyHeader& header) {
     header.elements.back().properties.push_back(property);
 }
 
-PlyHeader read_header(const std::string& text, const std::string& path) {
+/// One line of the header; false for the last one.
+bool read_header_line(const TextScanner& scanner, PlyHeader& header) {
+    const auto& words = scanner.words();
+    if (words[0] == "format" && words.size() > 1) {
+        header.format = words[1];
+    } else if (words[0] == "element") {
+        const long long count = scanner.integer(2, "the count of an element");
+        if (count < 0) scanner.fail("the count of an element is negative");
+        header.elements.push_back({std::string(words[1]), count, {}});
+    } else if (words[0] == "property") {
+        read_property(scanner, header);
+    }
+    return words[0] != "end_header";
+}
+
+/// Lines are taken as they are: what a comment says or ends with means nothing.
+PlyHeader read_header(std::string_view bytes, const std::string& path) {
     PlyHeader header;
-    TextScanner scanner(text, path);
+    TextScanner scanner(bytes, path, LineStyle::plain);
     if (!scanner.next_line() || scanner.words()[0] != "ply")
         scanner.fail("the file does not start with 'ply'");
-    while (scanner.next_line()) {
-        const auto& words = scanner.words();
-        if (words[0] == "format" && words.size() > 1) {
-            header.format = words[1];
-        } else if (words[0] == "element") {
-            const long long count = scanner.integer(2, "the count of an element");
-            if (count < 0) scanner.fail("the count of an element is negative");
-            header.elements.push_back({std::string(words[1]), count, {}});
-        } else if (words[0] == "property") {
-            read_property(scanner, header);
+    while (scanner.next_line())
+        if (!read_header_line(scanner, header)) {
+            header.bytes = scanner.position();
+            break;
         }
-    }
+    if (header.bytes == 0) throw InputError(path + ": not a PLY file (no 'end_header')");
     if (header.format != "ascii" && header.format != "binary_little_endian" &&
         header.format != "binary_big_endian")
         throw InputError(path + ": the header names no format that PLY knows");
@@ -181,40 +193,78 @@ void read_vertices(Body& body, const Element& element, PolygonSoup& soup) {
         [&] { soup.points.push_back(point); });
 }
 
-void read_faces(Body& body, const Element& element, PolygonSoup& soup) {
+/// Which property lists the vertices of a face or strip.
+int find_corners(const Body& body, const Element& element) {
     const int list = std::max(element.find("vertex_indices"), element.find("vertex_index"));
     if (list < 0 || element.properties[list].count.bytes == 0)
-        body.fail("the faces have no list vertex_indices");
+        body.fail("the " + excerpt(element.name) + " have no list vertex_indices");
+    return list;
+}
+
+/// A vertex number; -1, which is none, for a value that cannot be one.
+long long to_corner(double value) {
+    return value >= 0 && value < 1e15 && value == std::floor(value) ? (long long)value : -1;
+}
+
+void read_faces(Body& body, const Element& element, PolygonSoup& soup) {
+    const int list = find_corners(body, element);
     read_element(
         body, element,
         [&](std::size_t property, const std::vector<double>& values) {
             if (int(property) != list) return;
             if (values.size() < 3)
                 body.fail(fmt::format("face {} has fewer than 3 corners", soup.ends.size()));
-            for (const double value : values)
-                soup.corners.push_back(
-                    value >= 0 && value < 1e15 && value == std::floor(value) ? (long long)value : -1);
+            for (const double value : values) soup.corners.push_back(to_corner(value));
         },
         [&] { soup.end_polygon(); });
 }
 
+/// One strip: every vertex makes a triangle with the two before it, in turn this way and that way round.
+/// Triangles that repeat a vertex only carry the strip on.
+void add_strip(const std::vector<long long>& strip, PolygonSoup& soup) {
+    for (std::size_t i = 0; i + 2 < strip.size(); ++i) {
+        const long long a = strip[i], b = strip[i + 1], c = strip[i + 2];
+        if (a == b || b == c || c == a) continue;
+        soup.corners.insert(soup.corners.end(), {i % 2 == 0 ? a : b, i % 2 == 0 ? b : a, c});
+        soup.end_polygon();
+    }
+}
+
+/// Strips stand one after the other in a list, parted by -1.
+void read_strips(Body& body, const Element& element, PolygonSoup& soup) {
+    const int list = find_corners(body, element);
+    read_element(
+        body, element,
+        [&](std::size_t property, const std::vector<double>& values) {
+            if (int(property) != list) return;
+            std::vector<long long> strip;
+            for (const double value : values) {
+                if (value != -1) {
+                    strip.push_back(to_corner(value));
+                } else {
+                    add_strip(strip, soup);
+                    strip.clear();
+                }
+            }
+            add_strip(strip, soup);
+        },
+        [] {});
+}
+
 }  // namespace
 
-PolygonSoup parse_ply(const std::string& bytes, const std::string& path) {
-    const std::size_t keyword = bytes.find("end_header");
-    if (keyword == bytes.npos) throw InputError(path + ": not a PLY file (no 'end_header')");
-    const std::size_t line_end = bytes.find_first_of("\r\n", keyword);
-    const std::size_t begin = std::min(
-        bytes.size(),
-        line_end == bytes.npos ? bytes.size() : line_end + (bytes.compare(line_end, 2, "\r\n") == 0 ? 2 : 1));
-    const PlyHeader header = read_header(bytes.substr(0, keyword), path);
-    Body body(std::string_view(bytes).substr(begin), header.format, path);
+PolygonSoup parse_ply(std::string_view bytes, const std::string& path) {
+    const PlyHeader header = read_header(bytes, path);
+    Body body(bytes.substr(header.bytes), header.format, path);
     PolygonSoup soup;
+    soup.space = stated_space(bytes.substr(0, header.bytes));
     for (const Element& element : header.elements) {
         if (element.name == "vertex") {
             read_vertices(body, element, soup);
         } else if (element.name == "face") {
             read_faces(body, element, soup);
+        } else if (element.name == "tristrips") {
+            read_strips(body, element, soup);
         } else {
             read_element(
                 body, element, [](std::size_t, const std::vector<double>&) {}, [] {});

@@ -42,13 +42,13 @@ class Welder {
 
 constexpr std::size_t header_bytes = 84, facet_bytes = 50;
 
-std::size_t binary_facets(const std::string& bytes) {
+std::size_t binary_facets(std::string_view bytes) {
     std::uint32_t count = 0;
     if (bytes.size() >= header_bytes) std::memcpy(&count, bytes.data() + 80, 4);
     return count;
 }
 
-PolygonSoup parse_binary(const std::string& bytes, const std::string& path) {
+PolygonSoup parse_binary(std::string_view bytes, const std::string& path) {
     const std::size_t facets = binary_facets(bytes);
     if (bytes.size() < header_bytes || bytes.size() - header_bytes < facets * facet_bytes)
         throw InputError(path + ": neither an ascii STL file nor a whole binary one (is it truncated?)");
@@ -63,7 +63,7 @@ PolygonSoup parse_binary(const std::string& bytes, const std::string& path) {
     return soup;
 }
 
-PolygonSoup parse_ascii(const std::string& bytes, const std::string& path) {
+PolygonSoup parse_ascii(std::string_view bytes, const std::string& path) {
     PolygonSoup soup;
     Welder welder(soup);
     TextScanner scanner(bytes, path);
@@ -85,13 +85,17 @@ PolygonSoup parse_ascii(const std::string& bytes, const std::string& path) {
 
 }  // namespace
 
-PolygonSoup parse_stl(const std::string& bytes, const std::string& path) {
+PolygonSoup parse_stl(std::string_view bytes, const std::string& path) {
     // Binary files may start with "solid" too: their size decides.
     const bool binary_size =
         bytes.size() >= header_bytes && bytes.size() - header_bytes == binary_facets(bytes) * facet_bytes;
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
     const bool starts_as_ascii = start != bytes.npos && bytes.compare(start, 5, "solid") == 0;
-    return binary_size || !starts_as_ascii ? parse_binary(bytes, path) : parse_ascii(bytes, path);
+    const bool binary = binary_size || !starts_as_ascii;
+    PolygonSoup soup = binary ? parse_binary(bytes, path) : parse_ascii(bytes, path);
+    // The first 80 bytes are free text; in an ascii file the first line is.
+    soup.space = stated_space(bytes.substr(0, binary ? 80 : bytes.find_first_of("\r\n", start)));
+    return soup;
 }
 
 }  // namespace varimap

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "varimap/core/error.h"
+#include "varimap/core/printable.h"
 
 namespace varimap {
 namespace {
@@ -19,15 +20,21 @@ std::string_view without_plus(std::string_view word) {
     return plus ? word.substr(1) : word;
 }
 
-/// A word as a message can show it: short and printable.
-std::string printable(std::string_view word) {
-    std::string text(word.substr(0, 20));
-    for (char& c : text)
-        if (c < ' ' || c > '~') c = '?';
-    return text;
+/// Every other byte of the first few is 0: text of two bytes a letter, also without a mark.
+bool looks_like_utf16(std::string_view bytes) {
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return true;
+    if (bytes.size() < 4) return false;
+    const bool high_first = !bytes[0] && bytes[1] && !bytes[2] && bytes[3];
+    return high_first || (bytes[0] && !bytes[1] && bytes[2] && !bytes[3]);
 }
 
 }  // namespace
+
+std::string_view without_byte_order_mark(std::string_view bytes, const std::string& path) {
+    if (looks_like_utf16(bytes)) throw InputError(path + ": is UTF-16 text; save it as UTF-8 or ASCII");
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    return bytes.starts_with(mark) ? bytes.substr(mark.size()) : bytes;
+}
 
 bool to_number(std::string_view word, double& value) {
     word = without_plus(word);
@@ -62,8 +69,8 @@ bool TextScanner::next_line() {
     bool joined = false;
     while (position_ < text_.size() && (words_.empty() || joined)) {
         std::string_view line = take_line();
-        line = line.substr(0, line.find('#'));
-        joined = !line.empty() && line.back() == '\\';
+        if (style_ == LineStyle::code) line = line.substr(0, line.find('#'));
+        joined = style_ == LineStyle::code && !line.empty() && line.back() == '\\';
         if (joined) line.remove_suffix(1);
         for (std::size_t begin = line.find_first_not_of(blanks); begin != line.npos;) {
             const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
@@ -78,7 +85,7 @@ double TextScanner::number(std::size_t i, const char* what) const {
     double value;
     if (i >= words_.size()) fail(fmt::format("{} is missing", what));
     if (!to_number(words_[i], value))
-        fail(fmt::format("{} '{}' is not a number", what, printable(words_[i])));
+        fail(fmt::format("{} '{}' is not a number", what, excerpt(words_[i])));
     return value;
 }
 
@@ -86,7 +93,7 @@ long long TextScanner::integer(std::size_t i, const char* what) const {
     long long value;
     if (i >= words_.size()) fail(fmt::format("{} is missing", what));
     if (!to_integer(words_[i], value))
-        fail(fmt::format("{} '{}' is not an integer", what, printable(words_[i])));
+        fail(fmt::format("{} '{}' is not an integer", what, excerpt(words_[i])));
     return value;
 }
 

@@ -1,21 +1,30 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace varimap {
 
-/// Splits a text into lines of words. A word is what stands between blanks; `#` starts a comment; lines end
-/// with \n, \r\n or \r; lines without words are passed over.
+/// What is special in a line: in `code`, `#` starts a comment and a backslash at the end joins the next line;
+/// `plain` has neither.
+enum class LineStyle { code, plain };
+
+/// Splits a text into lines of words. A word is what stands between blanks; lines end with \n, \r\n or \r;
+/// lines without words are passed over.
 class TextScanner {
   public:
-    TextScanner(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {}
+    TextScanner(std::string_view text, std::string path, LineStyle style = LineStyle::code)
+        : text_(text), path_(std::move(path)), style_(style) {}
 
-    /// Goes to the next line with words; false at the end of the text. A backslash at a line's end joins the
-    /// next.
+    /// Goes to the next line with words; false at the end of the text.
     bool next_line();
     const std::vector<std::string_view>& words() const { return words_; }
+    /// Number of the current line, from 1.
+    int line() const { return line_; }
+    /// Where the next line starts.
+    std::size_t position() const { return std::min(position_, text_.size()); }
     /// Word i of the current line as a number. Throws InputError naming file, line and `what`.
     double number(std::size_t i, const char* what) const;
     long long integer(std::size_t i, const char* what) const;
@@ -26,10 +35,14 @@ class TextScanner {
     std::string_view take_line();
     std::string_view text_;
     std::string path_;
+    LineStyle style_;
     std::size_t position_ = 0;
     int line_ = 0;
     std::vector<std::string_view> words_;
 };
+
+/// The text behind a UTF-8 byte order mark, where there is one. Throws InputError for UTF-16.
+std::string_view without_byte_order_mark(std::string_view bytes, const std::string& path);
 
 /// The whole word as a number, the same in every locale; false if it is not one. "nan" and "inf" are numbers.
 bool to_number(std::string_view word, double& value);

@@ -1,0 +1,66 @@
+#include "varimap/mesh/surface_check.h"
+
+#include <cmath>
+
+#include "varimap/artifact/consistency.h"
+#include "varimap/mesh/io/mesh_file.h"
+
+namespace varimap {
+namespace {
+
+void require_mesh(const TriangleMesh& mesh, const char* which) {
+    require<Surface>(mesh.face_count() > 0 && mesh.vertices.allFinite(), which);
+    for (const int v : mesh.faces.reshaped()) require<Surface>(v >= 0 && v < mesh.vertex_count(), which);
+    try {
+        require_manifold(mesh, which);
+    } catch (const InputError&) {
+        require<Surface>(false, which);
+    }
+}
+
+/// Every vertex of the mesh has a face, so that every one has a mass.
+void require_all_used(const TriangleMesh& mesh) {
+    std::vector<char> used(mesh.vertex_count(), 0);
+    for (const int v : mesh.faces.reshaped()) used[v] = 1;
+    require<Surface>(std::find(used.begin(), used.end(), 0) == used.end(), "vertices");
+}
+
+void require_sizes(const Surface& surface) {
+    const TriangleMesh &mesh = surface.mesh, &input = surface.input;
+    require<Surface>(surface.mass.size() == mesh.vertex_count(), "masses");
+    require<Surface>(int(surface.vertex_of_input.size()) == input.vertex_count(), "input vertices");
+    require<Surface>(int(surface.input_face.size()) == mesh.face_count(), "input faces");
+    require<Surface>(int(surface.on_input.size()) == mesh.vertex_count(), "points of the input");
+    require<Surface>(input.space >= Space::unstated && input.space <= Space::ras, "axes");
+}
+
+void require_way_back(const Surface& surface) {
+    const TriangleMesh &mesh = surface.mesh, &input = surface.input;
+    require<Surface>(are_in_range(surface.vertex_of_input, mesh.vertex_count(), -1), "input vertices");
+    for (const int v : input.faces.reshaped())
+        require<Surface>(surface.vertex_of_input[v] >= 0, "input vertices");
+    require<Surface>(are_in_range(surface.input_face, input.face_count()), "input faces");
+    require<Surface>(are_points(surface.on_input, input.face_count()), "points of the input");
+    require<Surface>(surface.centre.allFinite() && std::isfinite(surface.scale) && surface.scale > 0,
+                     "scale");
+    constexpr double rounding = 1e-3;  // units of sqrt(area); far more than a repair moves anything
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        require<Surface>(surface.on_input[v].face >= 0, "points of the input");
+        const Vec3 there = (position(input, surface.on_input[v]) - surface.centre) * surface.scale;
+        require<Surface>((there - mesh.vertex(v)).norm() < rounding, "points of the input");
+    }
+}
+
+}  // namespace
+
+void require_complete(const Surface& surface) {
+    require_mesh(surface.mesh, "mesh");
+    require_mesh(surface.input, "input mesh");
+    require_all_used(surface.mesh);
+    require_sizes(surface);
+    require_way_back(surface);
+    require<Surface>(std::abs(surface_area(surface.mesh) - 1) < 1e-3, "area");
+    require<Surface>(are_masses(surface.mass), "masses");
+}
+
+}  // namespace varimap

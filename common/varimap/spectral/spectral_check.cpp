@@ -1,0 +1,74 @@
+#include "varimap/spectral/spectral_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "varimap/artifact/consistency.h"
+
+namespace varimap {
+namespace {
+
+/// W of Eq. 7 and 11: from above 0 to 1, where it is that of a sample to itself.
+bool are_weights(const SparseMatrix& weights) {
+    constexpr double rounding = 1e-6;
+    Eigen::Index own = 0;
+    for (Eigen::Index row = 0; row < weights.outerSize(); ++row)
+        for (SparseMatrix::InnerIterator entry(weights, row); entry; ++entry) {
+            if (!(entry.value() >= 0 && entry.value() <= 1 + rounding)) return false;
+            own += entry.col() == row && entry.value() > 0;
+        }
+    return own == weights.rows();
+}
+
+void require_complete(const Level& level, Eigen::Index vertices) {
+    const auto samples = Eigen::Index(level.samples.size());
+    require<Hierarchy>(samples > 0 && are_distinct_in_range(level.samples, vertices), "samples");
+    require<Hierarchy>(Eigen::Index(level.cell.size()) == vertices && are_in_range(level.cell, samples), "cells");
+    require<Hierarchy>(level.mass.size() == samples && are_masses(level.mass), "masses");
+    require<Hierarchy>(level.weights.rows() == samples && level.weights.cols() == samples, "weights");
+    require<Hierarchy>(are_weights(level.weights), "weights");
+    require<Hierarchy>(std::isfinite(level.scale) && level.scale >= 0, "scales");
+    require<Hierarchy>(!level.full || samples == vertices, "levels");
+    require<Hierarchy>(level.kind == LevelKind::diffusion || level.kind == LevelKind::euclidean, "levels");
+}
+
+/// In (0, 1), as the command line has them.
+bool is_share(double value) {
+    return value > 0 && value < 1;
+}
+
+bool are_options(const HierarchyOptions& o) {
+    return is_share(o.truncation) && is_share(o.density) && std::isfinite(o.growth) && o.growth >= 1 &&
+           o.minimum_neighbours > 0 && o.full_neighbours > 0 && o.last_neighbours > 0;
+}
+
+}  // namespace
+
+void require_complete(const Basis& basis) {
+    const auto count = basis.functions.cols();
+    require<Basis>(count >= 2 && basis.functions.rows() >= count, "functions");
+    require<Basis>(basis.eigenvalues.size() == count && basis.residuals.size() == count, "numbers of eigenpairs");
+    require<Basis>(basis.functions.allFinite() && basis.residuals.allFinite(), "functions");
+    require<Basis>(basis.eigenvalues.allFinite() && basis.eigenvalues[0] >= 0 && basis.eigenvalues[1] > 0,
+                   "eigenvalues");
+    require<Basis>(std::is_sorted(basis.eigenvalues.begin(), basis.eigenvalues.end()), "eigenvalues");
+}
+
+void require_complete(const Hierarchy& hierarchy) {
+    const std::vector<Level>& levels = hierarchy.levels;
+    require<Hierarchy>(!levels.empty() && levels.front().kind == LevelKind::diffusion, "levels");
+    require<Hierarchy>(are_options(hierarchy.options), "options");
+    const auto vertices = Eigen::Index(levels.front().cell.size());
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        require_complete(levels[l], vertices);
+        if (l == 0) continue;
+        const Level& coarser = levels[l - 1];
+        require<Hierarchy>(coarser.kind <= levels[l].kind && coarser.full <= levels[l].full, "order of levels");
+        require<Hierarchy>(coarser.samples.size() <= levels[l].samples.size(), "order of levels");
+    }
+    const LocalShape& shape = hierarchy.shape;
+    require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices, "local shape");
+    require<Hierarchy>(shape.descriptors.allFinite() && shape.bending.allFinite(), "local shape");
+}
+
+}  // namespace varimap

@@ -1,0 +1,176 @@
+#include <algorithm>
+
+#include "fixtures/shapes.h"
+#include "fuzz/scratch_file.h"
+#include "fuzz/target.h"
+#include "stages/preprocess/preprocess.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/mass.h"
+#include "varimap/results/candidates.h"
+#include "varimap/results/diffusion.h"
+#include "varimap/results/plan.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/spectral/eigenbasis.h"
+#include "varimap/spectral/hierarchy.h"
+#include "varimap/spectral/laplacian.h"
+
+namespace varimap::fuzz {
+namespace {
+
+const Surface& surface() {
+    static const Surface made = [] {
+        PreprocessParams params;
+        params.target_edge_length = .6;
+        return preprocess(shapes::ellipsoid(1, {1, 1.2, 1.5}), params);
+    }();
+    return made;
+}
+
+const Basis& basis() {
+    static const Basis made = [] {
+        EigenSolverOptions options;
+        options.count = 12;
+        return compute_eigenbasis(surface(), options);
+    }();
+    return made;
+}
+
+/// Whatever passed the check can be worked with.
+void use(const Surface& read) {
+    const ClosestPoint closest(read.input);
+    for (int f = 0; f < read.mesh.face_count(); ++f) {
+        const Vec3 there = position(read.input, to_input(read, {f, Vec3(.2, .3, .5)}));
+        if (!there.allFinite() || closest(there).point.face < 0) throw std::logic_error("a point is nowhere");
+    }
+    if (!cotangent_laplacian(read.mesh).coeffs().isFinite().all()) throw std::logic_error("a bad Laplacian");
+}
+
+void use(const Basis& read) {
+    if (!diffusion_embedding(read, coarsest_time(read)).allFinite())
+        throw std::logic_error("a bad embedding");
+}
+
+void use(const Hierarchy& read) {
+    const auto vertices = std::ptrdiff_t(read.levels.front().cell.size());
+    for (std::size_t l = 0; l < read.levels.size(); ++l) {
+        const Level& level = read.levels[l];
+        if (*std::max_element(level.samples.begin(), level.samples.end()) >= vertices)
+            throw std::logic_error("a sample is no vertex");
+        if (l > 0) parents(level, read.levels[l - 1]);
+    }
+}
+
+void use_pair(const SolvedPair& read) {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(Eigen::Index(read.plan.samples_A.size()));
+    for (Eigen::Index row = 0; row < read.plan.entries.outerSize(); ++row)
+        for (SparseMatrix::InnerIterator entry(read.plan.entries, row); entry; ++entry)
+            sums[row] += entry.value() * read.plan.mass_B[entry.col()];
+    if (!sums.allFinite() || read.trace.back().level < 0) throw std::logic_error("a bad plan");
+}
+
+void use(const Diffusion& read) {
+    use_pair(read);
+}
+
+void use(const Plan& read) {
+    use_pair(read);
+}
+
+void use(const Candidates& read) {
+    if (read.list.size() != read.plans.size() || read.list.empty()) throw std::logic_error("bad candidates");
+}
+
+void use(const SurfaceMap& read) {
+    to_csv(read.A_to_B);
+}
+
+template <class T>
+Target artifact(const T& seed) {
+    return {ArtifactType<T>::kind, {encode(seed)}, {}, [](const std::string& bytes) {
+                T value;
+                decode(bytes, value);
+                use(value);
+                if (encode(value).empty()) throw std::logic_error("nothing is written");
+            }};
+}
+
+SolvedPair solved_pair() {
+    SolvedPair pair;
+    SamplePlan& plan = pair.plan;
+    plan.samples_A = {3, 1, 7}, plan.samples_B = {2, 0};
+    plan.mass_A = plan.transported_A = Eigen::Vector3d(.5, .25, .25);
+    plan.mass_B = plan.transported_B = Eigen::Vector2d(.5, .5);
+    plan.entries.resize(3, 2);
+    plan.entries.insert(0, 0) = .5;
+    plan.entries.insert(1, 1) = plan.entries.insert(2, 1) = .25;
+    plan.entries.makeCompressed();
+    pair.trace = {{0, 0, 0, 3, 2, 10, 3, .1, 1, 1e-9}, {1, 1, 0, 3, 2, 10, 3, .1, 1, 1e-9}};
+    pair.record.landmarks = {{MeshVertex{3}, MeshVertex{2}}};
+    pair.record.landmark_checks.resize(1);
+    pair.record.landmark_points = {{{0, Vec3::UnitX()}, {1, Vec3::UnitY()}}};
+    return pair;
+}
+
+Diffusion diffusion() {
+    Diffusion made{solved_pair(), std::vector<int>(8, 1), std::vector<int>(9, 2)};
+    return made;
+}
+
+Plan plan() {
+    return {solved_pair(), Points::Constant(8, 3, .1), Points::Constant(9, 3, .2)};
+}
+
+Candidates candidates() {
+    const SolvedPair pair = solved_pair();
+    Candidates made{pair.plan.samples_A, pair.plan.samples_B, pair.plan.mass_A, pair.plan.mass_B, {}, {}, {}};
+    made.list.resize(2);
+    made.plans = {pair.plan.entries, pair.plan.entries};
+    made.previews = {PointMap(5, {0, Vec3::UnitZ()})};
+    return made;
+}
+
+PointMap point_map() {
+    return {{0, Vec3::UnitX()}, {-1, Vec3::Zero()}, {2, Vec3(.2, .3, .5)}};
+}
+
+/// A whole file, of which the header is hostile too.
+Target whole_file() {
+    const ScratchFile file("", ".artifact");
+    Header header;
+    header.kind = ArtifactType<Basis>::kind;
+    header.schema = ArtifactType<Basis>::schema;
+    header.stage = ArtifactType<Basis>::stage;
+    header.parameters = {{"count", "12"}};
+    header.inputs = {{"surface", "surface", content_hash("")}};
+    write_payload(file.path(), header, encode(basis()));
+    return {"artifact_file",
+            {read_file(file.path())},
+            {"kind", "schema", "payload", "header", "input", "parameter"},
+            [](const std::string& bytes) {
+                const ScratchFile scratch(bytes, ".artifact");
+                read_artifact<Basis>(scratch.path());
+            }};
+}
+
+Target csv_map() {
+    return {"csv_map", {to_csv(point_map())}, {"vertex,face,b0,b1,b2", ","}, [](const std::string& bytes) {
+                const ScratchFile scratch(bytes, ".csv");
+                read_csv_map(scratch.path());
+            }};
+}
+
+}  // namespace
+
+std::vector<Target> artifact_targets() {
+    return {artifact(surface()),
+            artifact(basis()),
+            artifact(build_hierarchy(surface(), basis(), {})),
+            artifact(diffusion()),
+            artifact(plan()),
+            artifact(candidates()),
+            artifact(SurfaceMap{point_map(), point_map(), {}}),
+            whole_file(),
+            csv_map()};
+}
+
+}  // namespace varimap::fuzz

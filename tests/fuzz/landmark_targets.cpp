@@ -1,0 +1,56 @@
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "fixtures/shapes.h"
+#include "fuzz/scratch_file.h"
+#include "fuzz/target.h"
+#include "varimap/landmarks/vertex_list.h"
+
+namespace varimap::fuzz {
+namespace {
+
+const std::vector<std::string> numbers{"# source target\n0 1\n2 3\n 5 7\r\n", "0\n5\n11\n",
+                                       "1 0 0 0\n2 1 0 0\n3 0 1 0\n"};
+const std::vector<std::string> coordinates{"0 0 1\n0 .5 .85\n1 0 0\n",
+                                           "0 0 1 0 0 1\n0 1 0 0 1 0\n1 0 0 1 0 0\n"};
+const std::vector<std::string> meshlab{
+    "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData/>\n"
+    " <point x=\"0\" y=\"0\" z=\"1\" name=\"nose\" active=\"1\"/>\n"
+    " <point name=\"tail\" active=\"0\" z=\"0\" y=\"1\" x=\"0\"/>\n</PickedPoints>\n"};
+const std::vector<std::string> slicer{
+    R"({"markups": [{"type": "Fiducial", "coordinateSystem": "RAS", "controlPoints": [
+        {"label": "ear", "position": [0, 0, 1], "positionStatus": "defined"},
+        {"label": "tail", "position": [1, 0, 0.2]}, {"label": "x", "positionStatus": "undefined"}]}]})"};
+const std::vector<std::string> old_slicer{
+    "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
+    "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n"};
+
+/// Read as the list of both surfaces, or as the file of pairs.
+Target target(const std::string& name, const std::string& ending, const std::vector<std::string>& seeds,
+              const std::vector<std::string>& dictionary) {
+    static const TriangleMesh mesh = shapes::ellipsoid(0);
+    return {name, seeds, dictionary, [=](const std::string& bytes) {
+                const ScratchFile file(bytes, ending);
+                std::vector<std::string> files{file.path()};
+                if (bytes.size() % 2 == 0 || ending != ".txt") files.push_back(file.path());
+                for (const auto& [a, b] : read_landmarks(files, mesh, mesh).points)
+                    if (!(position(mesh, a) + position(mesh, b)).allFinite())
+                        throw std::logic_error("a landmark is nowhere");
+            }};
+}
+
+}  // namespace
+
+std::vector<Target> landmark_targets() {
+    return {target("vertices", ".txt", numbers, {"#"}),
+            target("vts", ".vts", {numbers[1], numbers[2]}, {"#"}),
+            target("coordinates", ".txt", coordinates, {"#"}),
+            target("pp", ".pp", meshlab, {"<point ", "x=\"1\"", "active", ">", "\""}),
+            target("mrk_json", ".mrk.json", slicer,
+                   {"null", "[]", "{}", "\"markups\"", "\"position\"", "\"label\"", "\"LPS\"", "true"}),
+            target("fcsv", ".fcsv", old_slicer, {",", "#", "# CoordinateSystem = RAS", "0", "IJK"})};
+}
+
+}  // namespace varimap::fuzz

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace varimap::fuzz {
+
+/// One reader under test.
+struct Target {
+    std::string name;
+    std::vector<std::string> seeds;       ///< good inputs, from which others are made
+    std::vector<std::string> dictionary;  ///< words of the format
+    /// Reads and uses one input. Throws nothing but an Error that the user can act on.
+    std::function<void(const std::string& bytes)> run;
+};
+
+/// Readers of meshes: obj, off, ply, stl, and what preprocess makes of them.
+std::vector<Target> mesh_targets();
+/// Readers of landmarks, in each form.
+std::vector<Target> landmark_targets();
+/// Artifacts of every kind with a right hash and hostile content, and their headers.
+std::vector<Target> artifact_targets();
+/// Config files and values of parameters.
+std::vector<Target> config_targets();
+
+}  // namespace varimap::fuzz
