@@ -173,8 +173,7 @@ void place(std::vector<Named>& list, const std::vector<Vec3>& positions, const s
     const Snapped snapped = snap(positions, mesh);
     refuse_far_list(list, positions, snapped.distances, path, mesh);
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::string what =
-            fmt::format("{}:{}: landmark {}", path, list[i].line, excerpt(list[i].name));
+        const std::string what = fmt::format("{}:{}: landmark {}", path, list[i].line, excerpt(list[i].name));
         log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, snapped.distances[i],
             snapped.vertices[i]);
         if (snapped.distances[i] > far_from_surface)

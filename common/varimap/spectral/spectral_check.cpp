@@ -23,7 +23,8 @@ bool are_weights(const SparseMatrix& weights) {
 void require_complete(const Level& level, Eigen::Index vertices) {
     const auto samples = Eigen::Index(level.samples.size());
     require<Hierarchy>(samples > 0 && are_distinct_in_range(level.samples, vertices), "samples");
-    require<Hierarchy>(Eigen::Index(level.cell.size()) == vertices && are_in_range(level.cell, samples), "cells");
+    require<Hierarchy>(Eigen::Index(level.cell.size()) == vertices && are_in_range(level.cell, samples),
+                       "cells");
     require<Hierarchy>(level.mass.size() == samples && are_masses(level.mass), "masses");
     require<Hierarchy>(level.weights.rows() == samples && level.weights.cols() == samples, "weights");
     require<Hierarchy>(are_weights(level.weights), "weights");
@@ -47,7 +48,8 @@ bool are_options(const HierarchyOptions& o) {
 void require_complete(const Basis& basis) {
     const auto count = basis.functions.cols();
     require<Basis>(count >= 2 && basis.functions.rows() >= count, "functions");
-    require<Basis>(basis.eigenvalues.size() == count && basis.residuals.size() == count, "numbers of eigenpairs");
+    require<Basis>(basis.eigenvalues.size() == count && basis.residuals.size() == count,
+                   "numbers of eigenpairs");
     require<Basis>(basis.functions.allFinite() && basis.residuals.allFinite(), "functions");
     require<Basis>(basis.eigenvalues.allFinite() && basis.eigenvalues[0] >= 0 && basis.eigenvalues[1] > 0,
                    "eigenvalues");
@@ -63,11 +65,13 @@ void require_complete(const Hierarchy& hierarchy) {
         require_complete(levels[l], vertices);
         if (l == 0) continue;
         const Level& coarser = levels[l - 1];
-        require<Hierarchy>(coarser.kind <= levels[l].kind && coarser.full <= levels[l].full, "order of levels");
+        require<Hierarchy>(coarser.kind <= levels[l].kind && coarser.full <= levels[l].full,
+                           "order of levels");
         require<Hierarchy>(coarser.samples.size() <= levels[l].samples.size(), "order of levels");
     }
     const LocalShape& shape = hierarchy.shape;
-    require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices, "local shape");
+    require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices,
+                       "local shape");
     require<Hierarchy>(shape.descriptors.allFinite() && shape.bending.allFinite(), "local shape");
 }
 

@@ -84,8 +84,7 @@ bool TextScanner::next_line() {
 double TextScanner::number(std::size_t i, const char* what) const {
     double value;
     if (i >= words_.size()) fail(fmt::format("{} is missing", what));
-    if (!to_number(words_[i], value))
-        fail(fmt::format("{} '{}' is not a number", what, excerpt(words_[i])));
+    if (!to_number(words_[i], value)) fail(fmt::format("{} '{}' is not a number", what, excerpt(words_[i])));
     return value;
 }
 
