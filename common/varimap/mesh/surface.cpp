@@ -49,6 +49,11 @@ Surface with_reversed_orientation(Surface surface) {
     return surface;
 }
 
+PointMap between_input_and_file(PointMap points, const Surface& surface) {
+    if (surface.mirrored) swap_last_corners(points);
+    return points;
+}
+
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {
     const auto own = mesh.faces.row(point.face), other = mesh.faces.row(face);
     Vec3 result = Vec3::Zero();
