@@ -174,6 +174,7 @@ void run_made(const Target& target, const Options& options) {
 }
 
 int run(const std::vector<std::string>& words) {
+    watch();
     const std::vector<Target> targets = all_targets();
     const std::string name = words.empty() ? "--list" : words[0];
     if (name == "--list") {
@@ -183,11 +184,10 @@ int run(const std::vector<std::string>& words) {
     const auto target =
         std::find_if(targets.begin(), targets.end(), [&](const Target& t) { return t.name == name; });
     if (target == targets.end()) {
-        fmt::print(stderr, "varimap_fuzz: no target '{}'; see --list\n", name);
+        say(fmt::format("varimap_fuzz: no target '{}'; see --list\n", name));
         return 2;
     }
     const Options options = parse({words.begin() + 1, words.end()});
-    watch();
     for (const std::string& file : options.files) run_one(*target, read_whole(file), file + ".again");
     if (options.files.empty()) {
         run_cases(*target, options.cases);

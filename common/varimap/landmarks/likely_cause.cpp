@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "varimap/landmarks/landmark_points.h"
+#include "varimap/mesh/closest_point.h"
 
 namespace varimap {
 namespace {
@@ -58,14 +59,16 @@ double extent(const std::vector<Vec3>& points) {
 std::string likely_cause(const std::vector<Vec3>& positions, const TriangleMesh& mesh) {
     std::string cause = "is this the list of another mesh?";
     std::size_t most_near = positions.size() / 2;
-    const double least_extent = .1 * std::sqrt(surface_area(mesh));
+    const ClosestPoint closest(mesh);
+    const double unit = std::sqrt(surface_area(mesh));
+    const auto is_near = [&](const Vec3& p) {
+        return (p - position(mesh, closest(p).point)).stableNorm() <= far_from_surface * unit;
+    };
     for (const Guess& guess : all_guesses()) {
         std::vector<Vec3> changed;
         for (const Vec3& p : positions) changed.push_back(guess.change * p);
-        if (extent(changed) < least_extent) continue;
-        const std::vector<double> distances = snap(changed, mesh).distances;
-        const auto near = std::size_t(std::count_if(distances.begin(), distances.end(),
-                                                    [](double d) { return d <= far_from_surface; }));
+        if (extent(changed) < .1 * unit) continue;
+        const auto near = std::size_t(std::count_if(changed.begin(), changed.end(), is_near));
         if (near <= most_near) continue;
         most_near = near;
         cause = guess.words;

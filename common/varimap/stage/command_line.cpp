@@ -19,7 +19,11 @@ namespace {
 constexpr int most_threads = 4096;
 
 std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    for (char& c : text)
+        if (c == '\n')
+            c = ' ';
+        else if (static_cast<unsigned char>(c) < ' ' || c == 127)
+            c = '?';
     return text;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "varimap/core/error.h"
+#include "varimap/core/printable.h"
 #include "varimap/stage/parameter_text.h"
 
 namespace varimap {
@@ -26,7 +27,8 @@ std::string limit_text(const Parameter& parameter, double limit) {
 }
 
 [[noreturn]] void refuse(const Parameter& parameter, const std::string& text) {
-    throw UsageError(fmt::format("--{}: '{}' is not {}", parameter.name, text, allowed_values(parameter)));
+    throw UsageError(
+        fmt::format("--{}: '{}' is not {}", parameter.name, printable(text), allowed_values(parameter)));
 }
 
 struct Assign {
