@@ -15,8 +15,9 @@ namespace {
 
 using shapes::KnownPair;
 
-Candidates explore(const PairContext& context) {
-    const ExploreParams params;
+Candidates explore(const PairContext& context, double distinct = ExploreParams().exploration.distinct) {
+    ExploreParams params;
+    params.exploration.distinct = distinct;
     return explore(context, params.exploration, params.alternation, params.ironing);
 }
 
@@ -39,12 +40,17 @@ TEST(Explore, FindsTheMapOfAFigureOntoItsPose) {
     const PairContext context = figures().context();
     const Candidates found = explore(context);
     EXPECT_LT(mean_error(diffuse(context, {}, found), figures()), .025);
-    ASSERT_GE(found.list.size(), 2u);
     EXPECT_FALSE(is_mirrored(found.list[0]));
     EXPECT_EQ(found.list[0].moved_mass, 0);
+    EXPECT_TRUE(found.previews.empty());  // sure
+}
+
+TEST(Explore, RanksRivalsBehindTheMap) {
+    // At the usual distance it is a matter of rounding whether this figure's nearest rival is a duplicate.
+    const Candidates found = explore(figures().context(), .02);
+    ASSERT_GE(found.list.size(), 2u);
     EXPECT_GT(found.list[1].moved_mass, .02);
     EXPECT_GT(found.list[1].score, found.list[0].score);
-    EXPECT_TRUE(found.previews.empty());  // sure
 }
 
 TEST(Explore, MapsOppositeHandednessOnlyWhenMirrored) {

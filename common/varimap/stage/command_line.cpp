@@ -187,10 +187,10 @@ std::vector<std::pair<std::string, std::string>> CommandLine::input_files() cons
         if (text.use == Use::input && !text.value.empty()) result.emplace_back(text.name, text.value);
     };
     const auto add_list = [&](const TextList& list) {
-        const auto& files = list.values;
-        for (std::size_t i = 0; i < files.size() && list.use == Use::input; ++i)
-            result.emplace_back(files.size() == 1 ? list.name : list.name + "." + char('A' + i % 26),
-                                files[i]);
+        const auto& given = list.values;
+        for (std::size_t i = 0; i < given.size() && list.use == Use::input; ++i)
+            result.emplace_back(given.size() == 1 ? list.name : list.name + "." + char('A' + i % 26),
+                                given[i]);
     };
     for (const auto& text : positionals) add(text);
     if (files) add_list(*files);
