@@ -8,6 +8,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/printable.h"
 #include "varimap/stage/config_file.h"
 #include "varimap/stage/nearest_name.h"
 #include "varimap/stage/parameter_text.h"
@@ -128,7 +129,7 @@ std::string explained(const CLI::ParseError& error, const std::vector<std::strin
         const std::string name = argument.substr(0, argument.find('='));
         if (!name.starts_with("--") || name == "--" || app.get_option_no_throw(name) != nullptr) continue;
         if (const std::string nearest = nearest_name(name.substr(2), names); !nearest.empty())
-            return fmt::format("there is no option {}; did you mean --{}?", name, nearest);
+            return fmt::format("there is no option {}; did you mean --{}?", printable(name), nearest);
     }
     return one_line(error.what());
 }

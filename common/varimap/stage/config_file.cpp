@@ -9,6 +9,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/printable.h"
 #include "varimap/stage/known_hashes.h"
 #include "varimap/stage/nearest_name.h"
 #include "varimap/stage/parameter_text.h"
@@ -96,7 +97,8 @@ const Parameter& find_parameter(const ConfigLine& line, const std::string& path,
         names.push_back(parameter.name);
     }
     refuse(path, line.number,
-           fmt::format("varimap-{} has no parameter {}; {}", stage, line.name, suggestion(line.name, names)));
+           fmt::format("varimap-{} has no parameter {}; {}", stage, printable(line.name),
+                       suggestion(line.name, names)));
 }
 
 void assign_line(const ConfigLine& line, const std::string& path, const std::string& stage,
@@ -105,7 +107,8 @@ void assign_line(const ConfigLine& line, const std::string& path, const std::str
     const bool own = line.section.empty() || line.section == stage;
     if (!own && std::find(stages.begin(), stages.end(), line.section) == stages.end())
         refuse(path, line.number,
-               fmt::format("no stage is called {}; {}", line.section, suggestion(line.section, stages)));
+               fmt::format("no stage is called {}; {}", printable(line.section),
+                           suggestion(line.section, stages)));
     if (!own || line.name.empty()) return;
     const Parameter& parameter = find_parameter(line, path, stage, parameters);
     try {
