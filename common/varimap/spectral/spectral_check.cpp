@@ -45,14 +45,21 @@ bool are_options(const HierarchyOptions& o) {
 
 }  // namespace
 
+/// On unit area. A cylinder of length L has lambda_2 = (pi / L)^2, and |phi_i| is at most m_i^-1/2: what lies
+/// beyond belongs to no surface, and heat kernels made of it would overflow.
+constexpr double least_eigenvalue = 1e-9, largest_function = 1e12;
+
 void require_complete(const Basis& basis) {
     const auto count = basis.functions.cols();
     require<Basis>(count >= 2 && basis.functions.rows() >= count, "functions");
     require<Basis>(basis.eigenvalues.size() == count && basis.residuals.size() == count,
                    "numbers of eigenpairs");
-    require<Basis>(basis.functions.allFinite() && basis.residuals.allFinite(), "functions");
-    require<Basis>(basis.eigenvalues.allFinite() && basis.eigenvalues[0] >= 0 && basis.eigenvalues[1] > 0,
-                   "eigenvalues");
+    require<Basis>(basis.functions.allFinite() && basis.functions.cwiseAbs().maxCoeff() < largest_function,
+                   "functions");
+    require<Basis>(basis.residuals.allFinite(), "residuals");
+    require<Basis>(
+        basis.eigenvalues.allFinite() && basis.eigenvalues[0] >= 0 && basis.eigenvalues[1] > least_eigenvalue,
+        "eigenvalues");
     require<Basis>(std::is_sorted(basis.eigenvalues.begin(), basis.eigenvalues.end()), "eigenvalues");
 }
 
