@@ -9,6 +9,12 @@ grep -q 'explore. warning: .*candidates.png' log || fail "no warning names the p
 grep -q 'not sure: look at out/candidates.png' out.txt || fail "the summary does not name the picture"
 [[ $(head -c 4 out/candidates.png | tail -c 3) == PNG ]] || fail "no picture of the candidates"
 jq -e '.exploration | .confident == false and .margin < .015' out/quality.json >/dev/null || fail "sure of a symmetric shape"
+# Warnings of stages that ran earlier are repeated.
+map a.off b.off -o out
+expect_ran ""
+head -n 1 out.txt | grep -q '^warning  explore a--b: .*candidates.png' || fail "the summary does not begin with the warning"
+jq -e '[.warnings[] | select(.stage == "explore a--b") | .message] | length == 1' out/quality.json >/dev/null ||
+    fail "the warning in quality.json"
 
 # The long axis runs up to 1.3, the next one to 0.7.
 tips() {
@@ -17,4 +23,5 @@ tips() {
 }
 paste <(tips a.off) <(tips b.off) >tips.txt
 map a.off b.off -o out --landmarks tips.txt
+jq -e '[.warnings[].stage] | index("explore a--b") == null' out/quality.json >/dev/null || fail "the warning of explore, which this map does without"
 [[ ! -e out/candidates.png ]] || fail "the candidates of an earlier run are still shown"

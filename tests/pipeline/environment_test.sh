@@ -2,6 +2,7 @@
 # The environment changes nothing: variables with the Makefile's names, none at all, locales, closed descriptors.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=("${coarse[@]}")
 figure a.off 6
 figure b.off 6 .5
 landmarks_of_figure a.off >tips.txt
@@ -21,7 +22,7 @@ env "${hostile[@]}" "$varimap" map "${small_picture[@]}" "${options[@]}" -o host
 same_results plain hostile
 expect_ran "$(map "${options[@]}" -o count; ran)"
 env "${hostile[@]}" MAKEFLAGS= make -s -f "$VARIMAP_SOURCE/pipelines/Makefile" -j1 SOURCE=a.off TARGET=b.off OUT=made LANDMARKS=tips.txt \
-    EIGEN_FLAGS="--count 40" REFINE_FLAGS="--tolerance .01" RENDER_FLAGS="--width 64 --samples 1" 2>log || fail "make"
+    PREPROCESS_FLAGS="--target_edge_length .2" EIGEN_FLAGS="--count 40" REFINE_FLAGS="--tolerance .01" RENDER_FLAGS="--width 64 --samples 1" 2>log || fail "make"
 same plain/source_to_target.csv made/source_to_target.csv
 env -i PATH="$PATH" VARIMAP_BIN="$VARIMAP_BIN" "$varimap" map "${small_picture[@]}" "${options[@]}" -o empty >out.txt 2>log ||
     fail "an empty environment"
@@ -56,6 +57,8 @@ exits 4 "$VARIMAP_BIN/varimap-eigen" a.off x.basis 2>&- || fail "$(cat codes)"
 exits 4 "$VARIMAP_BIN/varimap-eigen" a.off x.basis 2>/dev/full || fail "$(cat codes)"
 exits 6 "$varimap" map a.off absent.off -o none 2>&- || fail "$(cat codes)"
 exits 2 "$varimap" map a.off b.off -o none --set eigen.count=x 2>/dev/full || fail "$(cat codes)"
+exits 6 "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain >/dev/full 2>log || fail "$(cat codes)"
+exits 6 "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain >&- 2>log || fail "$(cat codes)"
 exits 6 "$VARIMAP_BIN/varimap-inspect" $artifact >/dev/full 2>log || fail "$(cat codes)"
 exits 6 "$VARIMAP_BIN/varimap-inspect" $artifact >&- 2>log || fail "$(cat codes)"
 # With all of them closed the artifact is still whole.

@@ -2,6 +2,7 @@
 # Names in no encoding and full of escapes, pipes, devices and folders where files belong, inputs in the way of outputs.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=("${coarse[@]}")
 figure a.off 6
 figure b.off 6 .5
 landmarks_of_figure a.off >tips.txt

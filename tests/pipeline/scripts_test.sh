@@ -2,6 +2,7 @@
 # How the scripts read their command lines, what else the front end calls, and an installed prefix.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=("${coarse[@]}")
 figure a.off 6
 figure b.off 6 .5
 seq 0 2 >list.txt
@@ -17,6 +18,10 @@ map --landmarks=list.txt list.txt a.off b.off --out=out --landmark-weight .5 --a
 expect_ran ""
 map --out out --landmarks=list.txt list.txt --landmark-weight=.5 --set diffuse.area-bound=2 --set refine.area_bound=2 -j 1 -- a.off b.off
 expect_ran ""
+jq -e --arg here "$PWD" '.provenance | .source.file == $here + "/a.off" and .target.file == $here + "/b.off"
+    and (.landmarks | map(.file)) == [$here + "/list.txt", $here + "/list.txt"] and .landmarks[0].hash == .landmarks[1].hash
+    and .source.hash != .target.hash and (.source | .area * .scale * .scale - 1 | fabs < 1e-9) and .schema == 1
+    and (.command | startswith("varimap map ") and contains(" --landmarks=list.txt list.txt "))' out/quality.json >/dev/null || fail "provenance"
 expect_exit 2 "$varimap" map a.off b.off -o out --explore=yes
 expect_exit 2 "$varimap" map a.off b.off -o out --out
 expect_exit 2 "$varimap" map a.off b.off -o out --area_bounds=2

@@ -3,13 +3,14 @@
 # VARIMAP_KILLS: how many runs are killed (default 12).
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=("${coarse[@]}")
 kills=${VARIMAP_KILLS:-12}
 figure a.off 6
 figure b.off 6 .5
 start=$EPOCHREALTIME
 map a.off b.off -o good -j 2
 map b.off a.off -o back -j 2
-milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 2000))
+milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 2000))  # of one run
 
 # run OUT OPTION...: in the background, in a session of its own
 run() {

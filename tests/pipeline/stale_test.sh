@@ -2,6 +2,7 @@
 # Files that lie about their age, stand in the wrong place or were altered: the result is that of a run from nothing.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=("${coarse[@]}")
 figure a.off 6
 figure b.off 6 .5
 figure c.off 6 -.5

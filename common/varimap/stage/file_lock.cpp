@@ -41,6 +41,10 @@ FileLock::FileLock(const std::string& path) : name_(path + ".lock") {
     }
 }
 
+bool FileLock::exists(const std::string& path) {
+    return ::access((path + ".lock").c_str(), F_OK) == 0;
+}
+
 FileLock::~FileLock() {
     ::unlink(name_.c_str());  // before the lock goes, so that nobody can hold a removed file
     ::close(descriptor_);

@@ -12,6 +12,8 @@ class FileLock {
   public:
     explicit FileLock(const std::string& path);
     ~FileLock();
+    /// Whether there is such a file, held or left by a kill.
+    static bool exists(const std::string& path);
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 

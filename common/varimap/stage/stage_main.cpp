@@ -200,10 +200,10 @@ int Stage::main(int argc, char** argv, const std::function<void()>& body) {
         report.file = state_->line.error_file;
         state_->require_possible_files();
         for (const auto& path : state_->outputs()) remove_dead_temporaries(path);
-        if (state_->is_current()) return;
+        if (state_->is_current() && !FileLock::exists(*state_->output_path)) return;
         std::optional<FileLock> lock;
         if (state_->output_path != nullptr) lock.emplace(*state_->output_path);
-        // Another run may have made it while this one waited.
+        // Another run may have made it while this one waited, or been killed before it removed its lock.
         if (!state_->is_current()) run(body);
     });
 }

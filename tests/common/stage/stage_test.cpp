@@ -478,6 +478,9 @@ TEST_F(StageRun, TheLockIsHeldWhileTheOutputIsMadeAndLeavesNothing) {
     EXPECT_TRUE(locked);
     write_file_atomically(out + ".lock", "left by a kill");
     EXPECT_EQ(run_sample({in, out}).code, 0);
+    EXPECT_EQ(folder.file_count(), 3u);
+    write_file_atomically(out + ".lock", "left by a kill");
+    EXPECT_EQ(run_sample({in, out, "--if-stale", folder / ""}).err, "");
     EXPECT_EQ(folder.file_count(), 3u);  // input, output and its side file
 }
 
