@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # What the documentation names is there: linked files, functions in the files said to hold them, parameters of stages.
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+# shellcheck disable=SC2016  # backquotes are those of Markdown
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
 cd "$VARIMAP_SOURCE"
 
 pages=(README.md CHANGELOG.md common/README.md pipelines/README.md pipelines/help/*.md stages/*/README.md)
@@ -18,22 +20,23 @@ links_lead_somewhere() {
 
 # Rows of the table `| paper | computed by | file |`: each name in the first backquoted file of its row, or the others.
 names_are_in_their_files() {
-    local row names files name missing=0
+    local row names files sources name missing=0
     while IFS= read -r row; do
         names=$(cut -d'|' -f3 <<<"$row" | grep -o '`[A-Za-z_:]*`' | tr -d '`' | sed 's/.*:://') || continue
         mapfile -t files < <(cut -d'|' -f4 <<<"$row" | grep -o '`[^`]*`' | tr -d '`')
         for name in $names; do
-            cat_sources "${files[@]}" | grep -qw -- "$name" ||
+            mapfile -t sources < <(places "${files[@]}")
+            grep -qw -- "$name" "${sources[@]}" ||
                 { echo "common/README.md: $name is not in ${files[*]}" >&2; missing=1; }
         done
     done < <(sed -n '/^| paper | computed by/,/^$/p' common/README.md | tail -n +3 | grep '|')
     return $missing
 }
 
-cat_sources() {  # FILES as the table names them: of common/varimap, or of the project
+places() {  # FILES as the table names them: of common/varimap, or of the project
     local file
     for file in "$@"; do
-        if [[ -e $file ]]; then cat "$file"; else cat "common/varimap/$file"; fi
+        if [[ -e $file ]]; then echo "$file"; else echo "common/varimap/$file"; fi
     done
 }
 
@@ -42,7 +45,7 @@ parameters_exist() {
     for word in $(grep -oh '`[a-z]*\.[a-z_]*`' pipelines/help/parameters.md | tr -d '`' | sort -u); do
         stage=${word%%.*} name=${word#*.}
         [[ -x $VARIMAP_BIN/varimap-$stage ]] || continue
-        "$VARIMAP_BIN/varimap-$stage" --help | grep -q -- "--$name " ||
+        grep -q -- "--$name " <<<"$("$VARIMAP_BIN/varimap-$stage" --help)" ||
             { echo "pipelines/help/parameters.md: $word is no parameter" >&2; missing=1; }
     done
     return $missing
