@@ -4,7 +4,7 @@
 // varimap_fuzz --list                                       the targets
 //
 // An input that takes longer than 10 s, ends the process, throws anything but an Error, or takes more memory
-// than 400 times its length and 4 MB (known under the address sanitizer only) is written to
+// than 400 times its length and the target's base (known under the address sanitizer only) is written to
 // fuzz-TARGET-NUMBER, and the exit status is 1. Number N of seed S is the same input on every machine.
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ namespace varimap::fuzz {
 namespace {
 
 constexpr unsigned longest_seconds = 10;
-constexpr std::size_t memory_factor = 400, memory_base = 4 << 20;
+constexpr std::size_t memory_factor = 400;
 
 std::string current_input, current_name;
 int messages = 2;  ///< where reports go; what the readers log goes nowhere
@@ -110,7 +110,7 @@ void run_one(const Target& target, const std::string& bytes, const std::string& 
     }
     ::alarm(0);
     const auto taken = std::size_t(most_allocated - before);
-    if (taken > memory_base + memory_factor * bytes.size())
+    if (taken > target.memory_base + memory_factor * bytes.size())
         fail(fmt::format("{} bytes of memory for an input of {}", taken, bytes.size()));
 }
 

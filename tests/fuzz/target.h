@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct Target {
     std::vector<std::string> dictionary;  ///< words of the format
     /// Reads and uses one input. Throws nothing but an Error that the user can act on.
     std::function<void(const std::string& bytes)> run;
+    std::size_t memory_base = 4 << 20;  ///< bytes that it may take, beside a multiple of the input's length
 };
 
 /// Readers of meshes: obj, off, ply, stl, and what preprocess makes of them.
