@@ -14,6 +14,7 @@
 
 #include "varimap/artifact/temporaries.h"
 #include "varimap/core/printable.h"
+#include "varimap/core/timing.h"
 #include "varimap/core/warnings.h"
 #include "varimap/stage/command_line.h"
 #include "varimap/stage/file_lock.h"
@@ -208,6 +209,13 @@ int Stage::main(int argc, char** argv, const std::function<void()>& body) {
     });
 }
 
+static void log_timed_parts() {
+    std::string text;
+    for (const auto& [part, seconds] : timed_parts())
+        text += fmt::format("{}{} {:.2f} s", text.empty() ? "" : ", ", part, seconds);
+    if (!text.empty()) log("time: {}", text);
+}
+
 void Stage::run(const std::function<void()>& body) {
     State& state = *state_;
     for (const auto& [role, path] : state.line.input_files()) state.states_at_start[path] = file_state(path);
@@ -216,6 +224,7 @@ void Stage::run(const std::function<void()>& body) {
     using tbb::global_control;
     const global_control limit(global_control::max_allowed_parallelism, std::size_t(threads()));
     body();
+    log_timed_parts();
     if (std::fflush(stdout) != 0) throw IoError("cannot write to standard output");
     write_run_file();
     if (!state.line.stamp.empty())
@@ -281,6 +290,7 @@ void Stage::write_run_file() const {
     run["peak_megabytes"] = used.peak_megabytes;
     run["threads"] = threads();
     for (const auto& [name, value] : state_->numbers) run[name] = value;
+    for (const auto& [part, seconds] : timed_parts()) run["seconds"][part] = seconds;
     run["warnings"] = nlohmann::ordered_json::array();
     for (const auto& warning : logged_warnings()) run["warnings"].push_back(printable(warning));
     run["artifact"] = state_->written_hash;
