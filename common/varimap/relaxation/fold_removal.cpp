@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/local_relaxation.h"
 
@@ -19,120 +20,240 @@ constexpr double least_regularisation = 1e-4;
 constexpr std::array<double, 3> weights{1, 0.2, 0.05};
 constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
 
-/// Vertices that may move to unfold `folded`: those of the faces and of `ring_count` rings around them.
-std::vector<int> patch_around(const SlidingMap& map, const std::vector<int>& folded, int ring_count,
-                              const VertexData<bool>& fixed) {
-    VertexData<bool> inside(map.source().vertex_count());
-    std::vector<int> patch, front;
-    const auto add_corners = [&](int f, std::vector<int>& to) {
-        for (int k = 0; k < 3; ++k) {
-            const int v = map.source().faces(f, k);
-            if (!inside[v] && map.has_image(v)) to.push_back(v);
-            inside[v] = true;
-        }
-    };
-    for (const int f : folded) add_corners(f, front);
-    for (int ring = 0; !front.empty(); ++ring) {
-        patch.insert(patch.end(), front.begin(), front.end());
-        if (ring == ring_count) break;
-        std::vector<int> next;
-        for (const int v : front)
-            for (const int f : map.faces_of_vertex()[v]) add_corners(f, next);
-        front.swap(next);
+/// How bad the worst of some faces are.
+struct Folds {
+    int count = 0;
+    double worst = std::numeric_limits<double>::infinity();  ///< least D
+
+    bool better_than(const Folds& other) const {
+        return count < other.count || (count == other.count && worst > other.worst);
     }
-    std::erase_if(patch, [&](int v) { return fixed[v] != 0; });
-    std::sort(patch.begin(), patch.end());
-    return patch;
-}
-
-/// Faces with a corner in the patch.
-std::vector<int> faces_of(const SlidingMap& map, const std::vector<int>& patch) {
-    std::vector<int> faces;
-    for (const int v : patch)
-        for (const int f : map.faces_of_vertex()[v])
-            if (map.is_mapped(f)) faces.push_back(f);
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    return faces;
-}
-
-struct PatchState {
-    double energy = 0, worst = std::numeric_limits<double>::infinity();  ///< worst: least D
-    int folded = 0;
 };
 
-PatchState state_of(const SlidingMap& map, const std::vector<int>& faces, const FoldEnergy& energy) {
-    PatchState state;
-    for (const int f : faces) {
-        const double D = map.image_triangle(f).D;
-        state.worst = std::min(state.worst, D);
-        state.folded += D <= FoldRemoval::flat_limit;
+/// Connected vertices that move together, and the faces that have one of them for a corner.
+class Patch {
+  public:
+    Patch(SlidingMap& map, std::vector<int> vertices)
+        : map_(map), vertices_(std::move(vertices)), start_(vertices_) {
+        for (const int v : vertices_)
+            for (const int f : map.faces_of_vertex()[v])
+                if (map.is_mapped(f)) faces_.push_back(f);
+        std::sort(faces_.begin(), faces_.end());
+        faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+        shapes_.resize(faces_.size());
+        keep();
+        measure();
+        best_ = folds_;
     }
-    state.energy = total_energy(map, faces, energy);
-    return state;
-}
+
+    /// Sweeps until nothing is folded, or nothing has become better for a while; leaves the best that was
+    /// met. Returns the number of sweeps.
+    int unfold(LocalRelaxation& relax, double weight, int most_sweeps, double most_visits);
+    int folded() const { return best_.count; }
+    std::vector<int> folded_faces() const {
+        std::vector<int> folded;
+        for (const int f : faces_)
+            if (map_.image_triangle(f).D <= FoldRemoval::flat_limit) folded.push_back(f);
+        return folded;
+    }
+
+  private:
+    struct Shape {
+        double q, D;
+    };
+
+    void measure() {
+        folds_ = {};
+        for (std::size_t i = 0; i < faces_.size(); ++i) {
+            const ImageTriangle image = map_.image_triangle(faces_[i]);
+            shapes_[i] = {image.q, image.D};
+            folds_.count += image.D <= FoldRemoval::flat_limit;
+            folds_.worst = std::min(folds_.worst, image.D);
+        }
+    }
+    double total(const FoldEnergy& energy) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < faces_.size(); ++i)
+            sum += map_.rest(faces_[i]).area * energy.value(shapes_[i].q, shapes_[i].D);
+        return sum;
+    }
+    void keep() {
+        kept_.clear();
+        for (const int v : start_) kept_.push_back(map_.point(v));
+    }
+    void restore() {
+        for (std::size_t i = 0; i < start_.size(); ++i) map_.place(start_[i], kept_[i]);
+    }
+
+    SlidingMap& map_;
+    std::vector<int> vertices_, start_;  ///< in the order of visits, and of kept_
+    std::vector<int> faces_;
+    std::vector<Shape> shapes_;
+    Folds folds_, best_;
+    PointMap kept_;  ///< where the folds were best
+};
 
 /// The schedule of foldover-free maps, and its 0.1 (Garanzha et al. 2021): e falls with the energy's
 /// progress, never faster than the worst face allows.
-void lower_regularisation(FoldEnergy& energy, double before, const PatchState& now) {
-    const double s = std::max(0.1, 1 - now.energy / before), e = energy.regularisation;
+void lower_regularisation(FoldEnergy& energy, double before, double now, double worst) {
+    const double s = std::max(0.1, 1 - now / before), e = energy.regularisation;
     double next = e * (1 - s);
-    if (now.worst < FoldRemoval::flat_limit) {
-        const double mu = (1 - s) * energy.chi(now.worst);
-        next = mu > now.worst ? std::min(e, 2 * std::sqrt(mu * (mu - now.worst))) : next;
+    if (worst < FoldRemoval::flat_limit) {
+        const double mu = (1 - s) * energy.chi(worst);
+        next = mu > worst ? std::min(e, 2 * std::sqrt(mu * (mu - worst))) : next;
     }
     energy.regularisation = std::max(next, least_regularisation);
 }
 
-/// Sweeps one patch until nothing in it is folded; returns the number of sweeps.
-int unfold_patch(SlidingMap& map, LocalRelaxation& relax, std::vector<int> patch, double weight,
-                 int most_sweeps) {
-    const std::vector<int> faces = faces_of(map, patch);
+int Patch::unfold(LocalRelaxation& relax, double weight, int most_sweeps, double most_visits) {
     FoldEnergy energy{weight, 1};
-    PatchState best = state_of(map, faces, energy);
+    const double visits = relax.visits();
     int sweeps = 0, idle = 0, clean = 0;
-    while (sweeps < most_sweeps && idle < patience && clean < polishing) {
-        const double before = total_energy(map, faces, energy);
-        relax.sweep(patch, energy, sweeps % leap_period == leap_period - 1);
+    relax.wake(vertices_);
+    while (sweeps < most_sweeps && idle < patience && clean < polishing &&
+           relax.visits() - visits < most_visits) {
+        const double before = total(energy);
+        if (sweeps % leap_period == leap_period - 1)
+            relax.sweep(vertices_, energy, true);
+        else
+            relax.sweep_restless(vertices_, energy);
         ++sweeps;
-        const PatchState now = state_of(map, faces, energy);
-        const bool better = now.folded < best.folded || (now.folded == best.folded && now.worst > best.worst);
+        measure();
+        const bool better = folds_.better_than(best_);
         idle = better ? 0 : idle + 1;
-        clean = now.folded == 0 ? clean + 1 : 0;
-        if (better) best = now;
-        lower_regularisation(energy, before, now);
+        clean = folds_.count == 0 ? clean + 1 : 0;
+        if (better || clean > 0) {
+            best_ = folds_;
+            keep();
+        }
+        lower_regularisation(energy, before, total(energy), folds_.worst);
     }
+    restore();
+    measure();
     return sweeps;
 }
 
+/// A folded face, and how often in a row its patch was tried in vain.
+struct Fold {
+    int face, strikes;
+};
+
+/// Removes the folds of one map.
+class Removal {
+  public:
+    Removal(SlidingMap& map, const VertexData<bool>& fixed, const FoldRemoval& options)
+        : map_(map),
+          fixed_(fixed),
+          options_(options),
+          relax_(map, 2654435761u),
+          visits_(options.most_visits * double(map.source().vertex_count())),
+          strikes_(map.source().vertex_count(), none) {}
+
+    int run(std::vector<Fold> folds) {
+        for (const int ring_count : rings) {
+            std::vector<Fold> left;
+            mark_around(folds, ring_count);
+            for (const int v : marked_)
+                if (strikes_[v] != none) unfold(component_of(v), left);
+            folds.swap(left);
+        }
+        return sweeps_;
+    }
+
+  private:
+    static constexpr int none = -1;
+
+    /// Marks the vertices that may move: those of the faces and of `ring_count` rings around them.
+    void mark_around(const std::vector<Fold>& folds, int ring_count);
+    struct Component {
+        std::vector<int> vertices;
+        int strikes;
+    };
+    /// Takes the marks off the vertices connected with v and returns them.
+    Component component_of(int v);
+    void unfold(Component component, std::vector<Fold>& left);
+
+    SlidingMap& map_;
+    const VertexData<bool>& fixed_;
+    const FoldRemoval& options_;
+    LocalRelaxation relax_;
+    double visits_;            ///< that are left
+    VertexData<int> strikes_;  ///< of marked vertices
+    std::vector<int> marked_;  ///< ascending
+    int sweeps_ = 0;
+};
+
+void Removal::mark_around(const std::vector<Fold>& folds, int ring_count) {
+    marked_.clear();
+    std::vector<int> front, next;
+    const auto mark = [&](int f, int strikes) {
+        for (int k = 0; k < 3; ++k) {
+            const int v = map_.source().faces(f, k);
+            if (strikes_[v] != none || fixed_[v] || !map_.has_image(v)) continue;
+            strikes_[v] = strikes;
+            next.push_back(v);
+        }
+    };
+    for (const Fold& fold : folds) mark(fold.face, fold.strikes);
+    for (int ring = 0; ring < ring_count && !next.empty(); ++ring) {
+        front.swap(next);
+        marked_.insert(marked_.end(), front.begin(), front.end());
+        next.clear();
+        for (const int v : front)
+            for (const int f : map_.faces_of_vertex()[v]) mark(f, strikes_[v]);
+    }
+    marked_.insert(marked_.end(), next.begin(), next.end());
+    std::sort(marked_.begin(), marked_.end());
+}
+
+Removal::Component Removal::component_of(int first) {
+    Component component{{first}, strikes_[first]};
+    strikes_[first] = none;
+    auto& vertices = component.vertices;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (const int f : map_.faces_of_vertex()[vertices[i]])
+            for (int k = 0; k < 3; ++k) {
+                const int v = map_.source().faces(f, k);
+                if (strikes_[v] == none) continue;
+                component.strikes = std::min(component.strikes, strikes_[v]);
+                strikes_[v] = none;
+                vertices.push_back(v);
+            }
+    std::sort(vertices.begin(), vertices.end());
+    return component;
+}
+
+void Removal::unfold(Component component, std::vector<Fold>& left) {
+    Patch patch(map_, std::move(component.vertices));
+    int strikes = component.strikes;
+    for (const double weight : weights) {
+        if (patch.folded() == 0 || strikes >= options_.strikes || visits_ <= 0) break;
+        const int before = patch.folded();
+        const double visits = relax_.visits();
+        sweeps_ += patch.unfold(relax_, weight, options_.most_sweeps, visits_);
+        visits_ -= relax_.visits() - visits;
+        strikes = patch.folded() < before ? 0 : strikes + 1;
+    }
+    if (strikes >= options_.strikes) return;
+    for (const int f : patch.folded_faces()) left.push_back({f, strikes});
+}
+
 /// Folded faces that can move, ascending.
-std::vector<int> folded_faces(const SlidingMap& map, const VertexData<bool>& fixed) {
-    std::vector<int> folded;
+std::vector<Fold> folds_of(const SlidingMap& map, const VertexData<bool>& fixed) {
+    std::vector<Fold> folds;
     for (int f = 0; f < map.source().face_count(); ++f)
         if (marked_corners(map.source(), f, fixed) < 3 && map.is_mapped(f) &&
             map.image_triangle(f).D <= FoldRemoval::flat_limit)
-            folded.push_back(f);
-    return folded;
+            folds.push_back({f, 0});
+    return folds;
 }
 
 }  // namespace
 
 int FoldRemoval::operator()(SlidingMap& map, const VertexData<bool>& fixed) const {
-    int sweeps = 0;
-    double visits = most_visits * double(map.source().vertex_count());
-    std::uint32_t seed = 1;
-    for (const int ring_count : rings)
-        for (const double weight : weights) {
-            const std::vector<int> folded = folded_faces(map, fixed);
-            if (folded.empty()) return sweeps;
-            const std::vector<int> patch = patch_around(map, folded, ring_count, fixed);
-            const int allowed = int(std::min(double(most_sweeps), visits / double(patch.size() + 1)));
-            LocalRelaxation relax(map, seed++ * 2654435761u);
-            const int done = unfold_patch(map, relax, patch, weight, allowed);
-            sweeps += done;
-            visits -= double(done) * double(patch.size());
-        }
-    return sweeps;
+    const Timer timer("removal of folds");
+    std::vector<Fold> folds = folds_of(map, fixed);
+    return folds.empty() ? 0 : Removal(map, fixed, *this).run(std::move(folds));
 }
 
 }  // namespace varimap

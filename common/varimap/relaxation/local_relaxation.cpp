@@ -1,8 +1,8 @@
 #include "varimap/relaxation/local_relaxation.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "varimap/relaxation/face_energy.h"
@@ -12,37 +12,11 @@ namespace varimap {
 namespace {
 
 constexpr int backtracks = 7;
-constexpr double longest_step = 2;  ///< of a Newton step, in lengths of the vertex's longest source edge
-
-/// Gradient, Hessian and value of the energy of the faces around one vertex, in its tangent plane.
-struct Quadratic {
-    double value = 0, squared_longest_edge = 0;  ///< of the source
-    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-};
-
-void add_face(Quadratic& sum, const SlidingMap& map, const TangentFrame& frame, int f, int v,
-              const FoldEnergy& energy) {
-    const int i = map.corner_of(f, v), j = (i + 1) % 3, k = (i + 2) % 3;
-    const RestTriangle& rest = map.rest(f);
-    const ImageTriangle image = map.image_triangle(f);
-    const auto d = energy.derivatives(image.q, image.D);
-    const CornerGradient gradient = corner_gradient(map, f, i, image);
-    const Eigen::Vector2d q = frame.transpose() * gradient.q / rest.area;
-    const Eigen::Vector2d D = frame.transpose() * gradient.D / (2 * rest.area);
-    sum.value += rest.area * d.f;
-    sum.gradient += rest.area * (d.f_q * q + d.f_D * D);
-    sum.hessian += rest.area * gradient_products(q, D, d.f_qD, d.f_DD);
-    sum.hessian.diagonal().array() += d.f_q * (rest.cotangent[j] + rest.cotangent[k]);
-    const TriangleMesh& source = map.source();
-    for (const int corner : {j, k})
-        sum.squared_longest_edge =
-            std::max(sum.squared_longest_edge,
-                     (source.vertex(source.faces(f, corner)) - source.vertex(v)).squaredNorm());
-}
+constexpr double longest_step = 2;   ///< of a Newton step, in lengths of the vertex's longest source edge
+constexpr double noticeable = 1e-3;  ///< step, in the same lengths
 
 /// Newton's direction with the Hessian's eigenvalues made positive.
-Eigen::Vector2d descent(const Quadratic& quadratic) {
+Eigen::Vector2d descent(const Star::Quadratic& quadratic) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
     eigen.computeDirect(quadratic.hessian);
     const Eigen::Vector2d size = eigen.eigenvalues().cwiseAbs();
@@ -54,12 +28,83 @@ Eigen::Vector2d descent(const Quadratic& quadratic) {
 
 }  // namespace
 
+void Star::gather(const SlidingMap& map, int v) {
+    faces_.clear();
+    for (const int f : map.faces_of_vertex()[v]) {
+        if (!map.is_mapped(f)) continue;
+        const auto corners = map.source().faces.row(f);
+        const int i = map.corner_of(f, v), j = (i + 1) % 3, k = (i + 2) % 3;
+        const RestTriangle& rest = map.rest(f);
+        faces_.push_back({{rest.area, {rest.cotangent[i], rest.cotangent[j], rest.cotangent[k]}},
+                          map.image(corners[j]),
+                          map.image(corners[k]),
+                          map.normal(corners[j]) + map.normal(corners[k])});
+    }
+}
+
+Star::Quadratic Star::quadratic(const Vec3& x, const Vec3& normal, const TangentFrame& frame,
+                                const FoldEnergy& energy) const {
+    Quadratic sum;
+    for (const Face& face : faces_) {
+        const RestTriangle& rest = face.rest;
+        const ImageTriangle image = face.image(x, normal);
+        const auto d = energy.derivatives(image.q, image.D);
+        const double cj = rest.cotangent[1], ck = rest.cotangent[2];
+        // As corner_gradient (face_energy.h).
+        const Eigen::Vector2d q = frame.transpose() * (ck * (x - face.y) + cj * (x - face.z)) / rest.area;
+        const Eigen::Vector2d D = frame.transpose() * image.up.cross(face.z - face.y) / (2 * rest.area);
+        sum.value += rest.area * d.f;
+        sum.gradient += rest.area * (d.f_q * q + d.f_D * D);
+        sum.hessian += rest.area * gradient_products(q, D, d.f_qD, d.f_DD);
+        sum.hessian.diagonal().array() += d.f_q * (cj + ck);
+    }
+    return sum;
+}
+
+double Star::energy(const Vec3& x, const Vec3& normal, const FoldEnergy& energy, double limit) const {
+    double sum = 0;
+    for (const Face& face : faces_) {
+        if (sum >= limit) break;
+        const ImageTriangle image = face.image(x, normal);
+        sum += face.rest.area * energy.value(image.q, image.D);
+    }
+    return sum;
+}
+
+bool Star::has_reversed(const Vec3& x, const Vec3& normal) const {
+    for (const Face& face : faces_)
+        if (face.image(x, normal).D <= 0) return true;
+    return false;
+}
+
+bool Star::mean_of_others(Vec3& mean) const {
+    mean.setZero();
+    for (const Face& face : faces_) mean += face.y + face.z;
+    mean /= double(2 * faces_.size());
+    return !faces_.empty();
+}
+
 void LocalRelaxation::sweep(std::vector<int>& vertices, const FoldEnergy& energy, bool leap) {
     shuffle(vertices);
-    for (const int v : vertices) {
-        newton_step(v, energy);
-        if (leap && has_reversed_face(v)) leap_to_mean(v, energy);
-    }
+    for (const int v : vertices) visit(v, energy, leap);
+}
+
+void LocalRelaxation::sweep_restless(std::vector<int>& vertices, const FoldEnergy& energy) {
+    shuffle(vertices);
+    for (const int v : vertices)
+        if (!calm_[v]) visit(v, energy, false);
+}
+
+void LocalRelaxation::visit(int v, const FoldEnergy& energy, bool leap) {
+    const Vec3 before = map_.image(v);
+    star_.gather(map_, v);
+    newton_step(v, energy);
+    if (leap && star_.has_reversed(map_.image(v), map_.normal(v))) leap_to_mean(v, energy);
+    ++visits_;
+    calm_[v] = !((map_.image(v) - before).norm() > noticeable * map_.longest_edge(v));
+    if (calm_[v]) return;
+    for (const int f : map_.faces_of_vertex()[v])
+        for (int k = 0; k < 3; ++k) calm_[map_.source().faces(f, k)] = false;
 }
 
 /// Fisher-Yates with xorshift numbers, the same everywhere.
@@ -72,48 +117,36 @@ void LocalRelaxation::shuffle(std::vector<int>& vertices) {
     }
 }
 
-bool LocalRelaxation::has_reversed_face(int v) const {
-    for (const int f : map_.faces_of_vertex()[v])
-        if (map_.is_mapped(f) && map_.image_triangle(f).D <= 0) return true;
-    return false;
-}
-
-bool LocalRelaxation::try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy) {
-    const SurfacePoint old = map_.point(v);
-    map_.move(v, step);
-    if (total_energy(map_, map_.faces_of_vertex()[v], energy, before) < before) return true;
-    map_.place(v, old);
-    return false;
+/// Leaves the vertex where the walk led if that has less energy; else where it may be anything.
+bool LocalRelaxation::try_walk(int v, const SurfacePoint& from, const Vec3& step, double before,
+                               const FoldEnergy& energy) {
+    map_.place(v, map_.walk(from, step));
+    return star_.energy(map_.image(v), map_.normal(v), energy, before) < before;
 }
 
 void LocalRelaxation::newton_step(int v, const FoldEnergy& energy) {
-    const auto frame = map_.tangents(v);
-    Quadratic quadratic;
-    for (const int f : map_.faces_of_vertex()[v])
-        if (map_.is_mapped(f)) add_face(quadratic, map_, frame, f, v, energy);
+    const TangentFrame& frame = map_.tangents(v);
+    const Star::Quadratic quadratic = star_.quadratic(map_.image(v), map_.normal(v), frame, energy);
     Vec3 step = frame * descent(quadratic);
-    const double length = step.norm(), limit = longest_step * std::sqrt(quadratic.squared_longest_edge);
+    const double length = step.norm(), limit = longest_step * map_.longest_edge(v);
     if (!(length > 1e-12)) return;
     if (length > limit) step *= limit / length;
+    const SurfacePoint start = map_.point(v);
     for (int i = 0; i <= backtracks; ++i, step /= 2)
-        if (try_walk(v, step, quadratic.value, energy)) return;
+        if (try_walk(v, start, step, quadratic.value, energy)) return;
+    map_.place(v, start);
 }
 
 void LocalRelaxation::leap_to_mean(int v, const FoldEnergy& energy) {
-    Vec3 mean = Vec3::Zero();
-    int count = 0;
-    for (const int f : map_.faces_of_vertex()[v])
-        for (int k = 0; k < 3; ++k) {
-            const int other = map_.source().faces(f, k);
-            if (other == v || !map_.has_image(other)) continue;
-            mean += map_.image(other);
-            ++count;
-        }
-    if (count == 0) return;
-    const Vec3 step = mean / count - map_.image(v);
-    const double before = total_energy(map_, map_.faces_of_vertex()[v], energy);
+    Vec3 mean;
+    if (!star_.mean_of_others(mean)) return;
+    const Vec3 step = mean - map_.image(v);
+    const SurfacePoint start = map_.point(v);
+    const double before =
+        star_.energy(map_.image(v), map_.normal(v), energy, std::numeric_limits<double>::infinity());
     for (const double share : {1.0, 0.5, 0.25, 2.0})
-        if (try_walk(v, share * step, before, energy)) return;
+        if (try_walk(v, start, share * step, before, energy)) return;
+    map_.place(v, start);
 }
 
 }  // namespace varimap

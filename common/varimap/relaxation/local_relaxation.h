@@ -7,27 +7,71 @@
 
 namespace varimap {
 
+/// The mapped faces around a vertex, with what of them does not depend on the vertex's own image: gathered
+/// once for all the places that are tried for it.
+class Star {
+  public:
+    /// Gradient, Hessian and value of the faces' energy, in the vertex's tangent plane.
+    struct Quadratic {
+        double value = 0;
+        Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+        Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+    };
+
+    void gather(const SlidingMap& map, int v);
+    /// Of the vertex at that image, with the target's normal (not of unit length) there.
+    Quadratic quadratic(const Vec3& image, const Vec3& normal, const TangentFrame& frame,
+                        const FoldEnergy& energy) const;
+    /// Once it gets to `limit`, faces that follow are left out.
+    double energy(const Vec3& image, const Vec3& normal, const FoldEnergy& energy, double limit) const;
+    bool has_reversed(const Vec3& image, const Vec3& normal) const;
+    /// Mean of the other corners' images, each as often as it occurs; false where there are none.
+    bool mean_of_others(Vec3& mean) const;
+
+  private:
+    struct Face {
+        RestTriangle rest;  ///< beginning at the vertex
+        Vec3 y, z, normal;  ///< images of the corners after it, sum of the target's normals there
+        ImageTriangle image(const Vec3& x, const Vec3& n) const {
+            return {rest, x, y, z, (n + normal).normalized()};
+        }
+    };
+    std::vector<Face> faces_;
+};
+
 /// Block-coordinate descent of the fold energy: vertices in random order (fixed seed), each by one Newton
 /// step in the tangent plane of its image with up to 7 backtracks, every trial a straightest walk judged by
 /// the true energy of the vertex's faces, which therefore never grows.
 class LocalRelaxation {
   public:
-    LocalRelaxation(SlidingMap& map, std::uint32_t seed) : map_(map), state_(seed) {}
+    LocalRelaxation(SlidingMap& map, std::uint32_t seed)
+        : map_(map), state_(seed), calm_(map.source().vertex_count()) {}
 
     /// One visit of every vertex of `vertices` (none may be a landmark or without an image); reorders them.
     /// With `leap`, vertices with a reversed face also try the mean of their neighbours' images, and walks
     /// towards it.
     void sweep(std::vector<int>& vertices, const FoldEnergy& energy, bool leap);
+    /// Visits only those that moved noticeably when they were last visited, or had a neighbour that did
+    /// since.
+    void sweep_restless(std::vector<int>& vertices, const FoldEnergy& energy);
+    /// From now on they count as having moved.
+    void wake(const std::vector<int>& vertices) {
+        for (const int v : vertices) calm_[v] = false;
+    }
+    double visits() const { return visits_; }
 
   private:
     void shuffle(std::vector<int>& vertices);
+    void visit(int v, const FoldEnergy& energy, bool leap);
     void newton_step(int v, const FoldEnergy& energy);
     void leap_to_mean(int v, const FoldEnergy& energy);
-    bool try_walk(int v, const Vec3& step, double before, const FoldEnergy& energy);
-    bool has_reversed_face(int v) const;
+    bool try_walk(int v, const SurfacePoint& from, const Vec3& step, double before, const FoldEnergy& energy);
 
     SlidingMap& map_;
     std::uint32_t state_;
+    VertexData<bool> calm_;
+    double visits_ = 0;  ///< so far
+    Star star_;          ///< of the vertex under visit
 };
 
 }  // namespace varimap

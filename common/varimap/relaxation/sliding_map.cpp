@@ -1,8 +1,35 @@
 #include "varimap/relaxation/sliding_map.h"
 
+#include <algorithm>
+
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {
+
+namespace {
+
+VertexData<double> longest_edges(const TriangleMesh& mesh) {
+    VertexData<double> longest(mesh.vertex_count(), 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = mesh.faces(f, k), b = mesh.faces(f, (k + 1) % 3);
+            const double length = (mesh.vertex(a) - mesh.vertex(b)).norm();
+            for (const int v : {a, b}) longest[v] = std::max(longest[v], length);
+        }
+    return longest;
+}
+
+FaceData<TangentFrame> tangent_frames(const TriangleMesh& mesh) {
+    FaceData<TangentFrame> frames(mesh.face_count());
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 edge = mesh.vertex(mesh.faces(f, 1)) - mesh.vertex(mesh.faces(f, 0));
+        frames[f].col(0) = edge.normalized();
+        frames[f].col(1) = face_normal(mesh, f).normalized().cross(frames[f].col(0));
+    }
+    return frames;
+}
+
+}  // namespace
 
 SlidingMap::SlidingMap(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target)
     : source_(unit_area(source)),
@@ -10,6 +37,8 @@ SlidingMap::SlidingMap(const PointMap& map, const TriangleMesh& source, const Tr
       normals_{vertex_normals(target_), target_.faces},
       rest_(rest_triangles(source_)),
       faces_of_vertex_(vertex_faces(source_)),
+      longest_edge_(longest_edges(source_)),
+      frames_(tangent_frames(target_)),
       walk_(target_),
       points_(int(map.size())),
       image_(points_.size(), Vec3::Zero()),
@@ -32,15 +61,6 @@ Vec3 SlidingMap::mean_normal(int f) const {
 ImageTriangle SlidingMap::image_triangle(int f) const {
     return {rest(f), image(source_.faces(f, 0)), image(source_.faces(f, 1)), image(source_.faces(f, 2)),
             mean_normal(f)};
-}
-
-TangentFrame SlidingMap::tangents(int v) const {
-    const int face = points_[v].face;
-    const Vec3 edge = target_.vertex(target_.faces(face, 1)) - target_.vertex(target_.faces(face, 0));
-    TangentFrame frame;
-    frame.col(0) = edge.normalized();
-    frame.col(1) = face_normal(target_, face).normalized().cross(frame.col(0));
-    return frame;
 }
 
 }  // namespace varimap

@@ -42,7 +42,9 @@ class SlidingMap {
     Vec3 mean_normal(int f) const;
     ImageTriangle image_triangle(int f) const;
     /// Of the target's face that holds the image.
-    TangentFrame tangents(int v) const;
+    const TangentFrame& tangents(int v) const { return frames_[points_[v].face]; }
+    /// Length of the longest of a vertex's edges on the source.
+    double longest_edge(int v) const { return longest_edge_[v]; }
     /// Walks a vertex's image along a tangent vector, from where it is.
     void move(int v, const Vec3& step) { place(v, walk_(points_[v], step)); }
     void place(int v, const SurfacePoint& point);
@@ -61,6 +63,8 @@ class SlidingMap {
     TriangleMesh source_, target_, normals_;  ///< normals_: the target's, as a mesh to interpolate on
     FaceData<RestTriangle> rest_;
     Adjacency faces_of_vertex_;
+    VertexData<double> longest_edge_;
+    FaceData<TangentFrame> frames_;  ///< of the target
     SurfaceWalk walk_;
     VertexData<SurfacePoint> points_;
     VertexData<Vec3> image_, normal_;
