@@ -13,7 +13,8 @@ namespace {
 
 constexpr int relaxed_rings = 4;  ///< behind the front
 constexpr int sweeps_per_ring = 2;
-constexpr int rings_per_step = 3;  ///< between relaxations of all that has been placed
+/// What has been placed is relaxed as a whole whenever it has grown by this since.
+constexpr double growth = 1.25;
 const FoldEnergy front_energy{1, 0.3};
 const RobustEnergy robust_energy{front_energy, 1};
 
@@ -94,8 +95,8 @@ class Front {
         std::vector<int> band = last_rings();
         for (int s = 0; s < sweeps_per_ring; ++s) relaxation_.sweep(band, front_energy, false);
         for (const int v : rings_.back()) held_[v] = false;
-        if (int(rings_.size()) % rings_per_step == 0 || missing_.empty())
-            GlobalRelaxation(map_, held_).step(robust_energy);
+        placed_ += double(rings_.back().size());
+        if (placed_ > growth * relaxed_ || missing_.empty()) relax_all();
         return true;
     }
     const std::vector<int>& missing() const { return missing_; }
@@ -115,6 +116,10 @@ class Front {
         std::erase_if(missing_, [&](int v) { return map_.has_image(v); });
         return true;
     }
+    void relax_all() {
+        GlobalRelaxation(map_, held_).step(robust_energy);
+        relaxed_ = placed_;
+    }
     std::vector<int> last_rings() const {
         std::vector<int> band;
         for (int r = std::max(0, int(rings_.size()) - relaxed_rings); r < int(rings_.size()); ++r)
@@ -128,6 +133,7 @@ class Front {
     VertexData<bool> held_;  ///< all but what has been placed
     LocalRelaxation relaxation_;
     std::vector<std::vector<int>> rings_;
+    double placed_ = 0, relaxed_ = 0;  ///< vertices; relaxed_: as a whole
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/triangle_system.h"
 
@@ -15,7 +16,8 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr double least_share = 1.0 / 64;  ///< of a step; swept: 0.002 to 1/16
 /// Of one vertex, in units of sqrt(area). Swept: from 0.02; at 0.2 a branch point is left.
 constexpr double longest_step = 0.05;
-constexpr double shift = 1e-8;  ///< of the diagonal, relative; swept: 1e-10 to 1e-6
+constexpr double half_step = 0.75;  ///< share of a Newton step's fall that half of it has
+constexpr double shift = 1e-8;      ///< of the diagonal, relative; swept: 1e-10 to 1e-6
 
 /// A tangent frame turned into the plane with unit normal `up` the shortest way.
 TangentFrame turned(const TangentFrame& frame, const Vec3& up) {
@@ -82,7 +84,7 @@ struct GlobalRelaxation::State {
     void place(const PointMap& images);
     void set_steps(const Eigen::VectorXd& direction);
     void walk(double share);
-    PointMap best_images(const RobustEnergy& energy, double before, double& best);
+    PointMap best_images(const RobustEnergy& energy, double before, double promised, double& best);
     double total(const RobustEnergy& energy) const;
 };
 
@@ -194,8 +196,10 @@ void GlobalRelaxation::State::walk(double share) {
 }
 
 /// Images after the best share of the step, the start where none is better than `before`. Curved targets make
-/// full steps overshoot: the share is halved for as long as that helps.
-PointMap GlobalRelaxation::State::best_images(const RobustEnergy& energy, double before, double& best) {
+/// full steps overshoot: the share is halved for as long as that helps, unless the full step wins what half
+/// of it could, of the `promised` fall.
+PointMap GlobalRelaxation::State::best_images(const RobustEnergy& energy, double before, double promised,
+                                              double& best) {
     best = before;
     PointMap result = start;
     for (double share = 1; share >= least_share; share /= 2) {
@@ -206,6 +210,7 @@ PointMap GlobalRelaxation::State::best_images(const RobustEnergy& energy, double
             best = after;
             result = images();
         }
+        if (before - best >= half_step * promised) break;
     }
     return result;
 }
@@ -220,15 +225,16 @@ void GlobalRelaxation::set_constraints(const std::vector<SoftConstraint>& constr
 }
 
 double GlobalRelaxation::step(const RobustEnergy& energy) {
+    const Timer timer("global steps");
     State& s = *state_;
     s.assemble(energy);
     if (!s.system->factorize()) return 0;
     const Eigen::VectorXd direction = -s.system->solve(s.gradient);
     if (!direction.allFinite()) return 0;
     s.set_steps(direction);
-    const double before = s.total(energy);
+    const double before = s.total(energy), promised = -s.gradient.dot(direction) / 2;
     double best;
-    s.place(s.best_images(energy, before, best));
+    s.place(s.best_images(energy, before, promised, best));
     return before > 0 ? 1 - best / before : 0;
 }
 

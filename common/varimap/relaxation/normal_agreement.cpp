@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "varimap/core/parallel.h"
+#include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 
@@ -60,6 +61,7 @@ std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& face
 }
 
 std::vector<int> NormalAgreement::disagreeing_faces() const {
+    const Timer timer("normals");
     std::vector<int> all(map_.source().face_count());
     std::iota(all.begin(), all.end(), 0);
     return disagreeing_among(all);
@@ -107,6 +109,7 @@ bool NormalAgreement::search(int v) {
 }
 
 std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const VertexData<bool>& fixed) {
+    const Timer timer("normals");
     for (int pass = 0; pass < passes && !disagreeing.empty(); ++pass) {
         std::vector<int> vertices;
         for (const int f : disagreeing)

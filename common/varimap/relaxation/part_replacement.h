@@ -50,7 +50,8 @@ class PartReplacement {
     using Proposals = std::function<std::vector<Proposal>(const VertexData<bool>& open)>;
     void replace_parts(const Proposals& proposals);
     bool replace_part(const std::vector<int>& part, const Proposals& proposals);
-    bool try_part(const OpenPart& part, const Proposals& proposals);
+    /// 0 if the part was mapped anew; else how near to the energy to beat a proposal came (part_trial.h).
+    double try_part(const OpenPart& part, const Proposals& proposals);
     void judge_by(const PointMap& back, double weight);
 
     SlidingMap& map_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 
@@ -10,13 +11,16 @@ namespace varimap {
 namespace {
 
 constexpr int relaxation_steps = 4;
+/// Share of the energy that a step must win to be followed by another.
+constexpr double least_gain = 0.01;
 const RobustEnergy relaxed_energy{judged_energy, 0.3};
 /// Of an alternative, so of what it is compared with: or it wins by being relaxed.
 constexpr int relaxations = 2;
 constexpr int fold_sweeps = 40;
 constexpr double fold_visits = 60;  ///< of a part's vertices, in the mean
-constexpr double promising = 1.5;   ///< times the energy to beat, after folds were removed once
-constexpr double hopeless = 4;      ///< times the energy to beat, before folds are removed
+constexpr int fold_strikes = 2;
+constexpr double promising = 1.3;  ///< times the energy to beat, after folds were removed once
+constexpr double hopeless = 2.5;   ///< times the energy to beat, before folds are removed
 /// Area of the target that an alternative may leave: the most of so many mean vertices' areas, and the least
 /// of a share of the part's area and a share of the surface's.
 constexpr double lost_vertices = 12, lost_share = 0.5, lost_most = 0.035;
@@ -58,7 +62,9 @@ bool PartTrial::run(const Proposal& propose) {
         relax();
     }
     if (energy() < promising * energy_to_beat_) remove_folds();
-    if (energy() < energy_to_beat_ && covers_as_much()) return true;
+    const double reached = energy();
+    if (reached < energy_to_beat_ && covers_as_much()) return true;
+    nearest_ = std::min(nearest_, reached / energy_to_beat_);
     restore();
     return false;
 }
@@ -69,13 +75,16 @@ void PartTrial::restore() {
 }
 
 void PartTrial::relax() {
-    for (int step = 0; step < relaxation_steps; ++step) global_->step(relaxed_energy);
+    const Timer timer("parts, global steps");
+    for (int step = 0; step < relaxation_steps; ++step)
+        if (global_->step(relaxed_energy) < least_gain) return;
 }
 
 void PartTrial::remove_folds() {
+    const Timer timer("parts, removal of folds");
     const double share =
         double(std::count(part_.held.begin(), part_.held.end(), 0)) / double(part_.held.size());
-    FoldRemoval{fold_sweeps, fold_visits * share}(context_.map, part_.held);
+    FoldRemoval{fold_sweeps, fold_visits * share, fold_strikes}(context_.map, part_.held);
 }
 
 double PartTrial::tolerated_loss() const {

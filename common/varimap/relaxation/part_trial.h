@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -51,6 +52,8 @@ class PartTrial {
     void set_standard();
     /// Maps the part as proposed; true if that was kept.
     bool run(const Proposal& propose);
+    /// Of the proposals so far, the least energy / the energy to beat.
+    double nearest() const { return nearest_; }
 
   private:
     void relax();
@@ -65,7 +68,7 @@ class PartTrial {
     PointMap before_;
     std::vector<SoftConstraint> constraints_;  ///< of the part's faces
     std::unique_ptr<GlobalRelaxation> global_;
-    double energy_to_beat_ = 0;
+    double energy_to_beat_ = 0, nearest_ = std::numeric_limits<double>::infinity();
     std::vector<char> occupied_before_;  ///< cells of the target
 };
 
