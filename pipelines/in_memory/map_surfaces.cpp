@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "stages/coarsen/coarsen.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/explore.h"
 #include "stages/explore/params.h"
@@ -16,12 +17,14 @@ namespace varimap {
 namespace {
 
 /// The stages of one surface.
-SurfaceData surface_data(const TriangleMesh& input, const char* name, bool mirror) {
+SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapOptions& options,
+                         bool mirror) {
     require_manifold(input, name);
     PreprocessParams params;
     params.mirror = mirror;
     SurfaceData data;
     data.surface = preprocess(input, params);
+    if (!options.full_resolution) data.surface = coarsened(std::move(data.surface), CoarsenParams{});
     data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
     data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
     return data;
@@ -34,13 +37,15 @@ std::optional<Candidates> found_candidates(const PairContext& context, const Map
 }
 
 /// The stages that solve for a plan.
-Plan solve(const PairContext& context, const MapOptions& options) {
+Plan solve(const PairContext& context, const PointPairs& landmark_points, const MapOptions& options) {
     DiffuseParams coarse;
     coarse.candidate = options.candidate;
     coarse.landmark_weight = options.landmark_weight;
     RefineParams fine;
     coarse.alternation.area_bound = fine.alternation.area_bound = options.area_bound;
-    return refine(context, diffuse(context, coarse, found_candidates(context, options)), fine);
+    Diffusion diffusion = diffuse(context, coarse, found_candidates(context, options));
+    diffusion.record.landmark_points = landmark_points;
+    return refine(context, diffusion, fine);
 }
 
 DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
@@ -58,11 +63,13 @@ void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
 }  // namespace
 
 MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options) {
-    SurfaceData data_A = surface_data(A, "A", options.mirror), data_B = surface_data(B, "B", false);
+    SurfaceData data_A = surface_data(A, "A", options, options.mirror),
+                data_B = surface_data(B, "B", options, false);
     const auto landmarks = to_mesh_vertices(options.landmarks, data_A.surface, data_B.surface);
+    const PointPairs points = landmark_points({options.landmarks, {}}, data_A.surface, data_B.surface);
     const PairContext context(std::move(data_A), std::move(data_B), landmarks, options.landmark_weight);
     const Surface &surface_A = context.A().surface, &surface_B = context.B().surface;
-    const Plan plan = solve(context, options);
+    const Plan plan = solve(context, points, options);
     SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);

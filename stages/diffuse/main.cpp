@@ -45,10 +45,11 @@ int main(int argc, char** argv) {
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
+        PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context(std::move(A), std::move(B), std::move(vertices), params.landmark_weight);
         const auto candidates = read_candidates(stage, inputs, candidates_in);
         Diffusion diffusion = diffuse(context, params, candidates);
-        diffusion.record.landmark_points = landmarks.points;
+        diffusion.record.landmark_points = std::move(points);
         report(diffusion.record.landmark_checks);
         stage.record_number("levels", diffusion.trace.back().level + 1);
         stage.record_number("alternations", double(diffusion.trace.size()));

@@ -64,9 +64,10 @@ PointMap preview(const Trial& trial, const LevelPair& pair, const PairContext& c
     const std::vector<int> image = vertex_images(pair.B, pair.A, trial.solution.step.column_image,
                                                  largest_of_columns(trial.solution.plan), context.graph_A());
     const Surface &A = context.A().surface, &B = context.B().surface;
-    PointMap map(B.vertex_of_input.size());
+    PointMap map(B.on_mesh.size());
     for (size_t v = 0; v < map.size(); ++v)
-        if (B.vertex_of_input[v] >= 0) map[v] = A.on_input[image[B.vertex_of_input[v]]];
+        if (const MeshVertex vertex = mesh_vertex_at(B, {int(v)}); vertex.index >= 0)
+            map[v] = A.on_input[image[vertex.index]];
     return between_input_and_file(std::move(map), A);
 }
 

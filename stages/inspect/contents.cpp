@@ -37,7 +37,7 @@ void visit(const Surface& surface, ContentsVisitor& visitor) {
     visitor.mesh("mesh", surface.mesh);
     visitor.mesh("input", surface.input);
     visitor.array("mass", view(surface.mass));
-    visitor.array("vertex_of_input", view(surface.vertex_of_input));
+    visit_points("on_mesh", surface.on_mesh, visitor);
     visitor.array("input_face", view(surface.input_face));
     visit_points("on_input", surface.on_input, visitor);
 }

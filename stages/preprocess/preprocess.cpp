@@ -15,23 +15,31 @@
 namespace varimap {
 namespace {
 
-/// Fills vertex_of_input, centre and scale, and returns the used vertices, normalised, with their faces.
-TriangleMesh normalise(const TriangleMesh& input, Surface& surface) {
+/// The used vertices of the input, normalised, with their faces.
+struct Normalised {
+    TriangleMesh mesh;
+    std::vector<int> vertex_of_input;  ///< -1 where no face uses it
+};
+
+/// Fills centre and scale.
+Normalised normalise(const TriangleMesh& input, Surface& surface) {
     surface.centre = area_centroid(input);
     surface.scale = 1 / std::sqrt(surface_area(input));
-    surface.vertex_of_input.assign(input.vertex_count(), -1);
-    for (int s = 0; s < 3 * input.face_count(); ++s) surface.vertex_of_input[input.faces.data()[s]] = 0;
-    TriangleMesh mesh;
+    Normalised result;
+    std::vector<int>& vertex_of_input = result.vertex_of_input;
+    vertex_of_input.assign(input.vertex_count(), -1);
+    for (int s = 0; s < 3 * input.face_count(); ++s) vertex_of_input[input.faces.data()[s]] = 0;
+    TriangleMesh& mesh = result.mesh;
     mesh.vertices.resize(input.vertex_count(), 3);
     int used = 0;
     for (int v = 0; v < input.vertex_count(); ++v) {
-        if (surface.vertex_of_input[v] < 0) continue;
+        if (vertex_of_input[v] < 0) continue;
         mesh.vertices.row(used) = ((input.vertex(v) - surface.centre) * surface.scale).transpose();
-        surface.vertex_of_input[v] = used++;
+        vertex_of_input[v] = used++;
     }
     mesh.vertices.conservativeResize(used, 3);
-    mesh.faces = input.faces.unaryExpr([&](int v) { return surface.vertex_of_input[v]; });
-    return mesh;
+    mesh.faces = input.faces.unaryExpr([&](int v) { return vertex_of_input[v]; });
+    return result;
 }
 
 void log_edge_lengths(const char* when, const TriangleMesh& mesh) {
@@ -63,15 +71,15 @@ void require_no_thin_faces(const Repair& repair) {
 }
 
 /// The used vertices without thin faces. vertex_of_input leads to what is left.
-Repair repaired(const TriangleMesh& normalised, Surface& surface) {
-    Repair repair = remove_thin_faces(normalised, thinnest_face);
+Repair repaired(Normalised& normalised) {
+    Repair repair = remove_thin_faces(normalised.mesh, thinnest_face);
     require_no_thin_faces(repair);
     if (repair.collapsed + repair.turned == 0) return repair;
     warn(
         "{} sides were collapsed and {} turned to remove faces without area; {} vertices are mapped as "
         "others are",
-        repair.collapsed, repair.turned, normalised.vertex_count() - repair.mesh.vertex_count());
-    for (int& vertex : surface.vertex_of_input)
+        repair.collapsed, repair.turned, normalised.mesh.vertex_count() - repair.mesh.vertex_count());
+    for (int& vertex : normalised.vertex_of_input)
         if (vertex >= 0) vertex = repair.vertex[vertex];
     return repair;
 }
@@ -88,12 +96,15 @@ SurfacePoint before_repair(const SurfacePoint& point, const Repair& repair, cons
     return result;
 }
 
-/// Fills input_face and on_input, through the repair.
-void record_way_back(const Bisection& bisection, const Repair& repair, Surface& surface) {
+/// Fills on_mesh, input_face and on_input, through the repair.
+void record_ways(const Bisection& bisection, const Repair& repair, const std::vector<int>& vertex_of_input,
+                 Surface& surface) {
+    const PointMap at_vertices = points_at_vertices(bisection.mesh);
+    for (const int v : vertex_of_input) surface.on_mesh.push_back(v < 0 ? SurfacePoint{} : at_vertices[v]);
     PointMap corner_on_input(repair.mesh.vertex_count());
     for (int f = surface.input.face_count() - 1; f >= 0; --f)
         for (int c = 2; c >= 0; --c)
-            corner_on_input[surface.vertex_of_input[surface.input.faces(f, c)]] = {f, Vec3::Unit(c)};
+            corner_on_input[vertex_of_input[surface.input.faces(f, c)]] = {f, Vec3::Unit(c)};
     for (const int f : bisection.origin) surface.input_face.push_back(repair.origin[f]);
     for (const SurfacePoint& point : bisection.on_origin)
         surface.on_input.push_back(before_repair(point, repair, corner_on_input, surface.input));
@@ -142,18 +153,19 @@ double target_edge_length(const PreprocessParams& params, int used_vertices) {
 Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
     Surface surface;
     surface.input = input;
-    const TriangleMesh normalised = normalise(input, surface);
+    Normalised used = normalise(input, surface);
+    const TriangleMesh& normalised = used.mesh;
     const TopologySummary topology = summarise_topology(normalised);
     log("genus {}, {} boundary loops, {} unused vertices", topology.genus, topology.boundary_loops,
         input.vertex_count() - normalised.vertex_count());
     log_edge_lengths("input", normalised);
 
-    const Repair repair = repaired(normalised, surface);
+    const Repair repair = repaired(used);
     const double target = target_edge_length(params, normalised.vertex_count());
     const Bisection bisection =
         bisect_longest_edges(repair.mesh, target, most_vertices(params, normalised.vertex_count()));
     report_end(bisection, target, input, params);
-    record_way_back(bisection, repair, surface);
+    record_ways(bisection, repair, used.vertex_of_input, surface);
     surface.mesh = bisection.mesh;
     surface.mass = voronoi_masses(surface.mesh);
     if (params.mirror) surface = with_reversed_orientation(std::move(surface));

@@ -1,9 +1,10 @@
 #include "stages/relax/relax.h"
 
-#include <algorithm>
-
 #include "varimap/core/log.h"
+#include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/input_locator.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -11,56 +12,102 @@ namespace {
 
 /// Share of input vertices below which the preprocessed surfaces are untangled first.
 constexpr double coarse_input = 0.5;
+/// Over a map that was carried over from the meshes to the inputs.
+constexpr int fine_sweeps = 5;
+
+/// Whether mesh and input differ in resolution, so that the map is untangled on the meshes first.
+bool is_apart(const Surface& surface) {
+    return surface.input_face.empty() ||
+           double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
+}
+
+/// Images of the mesh's vertices carried over to the input's: linear on the mesh's faces, closest points
+/// there.
+class Prolongation {
+  public:
+    Prolongation(const PointMap& images, const Surface& source, const Surface& target)
+        : images_(images),
+          source_(source),
+          target_(target),
+          locate_(target),
+          normals_{vertex_normals(target.mesh), target.mesh.faces} {}
+
+    SurfacePoint operator()(int input_vertex) const {
+        const SurfacePoint& at = source_.on_mesh[std::size_t(input_vertex)];
+        if (at.face < 0) return {};
+        if (const int v = vertex_of(source_.mesh, at); v >= 0) return locate_(images_[std::size_t(v)]);
+        Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const SurfacePoint& image = images_[std::size_t(source_.mesh.faces(at.face, k))];
+            x += at.barycentric[k] * position(target_.mesh, image);
+            normal += at.barycentric[k] * position(normals_, image);
+        }
+        return locate_(x, normal);
+    }
+
+  private:
+    const PointMap& images_;
+    const Surface &source_, &target_;
+    InputLocator locate_;
+    TriangleMesh normals_;  ///< the target's, as a mesh to interpolate on
+};
 
 PointMap on_input(const PointMap& images, const Surface& source, const Surface& target) {
-    PointMap map(source.vertex_of_input.size());
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        const int vertex = source.vertex_of_input[i];
-        if (vertex >= 0) map[i] = to_input(target, images[std::size_t(vertex)]);
-    }
+    PointMap map(source.on_mesh.size());
+    const Prolongation prolongation(images, source, target);
+    parallel_for_each_index(int(map.size()), 64, [&](int i) { map[std::size_t(i)] = prolongation(i); });
     return map;
 }
 
-/// Per input vertex, what `marks` says of the mesh vertex it became.
-std::vector<char> on_input(const std::vector<char>& marks, const Surface& surface) {
-    std::vector<char> input(surface.vertex_of_input.size(), 0);
-    for (std::size_t i = 0; i < input.size(); ++i)
-        if (surface.vertex_of_input[i] >= 0) input[i] = marks[std::size_t(surface.vertex_of_input[i])];
-    return input;
+PinnedPair none_pinned(const TriangleMesh& A, const TriangleMesh& B) {
+    return {VertexData<bool>(A.vertex_count()), VertexData<bool>(B.vertex_count())};
 }
 
-bool is_coarse(const Surface& surface) {
-    return double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
-}
-
-PinnedPair pinned_vertices(const PairRecord& record, const Surface& A, const Surface& B) {
-    PinnedPair pinned{std::vector<char>(std::size_t(A.mesh.vertex_count()), 0),
-                      std::vector<char>(std::size_t(B.mesh.vertex_count()), 0)};
+/// Landmarks on the surfaces' meshes; those between vertices are drawn onto each other.
+PinnedPair pinned_on_meshes(const PairRecord& record, const Surface& A, const Surface& B) {
+    PinnedPair pinned = none_pinned(A.mesh, B.mesh);
     if (!record.pins_landmarks()) return pinned;
-    for (const auto& [a, b] : record.landmarks)
-        pinned.A[std::size_t(a.index)] = pinned.B[std::size_t(b.index)] = 1;
+    if (record.landmark_points.empty()) {
+        for (const auto& [a, b] : record.landmarks) pinned.A[a.index] = pinned.B[b.index] = true;
+        return pinned;
+    }
+    const ClosestPoint on_A(A.mesh), on_B(B.mesh);
+    const auto moved = [](const Surface& surface, const SurfacePoint& point, const ClosestPoint& closest) {
+        Vec3 x = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const int corner = surface.input.faces(point.face, k);
+            x += point.barycentric[k] * position(surface.mesh, surface.on_mesh[std::size_t(corner)]);
+        }
+        return closest(x).point;
+    };
+    for (const auto& [a, b] : record.landmark_points)
+        pinned.points.emplace_back(moved(A, a, on_A), moved(B, b, on_B));
     return pinned;
 }
 
-/// Landmarks that are points lie between vertices: none of these is where its image has to be.
-PinnedPair with_points(PinnedPair vertices, const PointPairs& points, const PairRecord& record) {
-    if (!record.pins_landmarks() || points.empty()) return vertices;
-    std::fill(vertices.A.begin(), vertices.A.end(), 0);
-    std::fill(vertices.B.begin(), vertices.B.end(), 0);
-    vertices.points = points;
-    return vertices;
+/// Pins both vertices of a landmark on the inputs to each other.
+void pin(int a, int b, const Surface& A, const Surface& B, MapPair& maps, PinnedPair& pinned) {
+    maps.A_to_B[std::size_t(a)] = point_at_vertex(B.input, b);
+    maps.B_to_A[std::size_t(b)] = point_at_vertex(A.input, a);
+    pinned.A[a] = pinned.B[b] = true;
 }
 
-/// Points of the inputs as points of the preprocessed meshes.
-PointPairs on_meshes(const PointPairs& points, const Surface& A, const Surface& B) {
-    if (points.empty()) return {};
-    const ClosestPoint on_A(A.mesh), on_B(B.mesh);
-    const auto moved = [](const Surface& surface, const SurfacePoint& point, const ClosestPoint& closest) {
-        return closest((position(surface.input, point) - surface.centre) * surface.scale).point;
-    };
-    PointPairs result;
-    for (const auto& [a, b] : points) result.emplace_back(moved(A, a, on_A), moved(B, b, on_B));
-    return result;
+/// Landmarks on the inputs: vertices that are pinned, with their images, and points that are drawn.
+PinnedPair pin_on_inputs(const PairRecord& record, const Surface& A, const Surface& B, MapPair& maps) {
+    PinnedPair pinned = none_pinned(A.input, B.input);
+    if (!record.pins_landmarks()) return pinned;
+    PointPairs points = record.landmark_points;
+    if (points.empty())
+        for (const auto& [a, b] : record.landmarks)
+            points.emplace_back(A.on_input[std::size_t(a.index)], B.on_input[std::size_t(b.index)]);
+    for (const auto& [from, to] : points) {
+        const int a = vertex_of(A.input, from), b = vertex_of(B.input, to);
+        if (a >= 0 && b >= 0)
+            pin(a, b, A, B, maps, pinned);
+        else
+            pinned.points.emplace_back(from, to);
+    }
+    return pinned;
 }
 
 void log_untangling(const char* name, const UntanglingReport& report) {
@@ -82,18 +129,16 @@ void log_untangling(const char* name, const UntanglingReport& report) {
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
                  const RelaxParams& params) {
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
-    const PinnedPair pinned = pinned_vertices(record, A, B);
     UntanglingOptions options = params.untangling;
-    if (is_coarse(A) || is_coarse(B)) {
-        const PointPairs points = on_meshes(record.landmark_points, A, B);
-        untangle(maps, A.mesh, B.mesh, with_points(pinned, points, record), options);
+    if (is_apart(A) || is_apart(B)) {
+        untangle(maps, A.mesh, B.mesh, pinned_on_meshes(record, A, B), options);
         options.global_steps = 0;
+        options.local_sweeps = fine_sweeps;
         options.replace_parts = false;
     }
-    const PinnedPair pinned_input =
-        with_points({on_input(pinned.A, A), on_input(pinned.B, B)}, record.landmark_points, record);
     MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
-    const UntanglingReports reports = untangle(inputs, A.input, B.input, pinned_input, options);
+    const PinnedPair pinned = pin_on_inputs(record, A, B, inputs);
+    const UntanglingReports reports = untangle(inputs, A.input, B.input, pinned, options);
     if (options.enabled) {
         log_untangling("source to target", reports.A_to_B);
         log_untangling("target to source", reports.B_to_A);

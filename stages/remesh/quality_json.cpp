@@ -116,10 +116,8 @@ Json to_json(const std::vector<LandmarkCheck>& checks) {
 PointPairs input_landmarks(const PairRecord& record, const Surface& A, const Surface& B) {
     if (!record.landmark_points.empty()) return record.landmark_points;
     const auto on_input = [](const Surface& surface, MeshVertex vertex) {
-        const auto& vertices = surface.vertex_of_input;
-        const auto input = std::find(vertices.begin(), vertices.end(), vertex.index);
-        return input == vertices.end() ? SurfacePoint{}
-                                       : point_at_vertex(surface.input, int(input - vertices.begin()));
+        const SurfacePoint& point = surface.on_input[std::size_t(vertex.index)];
+        return vertex_of(surface.input, point) >= 0 ? point : SurfacePoint{};
     };
     PointPairs pairs;
     for (const auto& [a, b] : record.landmarks) {

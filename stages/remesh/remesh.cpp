@@ -20,9 +20,17 @@ std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
     std::vector<int> sample_at(std::size_t(surface.mesh.vertex_count()), -1);
     for (std::size_t k = 0; k < samples.size(); ++k) sample_at[std::size_t(samples[k])] = int(k);
     std::string text = "vertex,ratio\n";
-    for (std::size_t i = 0; i < surface.vertex_of_input.size(); ++i) {
-        const int vertex = surface.vertex_of_input[i], k = vertex < 0 ? -1 : sample_at[std::size_t(vertex)];
-        if (k >= 0) text += fmt::format("{},{}\n", i, transported[k] / mass[k]);
+    for (std::size_t i = 0; i < surface.on_mesh.size(); ++i) {
+        const SurfacePoint& point = surface.on_mesh[i];
+        double ratio = 0;
+        bool known = point.face >= 0;
+        for (int c = 0; c < 3 && known; ++c) {
+            if (point.barycentric[c] == 0) continue;
+            const int k = sample_at[std::size_t(surface.mesh.faces(point.face, c))];
+            known = k >= 0;
+            if (known) ratio += point.barycentric[c] * transported[k] / mass[k];
+        }
+        if (known) text += fmt::format("{},{}\n", i, ratio);
     }
     return text;
 }

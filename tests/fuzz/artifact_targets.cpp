@@ -5,6 +5,7 @@
 #include "fuzz/target.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
@@ -38,8 +39,9 @@ const Basis& basis() {
 /// Whatever passed the check can be worked with.
 void use(const Surface& read) {
     const ClosestPoint closest(read.input);
+    const InputLocator locate(read);
     for (int f = 0; f < read.mesh.face_count(); ++f) {
-        const Vec3 there = position(read.input, to_input(read, {f, Vec3(.2, .3, .5)}));
+        const Vec3 there = position(read.input, locate({f, Vec3(.2, .3, .5)}));
         if (!there.allFinite() || closest(there).point.face < 0) throw std::logic_error("a point is nowhere");
     }
     if (!cotangent_laplacian(read.mesh).coeffs().isFinite().all()) throw std::logic_error("a bad Laplacian");

@@ -30,7 +30,7 @@ TEST(Preprocess, NormalisesAreaAndCentre) {
     EXPECT_GT(surface.mass.minCoeff(), 0);
     for (int v = 0; v < surface.input.vertex_count(); ++v) {
         const Vec3 expected = (surface.input.vertex(v) - surface.centre) * surface.scale;
-        EXPECT_EQ(surface.mesh.vertex(surface.vertex_of_input[v]), expected);
+        EXPECT_EQ(position(surface.mesh, surface.on_mesh[v]), expected);
     }
 }
 
@@ -54,8 +54,8 @@ TEST(Preprocess, LeavesOutUnusedVerticesAndKeepsTheOrderOfTheOthers) {
     EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);
     EXPECT_EQ(a.mesh.faces, b.mesh.faces);
     for (int v = 0; v < full.vertex_count(); ++v) {
-        EXPECT_EQ(b.vertex_of_input[2 * v], -1);
-        EXPECT_EQ(b.vertex_of_input[2 * v + 1], v);
+        EXPECT_EQ(mesh_vertex_at(b, {2 * v}).index, -1);
+        EXPECT_EQ(mesh_vertex_at(b, {2 * v + 1}).index, v);
     }
     EXPECT_EQ(b.input.vertices, sparse.vertices);
 }
@@ -114,7 +114,7 @@ TEST(Preprocess, RemovesNeedlesWithoutAreaAndKeepsTheWayBack) {
     const int other = vertex_neighbours(mesh)[40][0];
     mesh.vertices.row(40) = mesh.vertices.row(other).eval();
     const Surface surface = preprocess(mesh, {});
-    EXPECT_EQ(surface.vertex_of_input[40], surface.vertex_of_input[other]);
+    EXPECT_EQ(mesh_vertex_at(surface, {40}), mesh_vertex_at(surface, {other}));
     EXPECT_EQ(surface.input.faces, mesh.faces);
     EXPECT_NO_THROW(require_manifold(surface.mesh, "mesh"));
     EXPECT_LT(error_of_way_back(surface), 1e-12);

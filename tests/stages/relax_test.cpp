@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures/shapes.h"
 #include "fixtures/sphere_pair.h"
+#include "stages/coarsen/coarsen.h"
+#include "stages/preprocess/preprocess.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {
@@ -65,6 +69,26 @@ TEST(Relax, Untangles) {
     EXPECT_EQ(map.untangling.A_to_B.flipped_after, 0);
     EXPECT_EQ(flipped(map.A_to_B, pair.A, pair.B), 0);
     EXPECT_LT((position(pair.B.input, map.A_to_B[6]) - pair.B.input.vertex(6)).norm(), 1e-12) << "landmark";
+}
+
+/// Images of a coarse mesh's vertices at themselves.
+TEST(Relax, CarriesAMapOfCoarseMeshesOverToTheInputs) {
+    CoarsenParams coarse;
+    coarse.vertices = 900;
+    const Surface surface = coarsened(preprocess(shapes::figure(.12), {}), coarse);
+    ASSERT_GT(surface.input.vertex_count(), 4000);
+    PairRecord record;
+    record.landmarks = {{mesh_vertex_at(surface, {77}), mesh_vertex_at(surface, {77})}};
+    record.landmark_points = {{point_at_vertex(surface.input, 77), point_at_vertex(surface.input, 77)}};
+    const PointMap identity = points_at_vertices(surface.mesh);
+    const SurfaceMap map = relax(surface, surface, record, {identity, identity});
+    double sum = 0;
+    for (int v = 0; v < surface.input.vertex_count(); ++v)
+        sum += (position(surface.input, map.A_to_B[std::size_t(v)]) - surface.input.vertex(v)).norm();
+    EXPECT_LT(sum / surface.input.vertex_count(), .01) << "in a figure about 4 long with edges of .12";
+    EXPECT_EQ(flipped(map.A_to_B, surface, surface), 0);
+    EXPECT_EQ(flipped(map.B_to_A, surface, surface), 0);
+    EXPECT_EQ(vertex_of(surface.input, map.A_to_B[77]), 77) << "a landmark at a vertex of the input";
 }
 
 TEST(Relax, GivesPointsOnTheFacesOfTheFilesOfMirroredSurfaces) {

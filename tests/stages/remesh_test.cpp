@@ -96,8 +96,8 @@ TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {
     int count = 0;
     while (std::getline(lines, line)) {
         const int vertex = std::stoi(line);
-        EXPECT_EQ(line, std::to_string(vertex) +
-                            (pair_.A.vertex_of_input[std::size_t(vertex)] == 3 ? ",1.25" : ",1"));
+        EXPECT_EQ(line,
+                  std::to_string(vertex) + (mesh_vertex_at(pair_.A, {vertex}).index == 3 ? ",1.25" : ",1"));
         ++count;
     }
     EXPECT_EQ(count, pair_.A.mesh.vertex_count());  // not the spare vertex

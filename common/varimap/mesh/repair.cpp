@@ -1,22 +1,14 @@
 #include "varimap/mesh/repair.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "varimap/core/error.h"
+#include "varimap/mesh/half_edge_mesh.h"
 
 namespace varimap {
 namespace {
 
-struct Traits : OpenMesh::DefaultTraitsDouble {
-    VertexAttributes(OpenMesh::Attributes::Status);
-    EdgeAttributes(OpenMesh::Attributes::Status);
-    FaceAttributes(OpenMesh::Attributes::Status);
-    HalfedgeAttributes(OpenMesh::Attributes::Status);
-};
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 using OpenMesh::SmartFaceHandle;
 using OpenMesh::SmartHalfedgeHandle;
 
@@ -32,7 +24,7 @@ class Repairer {
     Repair result(const TriangleMesh& before) const;
 
   private:
-    Vec3 point(OpenMesh::VertexHandle v) const { return Vec3(mesh_.point(v).data()); }
+    Vec3 point(OpenMesh::VertexHandle v) const { return varimap::point(mesh_, v); }
     double thinness_of(SmartFaceHandle f) const;
     bool remove(SmartFaceHandle f);
     bool collapse(SmartHalfedgeHandle side);
@@ -47,17 +39,9 @@ class Repairer {
 };
 
 Repairer::Repairer(const TriangleMesh& mesh, double thinnest)
-    : thinnest_(thinnest), vertex_(mesh.vertex_count()), origin_(mesh.face_count()) {
+    : mesh_(half_edges(mesh)), thinnest_(thinnest), vertex_(mesh.vertex_count()), origin_(mesh.face_count()) {
     std::iota(vertex_.begin(), vertex_.end(), 0);
     std::iota(origin_.begin(), origin_.end(), 0);
-    omerr().disable();  // a refused face is reported below
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-        mesh_.add_vertex(OpenMesh::Vec3d(mesh.vertices.row(v).data()));
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto vertex = [&](int c) { return mesh_.vertex_handle(mesh.faces(f, c)); };
-        if (!mesh_.add_face(vertex(0), vertex(1), vertex(2)).is_valid())
-            throw Error(ExitCode::internal, "a repair needs a manifold mesh");
-    }
 }
 
 double Repairer::thinness_of(SmartFaceHandle f) const {

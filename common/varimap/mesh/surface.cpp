@@ -20,7 +20,7 @@ void serialize(Archive& archive, SurfacePoint& point) {
 
 template <class Archive>
 void serialize(Archive& archive, Surface& surface) {
-    archive(surface.mesh, surface.mass, surface.input, surface.input.space, surface.vertex_of_input,
+    archive(surface.mesh, surface.mass, surface.input, surface.input.space, surface.on_mesh,
             surface.input_face, surface.on_input, surface.centre, surface.scale, surface.mirrored);
 }
 
@@ -45,6 +45,7 @@ Surface with_reversed_orientation(Surface surface) {
     surface.mesh.faces.col(1).swap(surface.mesh.faces.col(2));
     surface.input.faces.col(1).swap(surface.input.faces.col(2));
     swap_last_corners(surface.on_input);
+    swap_last_corners(surface.on_mesh);
     surface.mirrored = !surface.mirrored;
     return surface;
 }
@@ -77,6 +78,14 @@ SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {
     }
     result.barycentric = result.barycentric.cwiseMax(0).cwiseMin(1);
     return result;
+}
+
+MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex) {
+    const SurfacePoint& point = surface.on_mesh[std::size_t(vertex.index)];
+    if (point.face < 0) return {};
+    Eigen::Index corner;
+    point.barycentric.maxCoeff(&corner);
+    return {surface.mesh.faces(point.face, corner)};
 }
 
 }  // namespace varimap

@@ -5,24 +5,26 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh/vertex_index.h"
 
 namespace varimap {
 
-/// A surface ready for the method: the artifact of varimap-preprocess.
+/// A surface ready for the method: the artifact of varimap-preprocess and of varimap-coarsen.
 ///
-/// `mesh` has unit area, its area centroid at the origin, and edges no longer than the target length
-/// (Sec. 5, Limitations: recursive longest-edge bisection). Each of its faces lies inside one input face, and
-/// the used input vertices are its first vertices, in input order. Where the input has faces too thin for the
-/// method (repair.h), these have no counterpart, input vertices that are the same for all purposes share one
-/// of `mesh`, and a face may lie off its input face by that little.
+/// `mesh` has unit area and its area centroid at the origin. Of varimap-preprocess, its edges are no longer
+/// than the target length (Sec. 5, Limitations: recursive longest-edge bisection), each of its faces lies
+/// inside one input face, and the used input vertices are its first vertices, in input order. Where the input
+/// has faces too thin for the method (repair.h), these have no counterpart, input vertices that are the same
+/// for all purposes share one of `mesh`, and a face may lie off its input face by that little. Of
+/// varimap-coarsen, `mesh` has some of those vertices (coarsening.h), and its faces lie near the input.
 struct Surface {
     TriangleMesh mesh;     ///< normalised and bisected
     Eigen::VectorXd mass;  ///< per vertex of mesh: Voronoi area, sums to 1 (Sec. 2.1)
     TriangleMesh input;    ///< the input in its own coordinates, polygons fanned, vertex order kept
-    std::vector<int> vertex_of_input;    ///< per input vertex: vertex of mesh, -1 where no face uses it
-    std::vector<int> input_face;         ///< per face of mesh: the input face it lies in
-    std::vector<SurfacePoint> on_input;  ///< per vertex of mesh: where it lies on the input
-    Vec3 centre = Vec3::Zero();          ///< x_mesh = (x_input - centre) * scale
+    PointMap on_mesh;      ///< per input vertex: where it lies on mesh, one to one; nowhere without a face
+    std::vector<int> input_face;  ///< per face of mesh: the input face it lies in; none where mesh is coarser
+    PointMap on_input;            ///< per vertex of mesh: where it lies on the input
+    Vec3 centre = Vec3::Zero();   ///< x_mesh = (x_input - centre) * scale
     double scale = 1;
     bool mirrored = false;  ///< all faces have their last two corners exchanged
 };
@@ -31,7 +33,7 @@ template <>
 struct ArtifactType<Surface> {
     static constexpr const char* kind = "surface";
     static constexpr const char* stage = "varimap-preprocess";
-    static constexpr int schema = 3;
+    static constexpr int schema = 4;
 };
 std::string encode(const Surface& surface);
 void decode(const std::string& payload, Surface& surface);
@@ -48,7 +50,11 @@ PointMap between_input_and_file(PointMap points, const Surface& surface);
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point);
 
 /// The same point, from a face of `surface.mesh` to the input face that holds it. Coordinates clamped to [0,
-/// 1].
+/// 1]. For surfaces that were not coarsened; input_locator.h serves all.
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh);
+
+/// The vertex of `surface.mesh` at an input vertex, or the nearest corner of the face it lies on; -1 where no
+/// face uses the input vertex.
+MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex);
 
 }  // namespace varimap

@@ -28,17 +28,18 @@ void require_all_used(const TriangleMesh& mesh) {
 void require_sizes(const Surface& surface) {
     const TriangleMesh &mesh = surface.mesh, &input = surface.input;
     require<Surface>(surface.mass.size() == mesh.vertex_count(), "masses");
-    require<Surface>(int(surface.vertex_of_input.size()) == input.vertex_count(), "input vertices");
-    require<Surface>(int(surface.input_face.size()) == mesh.face_count(), "input faces");
+    require<Surface>(int(surface.on_mesh.size()) == input.vertex_count(), "input vertices");
+    require<Surface>(surface.input_face.empty() || int(surface.input_face.size()) == mesh.face_count(),
+                     "input faces");
     require<Surface>(int(surface.on_input.size()) == mesh.vertex_count(), "points of the input");
     require<Surface>(input.space >= Space::unstated && input.space <= Space::ras, "axes");
 }
 
 void require_way_back(const Surface& surface) {
     const TriangleMesh &mesh = surface.mesh, &input = surface.input;
-    require<Surface>(are_in_range(surface.vertex_of_input, mesh.vertex_count(), -1), "input vertices");
+    require<Surface>(are_points(surface.on_mesh, mesh.face_count()), "input vertices");
     for (const int v : input.faces.reshaped())
-        require<Surface>(surface.vertex_of_input[v] >= 0, "input vertices");
+        require<Surface>(surface.on_mesh[v].face >= 0, "input vertices");
     require<Surface>(are_in_range(surface.input_face, input.face_count()), "input faces");
     require<Surface>(are_points(surface.on_input, input.face_count()), "points of the input");
     require<Surface>(surface.centre.allFinite() && std::isfinite(surface.scale) && surface.scale > 0,

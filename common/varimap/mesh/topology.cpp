@@ -78,6 +78,19 @@ SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v) {
     return {};
 }
 
+PointMap points_at_vertices(const TriangleMesh& mesh) {
+    PointMap points(mesh.vertex_count());
+    for (int f = mesh.face_count() - 1; f >= 0; --f)
+        for (int k = 2; k >= 0; --k) points[mesh.faces(f, k)] = {f, Vec3::Unit(k)};
+    return points;
+}
+
+int vertex_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+    for (int k = 0; k < 3; ++k)
+        if (point.barycentric == Vec3::Unit(k)) return mesh.faces(point.face, k);
+    return -1;
+}
+
 Edges find_edges(const TriangleMesh& mesh) {
     const std::vector<Side> sides = sorted_sides(mesh);
     Edges edges;

@@ -24,8 +24,12 @@ Adjacency vertex_faces(const TriangleMesh& mesh);
 /// Per vertex: the vertices it shares an edge with, ascending.
 Adjacency vertex_neighbours(const TriangleMesh& mesh);
 
-/// A vertex as a point of one of its faces; face -1 if no face uses it.
+/// A vertex as a point of the first of its faces; face -1 if no face uses it.
 SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v);
+/// Every vertex as such a point.
+PointMap points_at_vertices(const TriangleMesh& mesh);
+/// The vertex of its face that a point is exactly, or -1.
+int vertex_of(const TriangleMesh& mesh, const SurfacePoint& point);
 
 /// The edges of a mesh, ascending by (lower vertex, higher vertex).
 /// Side 3 f + c is the side of face f that runs from its corner c to its corner c + 1 (mod 3).

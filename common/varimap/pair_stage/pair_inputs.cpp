@@ -2,19 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "varimap/artifact/consistency.h"
 #include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
 namespace {
 
 MeshVertex mesh_vertex(const Surface& surface, InputVertex vertex, const char* which) {
-    const int v = surface.vertex_of_input[std::size_t(vertex.index)];
-    if (v < 0)
+    const MeshVertex v = mesh_vertex_at(surface, vertex);
+    if (v.index < 0)
         throw InputError(fmt::format("landmark vertex {} of the {} belongs to no face; choose another vertex",
                                      vertex.index, which));
-    return {v};
+    return v;
+}
+
+bool is_at_vertex(const Surface& surface, InputVertex vertex) {
+    return vertex_of(surface.mesh, surface.on_mesh[std::size_t(vertex.index)]) >= 0;
 }
 
 }  // namespace
@@ -63,6 +70,19 @@ VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmar
     for (const auto& [a, b] : landmarks)
         result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
     return result;
+}
+
+PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const Surface& B) {
+    const auto is_exact = [&](const auto& pair) {
+        return is_at_vertex(A, pair.first) && is_at_vertex(B, pair.second);
+    };
+    if (!landmarks.points.empty() ||
+        std::all_of(landmarks.vertices.begin(), landmarks.vertices.end(), is_exact))
+        return landmarks.points;
+    PointPairs points;
+    for (const auto& [a, b] : landmarks.vertices)
+        points.emplace_back(point_at_vertex(A.input, a.index), point_at_vertex(B.input, b.index));
+    return points;
 }
 
 }  // namespace varimap

@@ -36,5 +36,8 @@ Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, co
 /// The vertices that landmarks became on the preprocessed meshes. Throws InputError for those no face uses.
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B);
+/// Landmarks as points of the inputs, where they lie between vertices of the preprocessed or coarsened
+/// meshes; else none.
+PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const Surface& B);
 
 }  // namespace varimap

@@ -137,6 +137,7 @@ class Untangling {
     /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
     void start_relaxation(const Round& round) {
         fixed_ = stay(sliding_, pinned_, options_.gate, report_);
+        sweep(round);
         if (options_.global_steps > 0)
             relaxation_ =
                 std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, options_);
@@ -179,6 +180,13 @@ class Untangling {
     }
 
   private:
+    void sweep(const Round& round) {
+        if (options_.local_sweeps == 0) return;
+        std::vector<int> vertices = free_vertices(sliding_, fixed_, landmarks_);
+        LocalRelaxation local(sliding_, 99);
+        for (int i = 0; i < options_.local_sweeps; ++i)
+            local.sweep(vertices, {options_.area_weight, round.regularisation}, false);
+    }
     /// The fixed vertices, and those that hold a landmark in place, unless their triangle is reversed.
     VertexData<bool> held() const {
         VertexData<bool> held = fixed_;
@@ -236,7 +244,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     Untangling there(maps.A_to_B, A, B, pinned.A, pinned.points, options),
         back(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options);
     if (!options.enabled) return {there.report(), back.report()};
-    run(there, back, rounds[0]);
+    if (options.local_sweeps == 0) run(there, back, rounds[0]);
     with_each_other(there, back,
                     [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
     for (int round = 0; round < reconciliations; ++round)

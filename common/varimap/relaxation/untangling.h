@@ -26,6 +26,9 @@ struct UntanglingOptions {
     double relief_weight = 2;  ///< of relief against the fold energy in global steps (relief_agreement.h)
     /// Of each direction's attraction to the other's inverse (soft_constraints.h) in the last global steps.
     double inverse_weight = 1000;
+    /// Over the whole map, before folds are removed: for a map that was relaxed at a lower resolution. With
+    /// any, there is one round.
+    int local_sweeps = 0;
     int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
     MirrorGate gate;
     PartReplacementOptions parts;

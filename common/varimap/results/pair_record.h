@@ -13,8 +13,9 @@ namespace varimap {
 /// is.
 struct PairRecord {
     VertexPairs<MeshVertex> landmarks;  ///< of A and of B
-    PointPairs landmark_points;  ///< on the INPUT meshes, where landmarks were given as points; or empty
-    double landmark_weight = 1;  ///< W of pull_landmarks (cost.h), in (0, 1]
+    PointPairs landmark_points;         ///< on the INPUT meshes, where landmarks lie between vertices of the
+                                        ///< surfaces' meshes, which are then the nearest ones; or empty
+    double landmark_weight = 1;         ///< W of pull_landmarks (cost.h), in (0, 1]
     std::vector<LandmarkCheck> landmark_checks;  ///< per landmark, or none
     std::vector<Candidate> candidates;           ///< of varimap-explore, the best first; none with landmarks
     int candidate = 0;                           ///< which of them the map continues, from 1; 0 without any

@@ -194,15 +194,6 @@ void require_vertices(Eigen::Index count, const TriangleMesh& mesh) {
                             "; rerun varimap-diffuse and varimap-refine");
 }
 
-/// Every vertex as a point of the first of its faces.
-PointMap points_at_vertices(const TriangleMesh& mesh) {
-    PointMap points(std::size_t(mesh.vertex_count()));
-    for (int f = mesh.face_count() - 1; f >= 0; --f)
-        for (int corner = 0; corner < 3; ++corner)
-            points[std::size_t(mesh.faces(f, corner))] = {f, Vec3::Unit(corner)};
-    return points;
-}
-
 PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target) {
     const PointMap points = points_at_vertices(target);
     PointMap images;

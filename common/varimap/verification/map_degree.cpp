@@ -29,11 +29,6 @@ bool is_left(const TriangleMesh& mesh, int a, int b, const Vec3& p, double& doub
 /// +1 or -1 if the ray from `p` along the third axis leaves or enters through the face, else 0.
 int crossing(const TriangleMesh& mesh, int f, const Vec3& p) {
     const int a = mesh.faces(f, 0), b = mesh.faces(f, 1), c = mesh.faces(f, 2);
-    // Most faces lie strictly to one side; those that touch the ray's plane are left to the test of their
-    // edges.
-    const auto [least, largest] =
-        std::minmax({mesh.vertices(a, 0), mesh.vertices(b, 0), mesh.vertices(c, 0)});
-    if (least > p[0] || largest < p[0]) return 0;
     double at_a, at_b, at_c;
     const bool left = is_left(mesh, b, c, p, at_a);
     if (is_left(mesh, c, a, p, at_b) != left || is_left(mesh, a, b, p, at_c) != left) return 0;
@@ -42,11 +37,36 @@ int crossing(const TriangleMesh& mesh, int f, const Vec3& p) {
     return left ? height > 0 : -(height < 0);
 }
 
-int winding_number(const TriangleMesh& mesh, const Vec3& p) {
-    int sum = 0;
-    for (int f = 0; f < mesh.face_count(); ++f) sum += crossing(mesh, f, p);
-    return sum;
-}
+/// How often a closed mesh goes round points. A face counts for points that have its extent along the first
+/// axis, so only those are asked: faces are listed by slabs across that axis.
+class WindingNumber {
+  public:
+    explicit WindingNumber(const TriangleMesh& mesh)
+        : mesh_(mesh), low_(mesh.vertices.col(0).minCoeff()), faces_(slab_count) {
+        width_ = (mesh.vertices.col(0).maxCoeff() - low_) / slab_count;
+        for (int f = 0; f < mesh.face_count(); ++f) {
+            const auto [least, largest] =
+                std::minmax({mesh.vertices(mesh.faces(f, 0), 0), mesh.vertices(mesh.faces(f, 1), 0),
+                             mesh.vertices(mesh.faces(f, 2), 0)});
+            for (int s = slab(least); s <= slab(largest); ++s) faces_[std::size_t(s)].push_back(f);
+        }
+    }
+    int operator()(const Vec3& p) const {
+        int sum = 0;
+        for (const int f : faces_[std::size_t(slab(p[0]))]) sum += crossing(mesh_, f, p);
+        return sum;
+    }
+
+  private:
+    static constexpr int slab_count = 256;
+    /// Rises with x, so that a face is listed wherever its points are.
+    int slab(double x) const {
+        return width_ > 0 ? int(std::clamp((x - low_) / width_, 0.0, slab_count - 1.0)) : 0;
+    }
+    const TriangleMesh& mesh_;
+    double low_, width_;
+    std::vector<std::vector<int>> faces_;
+};
 
 double mean_edge(const TriangleMesh& mesh) {
     double sum = 0;
@@ -101,6 +121,7 @@ std::optional<double> map_degree(const TriangleMesh& image, const TriangleMesh& 
     const double inside = signed_volume(target, (low + high) / 2) < 0 ? 1 : -1,
                  thinnest = mean_edge(image) / 2;
     const ClosestPoint to_target(target), to_image(image);
+    const WindingNumber around_image(image), around_target(target);
     const std::vector<SurfacePoint> samples = spread_points(target);
     std::vector<std::array<int, 2>> windings(samples.size(), {0, 0});  // of the image, of the target
     parallel_for_each_index(samples.size(), std::size_t(8), [&](std::size_t i) {
@@ -109,7 +130,7 @@ std::optional<double> map_degree(const TriangleMesh& image, const TriangleMesh& 
             shrink_ball(to_target, target, position(target, samples[i]), inward, (high - low).norm() / 2);
         if (ball.radius < thinnest) return;
         if (to_image(ball.centre).squared_distance < ball.radius * ball.radius / 4) return;
-        windings[i] = {winding_number(image, ball.centre), winding_number(target, ball.centre)};
+        windings[i] = {around_image(ball.centre), around_target(ball.centre)};
     });
     double sum = 0;
     int count = 0;

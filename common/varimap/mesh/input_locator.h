@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "varimap/mesh/surface.h"
+
+namespace varimap {
+
+/// Where points of a surface's mesh, and points in space near it, lie on its input: exactly where the mesh
+/// was made by bisection; else the closest point of the input that faces the same way. Keeps a reference to
+/// the surface. Thread-safe once built.
+class InputLocator {
+  public:
+    explicit InputLocator(const Surface& surface);
+    ~InputLocator();
+
+    SurfacePoint operator()(const SurfacePoint& on_mesh) const;
+    /// x in the coordinates of the mesh, near it; `normal`: of the surface there, of any length.
+    SurfacePoint operator()(const Vec3& x, const Vec3& normal) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The input in the coordinates of the mesh.
+TriangleMesh normalised_input(const Surface& surface);
+
+}  // namespace varimap
