@@ -107,7 +107,7 @@ same() {  # FILE FILE
 }
 
 artifacts() {  # FOLDER: all artifacts in it
-    find "$1" -maxdepth 1 -type f -regex '.*\.\(surface\|basis\|hierarchy\|candidates\|diffusion\|plan\|map\|quality\)'
+    find "$1" -maxdepth 1 -type f -regex '.*\.\(surface\|coarse\|basis\|hierarchy\|candidates\|diffusion\|plan\|map\|quality\)'
 }
 
 # same_results OUT OUT: the same tables, and the same bytes in all artifacts that the first has.

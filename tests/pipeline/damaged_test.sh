@@ -38,7 +38,7 @@ expect_exit 6 "$eigen" absent.surface new.basis
 [[ ! -e new.basis && ! -e new.hierarchy ]] || fail "something was written"
 
 # The front end notices and rebuilds; a good surface made anew has the same bytes, and so has all that follows.
-for victim in a.surface b.basis a.hierarchy a--b.diffusion a--b.plan a--b.map a--b.quality; do
+for victim in a.surface b.coarse b.basis a.hierarchy a--b.diffusion a--b.plan a--b.map a--b.quality; do
     flip "$here/$victim" $(($(stat -c %s "$here/$victim") / 2))
     map a.off b.off -o out
     same "$here/$victim" "good/artifacts/$victim"
@@ -48,6 +48,6 @@ for victim in a.surface b.basis a.hierarchy a--b.diffusion a--b.plan a--b.map a-
 done
 cp a.off $here/b.surface
 map a.off b.off -o out
-for artifact in good/artifacts/*.{surface,basis,hierarchy,diffusion,plan,map,quality}; do
+for artifact in good/artifacts/*.{surface,coarse,basis,hierarchy,diffusion,plan,map,quality}; do
     same "$artifact" "$here/${artifact##*/}"
 done

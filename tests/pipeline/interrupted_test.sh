@@ -18,7 +18,7 @@ kill_after() {
     wait "$child" 2>/dev/null || true
 }
 
-both=(reference/artifacts/{a,b}.{surface,basis,hierarchy})
+both=(reference/artifacts/{a,b}.{coarse,basis,hierarchy})
 mkdir killed
 cp reference/artifacts/b.basis old.basis
 for moment in .002 .005 .01 .02 .03 .05 .08 .12 .2; do
@@ -42,13 +42,13 @@ for moment in .1 .4 .8 1.2; do
     kill -TERM $front_end 2>/dev/null || true
     wait $front_end 2>/dev/null || true
     [[ -d out ]] || continue  # ended before it began
-    find out -name '*.surface' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.candidates' -o -name '*.diffusion' -o -name '*.plan' \
+    find out -name '*.surface' -o -name '*.coarse' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.candidates' -o -name '*.diffusion' -o -name '*.plan' \
         -o -name '*.map' -o -name '*.quality' | while read -r artifact; do
         "$inspect" --check "$artifact" &>/dev/null || fail "$artifact is damaged after an interrupt"
     done
 done
 map a.off b.off -o out
-for artifact in reference/artifacts/*.{surface,basis,hierarchy,candidates,diffusion,plan,map,quality}; do
+for artifact in reference/artifacts/*.{surface,coarse,basis,hierarchy,candidates,diffusion,plan,map,quality}; do
     same "$artifact" "out/artifacts/${artifact##*/}"
 done
 

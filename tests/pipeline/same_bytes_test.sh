@@ -14,7 +14,7 @@ cp a.off b.off a.txt b.txt elsewhere
 # Four cores: two threads for the stages of one surface, four for those of the pair.
 (cd elsewhere && LC_ALL=C.UTF-8 TZ=Asia/Tokyo map a.off b.off -o ../four --landmarks a.txt b.txt -j 4)
 for other in again four; do
-    for file in one/artifacts/*.{surface,basis,hierarchy,diffusion,plan,map,quality}; do
+    for file in one/artifacts/*.{surface,coarse,basis,hierarchy,diffusion,plan,map,quality}; do
         same "$file" "$other/artifacts/${file##*/}"
     done
     for file in one/*.csv one/*.ply one/picture.png; do

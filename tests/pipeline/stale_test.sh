@@ -55,7 +55,7 @@ cp kept.off a.off
 again good
 
 # Artifacts swapped, foreign, or of an older run, and as new as can be.
-for kind in surface basis hierarchy; do
+for kind in surface coarse basis hierarchy; do
     mv $here/a.$kind swapped
     mv $here/b.$kind $here/a.$kind
     mv swapped $here/b.$kind
@@ -87,7 +87,7 @@ rm out/.exports out/.picture out/.numbers.json
 again good
 
 # Stages called by hand refuse what does not belong together.
-both=(good/artifacts/{a,b}.{surface,basis,hierarchy})
+both=(good/artifacts/{a,b}.{coarse,basis,hierarchy})
 expect_exit 4 "$VARIMAP_BIN/varimap-refine" "${both[@]}" good_30/artifacts/a--b.diffusion new.plan
 expect_exit 4 "$VARIMAP_BIN/varimap-hierarchy" good/artifacts/a.surface good_30/artifacts/b.basis new.hierarchy
 expect_exit 4 "$VARIMAP_BIN/varimap-diffuse" good/artifacts/{a.surface,a.basis} good_30/artifacts/a.hierarchy \
