@@ -1,5 +1,10 @@
 #include "stages/relax/relax.h"
 
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
@@ -110,7 +115,7 @@ PinnedPair pin_on_inputs(const PairRecord& record, const Surface& A, const Surfa
     return pinned;
 }
 
-void log_untangling(const char* name, const UntanglingReport& report) {
+void log_untangling(const std::string& name, const UntanglingReport& report) {
     log("{}: {} triangles reversed ({:.3f}% of the area) before untangling, {} ({:.3f}%) after {} global "
         "steps and {} sweeps; {} of {} strained parts mapped anew; {} triangles cut through features, {} "
         "before",
@@ -124,25 +129,44 @@ void log_untangling(const char* name, const UntanglingReport& report) {
             name, report.mirrored_parts, report.gated_area_percent);
 }
 
+void log_untangling(const char* which, const UntanglingReports& reports) {
+    log_untangling(fmt::format("{}, source to target", which), reports.A_to_B);
+    log_untangling(fmt::format("{}, target to source", which), reports.B_to_A);
+}
+
+/// What was done on the meshes and then on the inputs, as one.
+UntanglingReport joined(const UntanglingReport& meshes, UntanglingReport inputs) {
+    UntanglingReport report = meshes;
+    report.flipped_after = inputs.flipped_after;
+    report.flipped_area_percent_after = inputs.flipped_area_percent_after;
+    report.global_steps += inputs.global_steps;
+    report.sweeps += inputs.sweeps;
+    report.disagreeing_after = inputs.disagreeing_after;
+    report.mirrored_parts = inputs.mirrored_parts;
+    report.gated_area_percent = inputs.gated_area_percent;
+    return report;
+}
+
 }  // namespace
 
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
                  const RelaxParams& params) {
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
     UntanglingOptions options = params.untangling;
+    std::optional<UntanglingReports> on_meshes;
     if (is_apart(A) || is_apart(B)) {
-        untangle(maps, A.mesh, B.mesh, pinned_on_meshes(record, A, B), options);
+        on_meshes = untangle(maps, A.mesh, B.mesh, pinned_on_meshes(record, A, B), options);
+        if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = fine_sweeps;
         options.replace_parts = false;
     }
     MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
     const PinnedPair pinned = pin_on_inputs(record, A, B, inputs);
-    const UntanglingReports reports = untangle(inputs, A.input, B.input, pinned, options);
-    if (options.enabled) {
-        log_untangling("source to target", reports.A_to_B);
-        log_untangling("target to source", reports.B_to_A);
-    }
+    UntanglingReports reports = untangle(inputs, A.input, B.input, pinned, options);
+    if (options.enabled) log_untangling("on the inputs", reports);
+    if (on_meshes)
+        reports = {joined(on_meshes->A_to_B, reports.A_to_B), joined(on_meshes->B_to_A, reports.B_to_A)};
     return {between_input_and_file(std::move(inputs.A_to_B), B),
             between_input_and_file(std::move(inputs.B_to_A), A), reports};
 }
