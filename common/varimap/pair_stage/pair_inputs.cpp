@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "varimap/artifact/consistency.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/spectral/spectral_check.h"
 
 namespace varimap {
 
@@ -42,11 +42,10 @@ SurfaceData PairInputs::read(Stage& stage, const std::string& name, const Paths&
     Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "basis", basis.header, paths.basis);
-    const Eigen::Index vertices = surface.value.mesh.vertex_count();
-    require<Basis>(basis.value.functions.rows() == vertices, "vertices");
-    require<Hierarchy>(Eigen::Index(hierarchy.value.levels.front().cell.size()) == vertices, "vertices");
     hierarchies_.emplace_back(name + ".hierarchy", hierarchy.header);
-    return {std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
+    SurfaceData data{std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
+    require_fit(data);
+    return data;
 }
 
 void PairInputs::require_same(const Header& plan, const std::string& plan_path) const {

@@ -82,4 +82,14 @@ void require_complete(const Hierarchy& hierarchy) {
     require<Hierarchy>(shape.descriptors.allFinite() && shape.bending.allFinite(), "local shape");
 }
 
+void require_fit(const Basis& basis, const Surface& surface) {
+    require<Basis>(basis.functions.rows() == surface.mesh.vertex_count(), "vertices");
+}
+
+void require_fit(const SurfaceData& data) {
+    require_fit(data.basis, data.surface);
+    const auto vertices = Eigen::Index(data.hierarchy.levels.front().cell.size());
+    require<Hierarchy>(vertices == data.surface.mesh.vertex_count(), "vertices");
+}
+
 }  // namespace varimap
