@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fixtures/map_shapes.h"
+#include "varimap/mesh/mass.h"
 
 namespace varimap::fuzz {
 namespace {
@@ -227,9 +228,8 @@ void Forger::reshape(Surface& surface) {
         }
     }
     mesh.vertices /= std::sqrt(surface_area(mesh));
-    const Eigen::VectorXd mass = surface.mass;
     surface = shapes::plain_surface(mesh);
-    if (mass.size() == surface.mass.size()) surface.mass = mass;
+    surface.mass = voronoi_masses(mesh);
 }
 
 void Forger::operator()(Surface& s) {

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -221,6 +222,8 @@ int run(const std::vector<std::string>& words) {
         return 2;
     }
     const Options options = parse({words.begin() + 1, words.end()});
+    using oneapi::tbb::global_control;
+    const global_control one_thread(global_control::max_allowed_parallelism, 1);
     for (const std::string& file : options.files) run_one(*target, read_whole(file), file + ".again");
     if (options.files.empty()) {
         run_cases(*target, options.cases);

@@ -40,7 +40,7 @@ struct Artifacts {
 
 SurfaceData surface_data(const TriangleMesh& mesh) {
     PreprocessParams params;
-    params.target_edge_length = .5;
+    params.target_edge_length = .45;
     SurfaceData data;
     data.surface = preprocess(mesh, params);
     EigenSolverOptions options;
