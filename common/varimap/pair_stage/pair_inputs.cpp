@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/topology.h"
@@ -22,6 +23,16 @@ MeshVertex mesh_vertex(const Surface& surface, InputVertex vertex, const char* w
 
 bool is_at_vertex(const Surface& surface, InputVertex vertex) {
     return vertex_of(surface.mesh, surface.on_mesh[std::size_t(vertex.index)]) >= 0;
+}
+
+/// A repair makes one vertex of several; a landmark each would ask it to go to several places.
+void require_unmerged(std::map<int, int>& taken, MeshVertex at, InputVertex vertex, const char* which) {
+    const auto [other, is_new] = taken.emplace(at.index, vertex.index);
+    if (!is_new)
+        throw InputError(
+            fmt::format("landmark vertices {} and {} of the {} became one when faces without area were "
+                        "removed; keep one of the two landmarks",
+                        other->second, vertex.index, which));
 }
 
 }  // namespace
@@ -66,8 +77,12 @@ Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, co
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B) {
     VertexPairs<MeshVertex> result;
-    for (const auto& [a, b] : landmarks)
+    std::map<int, int> taken_A, taken_B;
+    for (const auto& [a, b] : landmarks) {
         result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
+        require_unmerged(taken_A, result.back().first, a, "source");
+        require_unmerged(taken_B, result.back().second, b, "target");
+    }
     return result;
 }
 
