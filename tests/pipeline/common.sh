@@ -32,8 +32,9 @@ own_disk() {
     fi
     for how in -m -rm; do
         unshare $how mount -t tmpfs none "$work/disk" 2>/dev/null || continue
+        cd /
         rm -rf "$work"
-        VARIMAP_OWN_MOUNTS=yes unshare $how bash "$0"
+        VARIMAP_OWN_MOUNTS=yes unshare $how bash "$VARIMAP_SOURCE/tests/pipeline/${0##*/}"
         exit
     done
     return 1

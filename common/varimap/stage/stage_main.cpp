@@ -242,10 +242,10 @@ void Stage::run(const std::function<void()>& body) {
 
 void Stage::record_file(const std::string& role, const std::string& path) {
     record_input({role, kind_of_file(path), file_hash(path)});
-    require_origin(role, state_->inputs.back().hash, path);
     const auto start = state_->states_at_start.find(path);
     if (start != state_->states_at_start.end() && start->second != file_state(path))
         throw IoError("'" + path + "' changed while it was read; run again");
+    require_origin(role, state_->inputs.back().hash, path);
 }
 
 void Stage::record_input(InputRecord record) {
