@@ -14,6 +14,9 @@ start() {
     "$varimap" map "${small_picture[@]}" a.off b.off -o "$@" >out.txt 2>log </dev/null &
     run=$!
 }
+after() {  # FILE: waits until the run has made it, or has ended
+    until [[ -e $1 ]] || ! kill -0 $run 2>/dev/null; do sleep .005; done
+}
 ended() {  # WHAT HAPPENED: the run either has all, or says in one line what it could not do
     local code=0
     wait $run || code=$?
@@ -22,22 +25,23 @@ ended() {  # WHAT HAPPENED: the run either has all, or says in one line what it 
     6) [[ $(grep -c 'error: ' log) == 1 ]] || fail "not one error line: $1" ;;
     *) fail "exit $code: $1" ;;
     esac
-    ((++codes[code]))
+    ((codes[code] += 1))
 }
-declare -A codes=([0]=0 [6]=0)
+codes=()  # how many runs ended with each
 
-for moment in .02 .05 .1 .15 .2 .3 .4 .6 .8; do
+made=(a.surface a.hierarchy a--b.candidates a--b.diffusion a--b.plan a--b.map)
+for artifact in "${made[@]}"; do
     start gone
-    sleep $moment
+    after "gone/artifacts/$artifact"
     rm -rf gone 2>/dev/null || rm -rf gone 2>/dev/null || true
-    ended "the folder of results vanished after $moment s"
+    ended "the folder of results vanished after $artifact"
     start kept --artifacts shared
-    sleep $moment
+    after "shared/$artifact"
     mv shared elsewhere 2>/dev/null || true
-    ended "the folder of artifacts vanished after $moment s"
+    ended "the folder of artifacts vanished after $artifact"
     rm -rf elsewhere
 done
-((codes[6] > 2)) || fail "nothing was in the way of the runs"
+((${codes[6]:-0} > 2)) || fail "nothing was in the way of the runs"
 map a.off b.off -o gone
 same_results good gone
 map a.off b.off -o kept --artifacts shared
@@ -55,20 +59,20 @@ fi
 mount -o remount,ro disk
 expect_exit 6 "$varimap" map "${small_picture[@]}" a.off b.off -o disk/out
 expect_exit 6 "$VARIMAP_BIN/varimap-preprocess" a.off disk/a.surface
-for moment in .05 .1 .2 .3 .4 .6 .8 1; do
+for artifact in "${made[@]}"; do
     mount -o remount,rw disk
     rm -rf disk/*
     start disk/out
-    sleep $moment
+    after "disk/out/artifacts/$artifact"
     # Busy as long as a file is being written.
     for _ in {1..50}; do
         ! mount -o remount,ro disk 2>/dev/null || break
         sleep .01
     done
-    ended "read-only after $moment s"
+    ended "read-only after $artifact"
     mount -o remount,rw disk
     map a.off b.off -o disk/out
     same_results good disk/out
     nothing_left disk/out
 done
-echo "of the runs ${codes[6]} were stopped and ${codes[0]} not"
+echo "of the runs ${codes[6]} were stopped and ${codes[0]:-0} not"
