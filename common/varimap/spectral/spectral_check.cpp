@@ -65,7 +65,15 @@ bool are_masses_of_cells(const Level& level, const Eigen::VectorXd& vertex_mass)
     return (left.array().abs() <= rounding * level.mass.array()).all();
 }
 
+bool are_within(const Eigen::Ref<const RowMatrix>& values, double bound) {
+    return values.allFinite() && values.cwiseAbs().maxCoeff() <= bound;
+}
+
 }  // namespace
+
+/// Descriptors are cut off at 2.5 / sqrt(3); nothing stands out of a surface farther than it is long, for
+/// which the least eigenvalue has a bound.
+constexpr double largest_descriptor = 2.5, largest_bending = 1e6;
 
 /// On unit area. A cylinder of length L has lambda_2 = (pi / L)^2, and |phi_i| is at most m_i^-1/2: what lies
 /// beyond belongs to no surface, and heat kernels made of it would overflow.
@@ -102,7 +110,9 @@ void require_complete(const Hierarchy& hierarchy) {
     const LocalShape& shape = hierarchy.shape;
     require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices,
                        "local shape");
-    require<Hierarchy>(shape.descriptors.allFinite() && shape.bending.allFinite(), "local shape");
+    require<Hierarchy>(
+        are_within(shape.descriptors, largest_descriptor) && are_within(shape.bending, largest_bending),
+        "local shape");
 }
 
 void require_fit(const Basis& basis, const Surface& surface) {

@@ -239,6 +239,9 @@ TEST(Hierarchy, ForgedPartsAreRefused) {
          }},
         {"a sample in another's cell",
          [](Hierarchy& h) { std::swap(h.levels[2].samples[0], h.levels[2].samples[1]); }},
+        {"a descriptor that Sinkhorn's iteration chokes on",
+         [](Hierarchy& h) { h.shape.descriptors(3, 1) = 1e155; }},
+        {"bending without end", [](Hierarchy& h) { h.shape.bending[3] = 1e100; }},
         {"endless neighbours", [](Hierarchy& h) { h.options.minimum_neighbours = 1 << 30; }}};
     Hierarchy copy;
     EXPECT_NO_THROW(decode(encode(good.hierarchy), copy));
