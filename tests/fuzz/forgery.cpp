@@ -235,10 +235,9 @@ void Forger::reshape(Surface& surface) {
 void Forger::operator()(Surface& s) {
     if (below(2) == 0) return reshape(s);
     one_of({[&] { reals(s.mesh.vertices); }, [&] { triangles(s.mesh.faces); }, [&] { masses(s.mass); },
-            [&] { reals(s.input.vertices); }, [&] { triangles(s.input.faces); },
-            [&] { integers(s.vertex_of_input); }, [&] { integers(s.input_face); },
-            [&] { points(s.on_input); }, [&] { real(s.centre[0]); }, [&] { real(s.scale); },
-            [&] { flag(s.mirrored); }});
+            [&] { reals(s.input.vertices); }, [&] { triangles(s.input.faces); }, [&] { points(s.on_mesh); },
+            [&] { integers(s.input_face); }, [&] { points(s.on_input); }, [&] { real(s.centre[0]); },
+            [&] { real(s.scale); }, [&] { flag(s.mirrored); }});
 }
 
 void Forger::operator()(Basis& b) {

@@ -83,7 +83,7 @@ Artifacts made() {
     all.A = surface_data(pear);
     pear.vertices.row(20) *= 1.3;
     all.B = surface_data(shapes::shuffled(pear, 1));
-    const VertexPairs<MeshVertex> landmarks{{{3}, {all.B.surface.vertex_of_input[7]}}};
+    const VertexPairs<MeshVertex> landmarks{{{3}, mesh_vertex_at(all.B.surface, {7})}};
     const PairContext context(all.A, all.B, landmarks);
     all.candidates = explored(context);
     all.candidates.previews = previews(all.A.surface, all.B.surface);

@@ -26,7 +26,10 @@ bool is_at_vertex(const Surface& surface, InputVertex vertex) {
 }
 
 /// A repair makes one vertex of several; a landmark each would ask it to go to several places.
-void require_unmerged(std::map<int, int>& taken, MeshVertex at, InputVertex vertex, const char* which) {
+/// Near ones may share a vertex of a coarse mesh.
+void require_unmerged(std::map<int, int>& taken, const Surface& surface, MeshVertex at, InputVertex vertex,
+                      const char* which) {
+    if (!is_at_vertex(surface, vertex)) return;
     const auto [other, is_new] = taken.emplace(at.index, vertex.index);
     if (!is_new)
         throw InputError(
@@ -80,8 +83,8 @@ VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmar
     std::map<int, int> taken_A, taken_B;
     for (const auto& [a, b] : landmarks) {
         result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
-        require_unmerged(taken_A, result.back().first, a, "source");
-        require_unmerged(taken_B, result.back().second, b, "target");
+        require_unmerged(taken_A, A, result.back().first, a, "source");
+        require_unmerged(taken_B, B, result.back().second, b, "target");
     }
     return result;
 }
