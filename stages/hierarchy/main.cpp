@@ -1,5 +1,5 @@
 #include "stages/hierarchy/params.h"
-#include "varimap/artifact/consistency.h"
+#include "varimap/spectral/spectral_check.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
         const auto surface = stage.read<Surface>("surface", surface_in);
         const auto basis = stage.read<Basis>("basis", basis_in);
         Stage::require_lineage(basis.header, basis_in, "surface", surface.header, surface_in);
-        require<Basis>(basis.value.functions.rows() == surface.value.mesh.vertex_count(), "vertices");
+        require_fit(basis.value, surface.value);
         const Hierarchy hierarchy = build_hierarchy(surface.value, basis.value, options);
         stage.record_number("levels", double(hierarchy.levels.size()));
         stage.write(out, hierarchy);

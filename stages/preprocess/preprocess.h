@@ -10,8 +10,8 @@ namespace varimap {
 /// mesh. Mirroring reverses the orientation of the result's meshes. A moved, turned or uniformly scaled input
 /// gives the same connectivity. Faces without area, or all but, are removed from the result's mesh (repair.h)
 /// with a warning. Bisection to the automatic target ends at four times the vertices of the input, or 10,000,
-/// with a warning: only slivers need more. Throws InputError if it would exceed max_vertices, and for thin
-/// faces that cannot be removed.
+/// with a warning: only slivers need more. Throws InputError if it would exceed max_vertices, if it ends with
+/// edges beyond .25 sqrt(area), and for thin faces that cannot be removed.
 Surface preprocess(const TriangleMesh& input, const PreprocessParams& params);
 
 /// The target edge length in units of sqrt(area): the parameter, or the automatic choice

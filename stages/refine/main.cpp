@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto diffusion = stage.read<Diffusion>("diffusion", diffusion_in);
         inputs.require_same(diffusion.header, diffusion_in);
+        require_surfaces(diffusion.value, A.surface, B.surface);
         const PairContext context(std::move(A), std::move(B), diffusion.value.record.landmarks,
                                   diffusion.value.record.landmark_weight);
         const Plan plan = refine(context, diffusion.value, params);

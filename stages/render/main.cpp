@@ -30,6 +30,9 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         const TriangleMesh A = read_mesh(source), B = read_mesh(target);
         const PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);
+        Candidates candidates;
+        if (!candidates_in.empty()) candidates = stage.read<Candidates>("candidates", candidates_in).value;
+        require_previews(candidates, A, B);
         const Image image =
             masses.empty()
                 ? render(A, B, A_to_B, B_to_A, params)
@@ -37,12 +40,10 @@ int main(int argc, char** argv) {
                                     read_csv_masses(masses[1], B.vertex_count()), params);
         stage.write_file(out, to_png(image));
         log("{} x {} pixels to {}", image.width, image.height, out);
-        if (candidates_in.empty()) return;
+        if (candidates.previews.empty()) return;
         const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
-        const auto previews = stage.read<Candidates>("candidates", candidates_in).value.previews;
-        if (previews.empty()) return;
         params.samples = std::min(params.samples, 2);  // rough maps need no smooth picture
-        stage.write_file(beside, to_png(render_candidates(A, B, previews, params)));
+        stage.write_file(beside, to_png(render_candidates(A, B, candidates.previews, params)));
         log("the first candidates to {}", beside);
     });
 }

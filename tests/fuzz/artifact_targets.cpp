@@ -10,6 +10,7 @@
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
+#include "varimap/results/quality_numbers.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
@@ -80,6 +81,10 @@ void use(const Plan& read) {
 
 void use(const Candidates& read) {
     if (read.list.size() != read.plans.size() || read.list.empty()) throw std::logic_error("bad candidates");
+}
+
+void use(const QualityNumbers& read) {
+    if (read.json.empty()) throw std::logic_error("no numbers");
 }
 
 void use(const SurfaceMap& read) {
@@ -171,6 +176,8 @@ std::vector<Target> artifact_targets() {
             artifact(plan()),
             artifact(candidates()),
             artifact(SurfaceMap{point_map(), point_map(), {}}),
+            artifact(QualityNumbers{
+                R"({"energy": 0.5, "landmarks": [0, 1e-3], "levels": [{"kind": "diffusion"}]})"}),
             whole_file(),
             csv_map()};
 }

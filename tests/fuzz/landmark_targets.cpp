@@ -13,19 +13,21 @@ namespace {
 
 const std::vector<std::string> numbers{"# source target\n0 1\n2 3\n 5 7\r\n", "0\n5\n11\n",
                                        "1 0 0 0\n2 1 0 0\n3 0 1 0\n"};
-const std::vector<std::string> coordinates{"0 0 1\n0 .5 .85\n1 0 0\n",
-                                           "0 0 1 0 0 1\n0 1 0 0 1 0\n1 0 0 1 0 0\n"};
+// Points near the mesh's vertices; others are refused.
+const std::vector<std::string> coordinates{
+    "0 .526 .851\n.526 .851 0\n.851 0 .526\n",
+    "0 .526 .851 0 .526 .851\n.526 .851 0 .526 .851 0\n.851 0 .526 .851 0 .526\n"};
 const std::vector<std::string> meshlab{
     "<!DOCTYPE PickedPoints>\n<PickedPoints>\n <DocumentData/>\n"
-    " <point x=\"0\" y=\"0\" z=\"1\" name=\"nose\" active=\"1\"/>\n"
-    " <point name=\"tail\" active=\"0\" z=\"0\" y=\"1\" x=\"0\"/>\n</PickedPoints>\n"};
+    " <point x=\"0\" y=\".526\" z=\".851\" name=\"nose\" active=\"1\"/>\n"
+    " <point name=\"tail\" active=\"0\" z=\"0\" y=\".851\" x=\".526\"/>\n</PickedPoints>\n"};
 const std::vector<std::string> slicer{
     R"({"markups": [{"type": "Fiducial", "coordinateSystem": "RAS", "controlPoints": [
-        {"label": "ear", "position": [0, 0, 1], "positionStatus": "defined"},
-        {"label": "tail", "position": [1, 0, 0.2]}, {"label": "x", "positionStatus": "undefined"}]}]})"};
+        {"label": "ear", "position": [0, 0.526, 0.851], "positionStatus": "defined"},
+        {"label": "tail", "position": [0.526, 0.851, 0]}, {"label": "x", "positionStatus": "undefined"}]}]})"};
 const std::vector<std::string> old_slicer{
     "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
-    "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n"};
+    "1,.526,.851,0,0,0,0,1,1,1,0,tail,,\r\n2,0,.526,.851,0,0,0,1,1,1,0,nose,,\n"};
 
 /// Read as the list of both surfaces, or as the file of pairs.
 Target target(const std::string& name, const std::string& ending, const std::vector<std::string>& seeds,

@@ -3,13 +3,16 @@
 // varimap_fuzz TARGET FILE...                               reads these
 // varimap_fuzz --list                                       the targets
 //
-// An input that takes longer than 10 s, ends the process, throws anything but an Error, or takes more memory
-// than 400 times its length and the target's base (known under the address sanitizer only) is written to
-// fuzz-TARGET-NUMBER, and the exit status is 1. Number N of seed S is the same input on every machine.
+// An input that takes longer than 10 s of the processor, or 100 s in all, ends the process, throws anything
+// but an Error, or takes more memory than 400 times its length and the target's base (known under the address
+// sanitizer only) is written to fuzz-TARGET-NUMBER, and the exit status is 1. Number N of seed S is the same
+// input on every machine.
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
 #include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +23,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "fuzz/mutation.h"
 #include "fuzz/target.h"
@@ -38,12 +42,21 @@ __attribute__((weak)) std::size_t __sanitizer_get_allocated_size(const volatile 
 namespace varimap::fuzz {
 namespace {
 
-constexpr unsigned longest_seconds = 10;
+constexpr unsigned longest_cpu_seconds = 10, longest_seconds = 100;
 constexpr std::size_t memory_factor = 400;
 
 std::string current_input, current_name;
 int messages = 2;  ///< where reports go; what the readers log goes nowhere
 std::atomic<std::int64_t> allocated{0}, most_allocated{0};
+
+/// The worst of all inputs so far.
+struct {
+    double seconds = 0;
+    std::string slowest;
+    std::size_t bytes = 0;
+    double multiple = 0;  ///< bytes beyond the target's base by the input's length
+} worst;
+std::map<int, std::uint64_t> ends;  ///< how many inputs ended with each exit code
 
 void say(const std::string& text) {
     [[maybe_unused]] const auto written = ::write(messages, text.data(), text.size());
@@ -63,11 +76,20 @@ void keep_input() {
 }
 
 void on_signal(int signal) {
-    fail(signal == SIGALRM ? "an input takes longer than 10 s" : fmt::format("signal {}", signal));
+    if (signal == SIGPROF) fail("an input takes longer than 10 s of the processor");
+    fail(signal == SIGALRM ? "an input takes longer than 100 s" : fmt::format("signal {}", signal));
+}
+
+/// Other work on the machine makes inputs late, not slow; but one that waits for something is caught, too.
+void start_timers(unsigned cpu_seconds, unsigned seconds) {
+    const itimerval timer{{0, 0}, {cpu_seconds, 0}};
+    ::setitimer(ITIMER_PROF, &timer, nullptr);
+    ::alarm(seconds);
 }
 
 void watch() {
     ::signal(SIGALRM, on_signal);
+    ::signal(SIGPROF, on_signal);
     if (__sanitizer_set_death_callback) {
         __sanitizer_set_death_callback(keep_input);
     } else {
@@ -94,29 +116,47 @@ void require_message(const std::string& message) {
     if (message.empty()) fail("a message is empty");
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void note_worst(const Target& target, const std::string& bytes, std::size_t taken, double seconds) {
+    if (seconds > worst.seconds) worst.seconds = seconds, worst.slowest = current_name;
+    worst.bytes = std::max(worst.bytes, taken);
+    if (taken > target.memory_base && !bytes.empty())
+        worst.multiple = std::max(worst.multiple, double(taken - target.memory_base) / double(bytes.size()));
+}
+
 void run_one(const Target& target, const std::string& bytes, const std::string& name) {
     current_input = bytes;
     current_name = name;
-    ::alarm(longest_seconds);
+    start_timers(longest_cpu_seconds, longest_seconds);
+    const auto start = Clock::now();
     const std::int64_t before = allocated;
     most_allocated = before;
     try {
         target.run(bytes);
+        ++ends[0];
     } catch (const Error& error) {
+        ++ends[int(error.code())];
         require_message(error.what());
         if (error.code() == ExitCode::internal) fail(error.what());
     } catch (const std::exception& error) {
         fail(std::string("an exception that is no Error: ") + error.what());
     }
-    ::alarm(0);
+    start_timers(0, 0);
     const auto taken = std::size_t(most_allocated - before);
+    note_worst(target, bytes, taken, seconds_since(start));
     if (taken > target.memory_base + memory_factor * bytes.size())
         fail(fmt::format("{} bytes of memory for an input of {}", taken, bytes.size()));
 }
 
 std::vector<Target> all_targets() {
     std::vector<Target> all;
-    for (const auto& list : {mesh_targets(), landmark_targets(), artifact_targets(), config_targets()})
+    for (const auto& list :
+         {mesh_targets(), landmark_targets(), artifact_targets(), stage_targets(), config_targets()})
         all.insert(all.end(), list.begin(), list.end());
     return all;
 }
@@ -159,18 +199,23 @@ void run_cases(const Target& target, const std::filesystem::path& folder) {
 }
 
 void run_made(const Target& target, const Options& options) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto passed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
+    const auto start = Clock::now();
     for (const std::string& seed : target.seeds) run_one(target, seed, "fuzz-" + target.name + "-seed");
     Mutator mutate(target.seeds, target.dictionary);
     std::uint64_t done = 0;
-    for (; done < options.runs && (options.seconds == 0 || passed() < options.seconds); ++done) {
+    for (; done < options.runs && (options.seconds == 0 || seconds_since(start) < options.seconds); ++done) {
         const std::uint64_t number = options.seed * 1'000'000'000 + done;
-        run_one(target, mutate(number), fmt::format("fuzz-{}-{}", target.name, number));
+        run_one(target, target.forge ? target.forge(number) : mutate(number),
+                fmt::format("fuzz-{}-{}", target.name, number));
     }
-    fmt::print("{}: {} inputs from seed {} in {:.0f} s\n", target.name, done, options.seed, passed());
+    fmt::print("{}: {} inputs from seed {} in {:.0f} s; the slowest, {}, {:.3f} s", target.name, done,
+               options.seed, seconds_since(start), worst.slowest, worst.seconds);
+    if (__sanitizer_install_malloc_and_free_hooks)
+        fmt::print("; {:.1f} MB at most, {:.0f} bytes for each of the input's beyond the first {:.0f} MB",
+                   double(worst.bytes) / (1 << 20), worst.multiple, double(target.memory_base) / (1 << 20));
+    fmt::print("; exit codes");
+    for (const auto& [code, count] : ends) fmt::print(" {}: {}", code, count);
+    fmt::print("\n");
 }
 
 int run(const std::vector<std::string>& words) {
@@ -188,6 +233,8 @@ int run(const std::vector<std::string>& words) {
         return 2;
     }
     const Options options = parse({words.begin() + 1, words.end()});
+    using oneapi::tbb::global_control;
+    const global_control one_thread(global_control::max_allowed_parallelism, 1);
     for (const std::string& file : options.files) run_one(*target, read_whole(file), file + ".again");
     if (options.files.empty()) {
         run_cases(*target, options.cases);

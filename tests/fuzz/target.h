@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct Target {
     /// Reads and uses one input. Throws nothing but an Error that the user can act on.
     std::function<void(const std::string& bytes)> run;
     std::size_t memory_base = 4 << 20;  ///< bytes that it may take, beside a multiple of the input's length
+    /// Makes input `number` where changing bytes of the seeds would not do.
+    std::function<std::string(std::uint64_t number)> forge = {};
 };
 
 /// Readers of meshes: obj, off, ply, stl, and what preprocess makes of them.
@@ -23,6 +26,8 @@ std::vector<Target> mesh_targets();
 std::vector<Target> landmark_targets();
 /// Artifacts of every kind with a right hash and hostile content, and their headers.
 std::vector<Target> artifact_targets();
+/// Stages, each with one forged artifact among those that it reads. Made at the first call of any of them.
+std::vector<Target> stage_targets();
 /// Config files and values of parameters.
 std::vector<Target> config_targets();
 

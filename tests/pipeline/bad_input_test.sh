@@ -28,6 +28,8 @@ refuse 2 a.off b.off -o out --area-bound
 refuse 2 a.off b.off -o out --landmark-weight
 refuse 2 a.off b.off -o out --landmark-weight 0.2
 grep -Fq -- '--landmark-weight needs --landmarks' log || fail "the reason is not given"
+refuse 2 a.off b.off -o out --landmark-space ras
+grep -Fq -- '--landmark-space needs --landmarks' log || fail "the reason is not given"
 refuse 6 a.off absent.off -o out
 refuse 6 a.off . -o out
 refuse 6 a.off b.off -o out --landmarks absent.txt
@@ -45,6 +47,7 @@ refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight 0
 refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight 1.5
 refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight firm
 refuse 2 a.off b.off -o out --area-energy other
+refuse 2 a.off b.off -o out --landmarks one.txt --landmark-space up
 map a.off b.off -o out >/dev/null 2>log || fail "a good pair"
 cp out/artifacts/a--b.map good.map
 refuse 2 a.off b.off -o out --set eigen.count=-3
@@ -61,7 +64,8 @@ printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n3 0 1 2\n3 1 0 3\n3 0 1 4
 printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n' >parts.off
 printf 'OFF\n3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2\n' >point.off
 cp a.off a.unknown
-for bad in text.off cut.off empty.off nan.off range.off nonmanifold.off parts.off point.off a.unknown; do
+printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n.5 1e-5 0\n.5 0 1e-5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' >sliver.off
+for bad in sliver.off text.off cut.off empty.off nan.off range.off nonmanifold.off parts.off point.off a.unknown; do
     refuse 3 "$bad" b.off -o bad -j 1
     refuse 3 b.off "$bad" -o bad -j 1
 done
@@ -75,6 +79,15 @@ printf '1\n2\n' >two.txt
 refuse 3 a.off b.off -o out --landmarks three.txt two.txt
 printf '1 1\n1 2\n' >twice.txt
 refuse 3 a.off b.off -o out --landmarks twice.txt
+# Two vertices in one place become one; one landmark on it is served, two are not.
+awk 'NR == 3 { held = $0 } NR == 4 { $0 = held } { print }' a.off >merged.off
+printf '0 0\n1 1\n' >both.txt
+refuse 3 merged.off b.off -o merged --landmarks both.txt
+grep -q 'landmark vertices 0 and 1 of the source became one' log || fail "the reason is not given"
+refuse 3 b.off merged.off -o merged --landmarks both.txt
+head -n 1 both.txt >single.txt
+map merged.off b.off -o merged --landmarks single.txt >/dev/null 2>log || fail "one landmark on vertices that became one"
+
 same out/artifacts/a--b.map good.map
 map a.off b.off -o out >/dev/null 2>log || fail "the good pair again"
 same out/artifacts/a--b.map good.map

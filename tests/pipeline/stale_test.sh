@@ -94,5 +94,9 @@ expect_exit 4 "$VARIMAP_BIN/varimap-diffuse" good/artifacts/{a.surface,a.basis} 
     good/artifacts/b.{surface,basis,hierarchy} new.diffusion
 expect_exit 4 "$VARIMAP_BIN/varimap-relax" good_c/artifacts/{a,c}.surface good/artifacts/a--b.plan new.map
 expect_exit 4 "$VARIMAP_BIN/varimap-remesh" good/artifacts/{a,b}.surface good_30/artifacts/a--b.plan good/artifacts/a--b.map new.quality
+# One landmark list for exploration, another for what continues it.
+"$VARIMAP_BIN/varimap-explore" "${both[@]}" found.candidates --landmarks four.txt --random_starts 1 2>log || fail "explore"
+expect_exit 4 "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" new.diffusion --candidates found.candidates --landmarks tips.txt
+grep -q 'do not belong together' log || fail "the reason is not given"
 [[ $(find . -maxdepth 1 -name 'new.*') == "" ]] || fail "something was written"
 nothing_left out

@@ -9,6 +9,7 @@
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/repair.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/spectral/eigenbasis.h"
 
 namespace varimap {
 namespace {
@@ -148,7 +149,14 @@ TEST(Preprocess, NamesThePlaceOfWhatItCannotRepair) {
 }
 
 TEST(Preprocess, EndsBisectionOfSliversInProportion) {
-    EXPECT_EQ(preprocess(sliver(1e-5), {}).mesh.vertex_count(), 10000);
+    EXPECT_EQ(preprocess(sliver(3e-4), {}).mesh.vertex_count(), 10000);
+    EXPECT_NO_THROW(compute_eigenbasis(preprocess(sliver(3e-4), {}), {}));
+    for (const double width : {1e-4, 1e-5}) try {
+            preprocess(sliver(width), {});
+            ADD_FAILURE() << width;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("is a sliver"));
+        }
     const Surface fine = preprocess(sliver(1e-5), with_target(.5));  // on request, any number
     for (const auto& [a, b] : find_edges(fine.mesh).vertices)
         EXPECT_LE((fine.mesh.vertex(a) - fine.mesh.vertex(b)).norm(), .5 * (1 + 1e-9));

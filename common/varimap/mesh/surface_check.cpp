@@ -4,6 +4,8 @@
 
 #include "varimap/artifact/consistency.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/mass.h"
+#include "varimap/mesh/repair.h"
 
 namespace varimap {
 namespace {
@@ -52,6 +54,20 @@ void require_way_back(const Surface& surface) {
     }
 }
 
+/// Preprocessing leaves no face thinner than 1e-6, of which bisection makes ones down to a quarter. On
+/// thinner ones neither Laplacian nor walks can be trusted.
+void require_no_thin_faces(const TriangleMesh& mesh) {
+    constexpr double thinnest = 1e-7;
+    for (int f = 0; f < mesh.face_count(); ++f) require<Surface>(thinness(mesh, f) >= thinnest, "faces");
+}
+
+/// Masses are those of the mesh, up to rounding.
+void require_masses(const Surface& surface) {
+    require<Surface>(are_masses(surface.mass), "masses");
+    const Eigen::ArrayXd error = (surface.mass - voronoi_masses(surface.mesh)).array().abs();
+    require<Surface>((error <= 1e-6 * surface.mass.array() + 1e-12).all(), "masses");
+}
+
 }  // namespace
 
 void require_complete(const Surface& surface) {
@@ -61,7 +77,8 @@ void require_complete(const Surface& surface) {
     require_sizes(surface);
     require_way_back(surface);
     require<Surface>(std::abs(surface_area(surface.mesh) - 1) < 1e-3, "area");
-    require<Surface>(are_masses(surface.mass), "masses");
+    require_no_thin_faces(surface.mesh);
+    require_masses(surface);
 }
 
 }  // namespace varimap

@@ -1,5 +1,6 @@
 #include "varimap/mesh/surface_walk.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "varimap/mesh/topology.h"
@@ -8,7 +9,7 @@ namespace varimap {
 
 namespace {
 
-constexpr int most_faces = 10000;  ///< against walks that never end
+constexpr int most_faces = 10000;  ///< against walks that never end, as is twice all faces, and some
 constexpr int most_slides = 16;    ///< turns at a boundary, where two sides could play ping-pong
 
 }  // namespace
@@ -33,7 +34,8 @@ SurfaceWalk::SurfaceWalk(const TriangleMesh& mesh)
 
 SurfacePoint SurfaceWalk::operator()(const SurfacePoint& start, const Vec3& step) const {
     State state{start, step};
-    for (int face = 0; face < most_faces && advance(state); ++face) {
+    const int most = std::min(most_faces, 2 * mesh_.face_count() + 100);
+    for (int face = 0; face < most && advance(state); ++face) {
     }
     return state.point;
 }

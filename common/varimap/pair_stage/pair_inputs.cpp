@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
-#include "varimap/artifact/consistency.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/spectral/spectral_check.h"
 
 namespace varimap {
 
@@ -22,6 +23,19 @@ MeshVertex mesh_vertex(const Surface& surface, InputVertex vertex, const char* w
 
 bool is_at_vertex(const Surface& surface, InputVertex vertex) {
     return vertex_of(surface.mesh, surface.on_mesh[std::size_t(vertex.index)]) >= 0;
+}
+
+/// A repair makes one vertex of several; a landmark each would ask it to go to several places.
+/// Near ones may share a vertex of a coarse mesh.
+void require_unmerged(std::map<int, int>& taken, const Surface& surface, MeshVertex at, InputVertex vertex,
+                      const char* which) {
+    if (!is_at_vertex(surface, vertex)) return;
+    const auto [other, is_new] = taken.emplace(at.index, vertex.index);
+    if (!is_new)
+        throw InputError(
+            fmt::format("landmark vertices {} and {} of the {} became one when faces without area were "
+                        "removed; keep one of the two landmarks",
+                        other->second, vertex.index, which));
 }
 
 }  // namespace
@@ -42,11 +56,10 @@ SurfaceData PairInputs::read(Stage& stage, const std::string& name, const Paths&
     Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "basis", basis.header, paths.basis);
-    const Eigen::Index vertices = surface.value.mesh.vertex_count();
-    require<Basis>(basis.value.functions.rows() == vertices, "vertices");
-    require<Hierarchy>(Eigen::Index(hierarchy.value.levels.front().cell.size()) == vertices, "vertices");
     hierarchies_.emplace_back(name + ".hierarchy", hierarchy.header);
-    return {std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
+    SurfaceData data{std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
+    require_fit(data);
+    return data;
 }
 
 void PairInputs::require_same(const Header& plan, const std::string& plan_path) const {
@@ -67,8 +80,12 @@ Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, co
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B) {
     VertexPairs<MeshVertex> result;
-    for (const auto& [a, b] : landmarks)
+    std::map<int, int> taken_A, taken_B;
+    for (const auto& [a, b] : landmarks) {
         result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
+        require_unmerged(taken_A, A, result.back().first, a, "source");
+        require_unmerged(taken_B, B, result.back().second, b, "target");
+    }
     return result;
 }
 

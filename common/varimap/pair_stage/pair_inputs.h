@@ -33,7 +33,8 @@ class PairInputs {
 /// Reads landmarks (vertex_list.h) and records their files as inputs.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, LandmarkSpace space);
-/// The vertices that landmarks became on the preprocessed meshes. Throws InputError for those no face uses.
+/// The vertices that landmarks became on the preprocessed meshes. Throws InputError for those no face uses,
+/// and for two that became one.
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B);
 /// Landmarks as points of the inputs, where they lie between vertices of the preprocessed or coarsened

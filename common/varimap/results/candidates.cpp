@@ -33,4 +33,10 @@ void decode(const std::string& payload, Candidates& candidates) {
     for (const PointMap& preview : candidates.previews) require<Candidates>(are_points(preview), "previews");
 }
 
+void require_previews(const Candidates& candidates, const TriangleMesh& source, const TriangleMesh& target) {
+    for (const PointMap& preview : candidates.previews)
+        if (int(preview.size()) != target.vertex_count() || !are_points(preview, source.face_count()))
+            throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
+}
+
 }  // namespace varimap

@@ -31,4 +31,7 @@ std::string encode(const Candidates& candidates);
 /// Throws ArtifactError unless sizes fit each other, masses and plans are masses, and previews are points.
 void decode(const std::string& payload, Candidates& candidates);
 
+/// Throws ArtifactError if a preview does not lead from the vertices of `target` to faces of `source`.
+void require_previews(const Candidates& candidates, const TriangleMesh& source, const TriangleMesh& target);
+
 }  // namespace varimap

@@ -8,6 +8,13 @@
 namespace varimap {
 namespace {
 
+/// Each sample lies in its own cell.
+bool own_their_cells(const std::vector<int>& samples, const std::vector<int>& cell) {
+    for (std::size_t k = 0; k < samples.size(); ++k)
+        if (cell[std::size_t(samples[k])] != int(k)) return false;
+    return true;
+}
+
 /// W of Eq. 7 and 11: from above 0 to 1, where it is that of a sample to itself.
 bool are_weights(const SparseMatrix& weights) {
     constexpr double rounding = 1e-6;
@@ -25,11 +32,12 @@ void require_complete(const Level& level, Eigen::Index vertices) {
     require<Hierarchy>(samples > 0 && are_distinct_in_range(level.samples, vertices), "samples");
     require<Hierarchy>(Eigen::Index(level.cell.size()) == vertices && are_in_range(level.cell, samples),
                        "cells");
+    require<Hierarchy>(own_their_cells(level.samples, level.cell), "cells");
     require<Hierarchy>(level.mass.size() == samples && are_masses(level.mass), "masses");
     require<Hierarchy>(level.weights.rows() == samples && level.weights.cols() == samples, "weights");
     require<Hierarchy>(are_weights(level.weights), "weights");
     require<Hierarchy>(std::isfinite(level.scale) && level.scale >= 0, "scales");
-    require<Hierarchy>(!level.full || samples == vertices, "levels");
+    require<Hierarchy>(!level.full || (samples == vertices && level.kind == LevelKind::euclidean), "levels");
     require<Hierarchy>(level.kind == LevelKind::diffusion || level.kind == LevelKind::euclidean, "levels");
 }
 
@@ -38,12 +46,34 @@ bool is_share(double value) {
     return value > 0 && value < 1;
 }
 
+/// As many as the command line allows.
+bool are_neighbours(int count) {
+    return count > 0 && count <= 1000;
+}
+
 bool are_options(const HierarchyOptions& o) {
     return is_share(o.truncation) && is_share(o.density) && std::isfinite(o.growth) && o.growth >= 1 &&
-           o.minimum_neighbours > 0 && o.full_neighbours > 0 && o.last_neighbours > 0;
+           are_neighbours(o.minimum_neighbours) && are_neighbours(o.full_neighbours) &&
+           are_neighbours(o.last_neighbours);
+}
+
+/// Masses of cells are sums of those of their vertices.
+bool are_masses_of_cells(const Level& level, const Eigen::VectorXd& vertex_mass) {
+    constexpr double rounding = 1e-9;
+    Eigen::VectorXd left = level.mass;
+    for (std::size_t v = 0; v < level.cell.size(); ++v) left[level.cell[v]] -= vertex_mass[Eigen::Index(v)];
+    return (left.array().abs() <= rounding * level.mass.array()).all();
+}
+
+bool are_within(const Eigen::Ref<const RowMatrix>& values, double bound) {
+    return values.allFinite() && values.cwiseAbs().maxCoeff() <= bound;
 }
 
 }  // namespace
+
+/// Descriptors are cut off at 2.5 / sqrt(3); nothing stands out of a surface farther than it is long, for
+/// which the least eigenvalue has a bound.
+constexpr double largest_descriptor = 2.5, largest_bending = 1e6;
 
 /// On unit area. A cylinder of length L has lambda_2 = (pi / L)^2, and |phi_i| is at most m_i^-1/2: what lies
 /// beyond belongs to no surface, and heat kernels made of it would overflow.
@@ -65,7 +95,8 @@ void require_complete(const Basis& basis) {
 
 void require_complete(const Hierarchy& hierarchy) {
     const std::vector<Level>& levels = hierarchy.levels;
-    require<Hierarchy>(!levels.empty() && levels.front().kind == LevelKind::diffusion, "levels");
+    require<Hierarchy>(!levels.empty() && levels.front().kind == LevelKind::diffusion && levels.back().full,
+                       "levels");
     require<Hierarchy>(are_options(hierarchy.options), "options");
     const auto vertices = Eigen::Index(levels.front().cell.size());
     for (std::size_t l = 0; l < levels.size(); ++l) {
@@ -79,7 +110,21 @@ void require_complete(const Hierarchy& hierarchy) {
     const LocalShape& shape = hierarchy.shape;
     require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices,
                        "local shape");
-    require<Hierarchy>(shape.descriptors.allFinite() && shape.bending.allFinite(), "local shape");
+    require<Hierarchy>(
+        are_within(shape.descriptors, largest_descriptor) && are_within(shape.bending, largest_bending),
+        "local shape");
+}
+
+void require_fit(const Basis& basis, const Surface& surface) {
+    require<Basis>(basis.functions.rows() == surface.mesh.vertex_count(), "vertices");
+}
+
+void require_fit(const SurfaceData& data) {
+    require_fit(data.basis, data.surface);
+    const auto vertices = Eigen::Index(data.hierarchy.levels.front().cell.size());
+    require<Hierarchy>(vertices == data.surface.mesh.vertex_count(), "vertices");
+    for (const Level& level : data.hierarchy.levels)
+        require<Hierarchy>(are_masses_of_cells(level, data.surface.mass), "masses");
 }
 
 }  // namespace varimap

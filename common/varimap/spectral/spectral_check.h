@@ -1,6 +1,7 @@
 #pragma once
 
 #include "varimap/spectral/hierarchy.h"
+#include "varimap/spectral/surface_data.h"
 
 namespace varimap {
 
@@ -9,5 +10,10 @@ namespace varimap {
 
 void require_complete(const Basis& basis);
 void require_complete(const Hierarchy& hierarchy);
+
+// Check that what was read belongs to one surface. Throw ArtifactError.
+
+void require_fit(const Basis& basis, const Surface& surface);
+void require_fit(const SurfaceData& data);
 
 }  // namespace varimap

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -35,7 +36,11 @@ struct Stage::State {
     std::vector<InputRecord> inputs;
     std::map<std::string, FileState> states_at_start;  ///< of the input files
     std::vector<InputRecord> identities;               ///< of the input files, where a stamp needs them
-    std::vector<std::string> files;                    ///< written by write_file
+    struct Origin {
+        std::string hash, path;  ///< of what was read first that names it
+    };
+    std::map<std::string, Origin> origins;  ///< by role, of what is read and what that was made from
+    std::vector<std::string> files;         ///< written by write_file
     std::map<std::string, double> numbers;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::string written_hash;  ///< of the artifact's payload; empty: none was written
@@ -195,6 +200,7 @@ const bool& Stage::flag(const std::string& name, const std::string& help) {
 
 int Stage::main(int argc, char** argv, const std::function<void()>& body) {
     open_standard_descriptors();
+    std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead, which is reported
     ErrorReport report{"varimap-" + state_->line.stage, ""};
     return guarded(report, [&] {
         if (const auto text = state_->line.parse(argc, argv)) return print_result(*text);
@@ -239,10 +245,27 @@ void Stage::record_file(const std::string& role, const std::string& path) {
     const auto start = state_->states_at_start.find(path);
     if (start != state_->states_at_start.end() && start->second != file_state(path))
         throw IoError("'" + path + "' changed while it was read; run again");
+    require_origin(role, state_->inputs.back().hash, path);
 }
 
 void Stage::record_input(InputRecord record) {
     state_->inputs.push_back(std::move(record));
+}
+
+void Stage::require_origin(const std::string& role, const std::string& hash, const std::string& path) {
+    const auto& known = state_->origins.try_emplace(role, State::Origin{hash, path}).first->second;
+    if (known.hash == hash) return;
+    throw ArtifactError(
+        fmt::format("'{}' and '{}' do not belong together: each was made from another {}; "
+                    "rerun the stages that wrote them",
+                    known.path, path, role));
+}
+
+/// The surface of A.basis is A.surface; that of a plan has its side in its name already.
+void Stage::require_same_origin(const std::string& role, const Header& header, const std::string& path) {
+    require_origin(role, header.payload_hash, path);
+    const std::string side = role.substr(0, role.find('.') + 1);
+    for (const auto& input : header.inputs) require_origin(side + input.role, input.hash, path);
 }
 
 void Stage::require_lineage(const Header& child, const std::string& child_path, const std::string& role,

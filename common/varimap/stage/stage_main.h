@@ -56,11 +56,13 @@ class Stage {
     int main(int argc, char** argv, const std::function<void()>& body);
 
     // Inside body.
-    /// Reads an artifact and records it as a direct input.
+    /// Reads an artifact and records it as a direct input. Refuses (ArtifactError) one whose header says that
+    /// it was made from another artifact or file than the rest of what this stage reads.
     template <class T>
     Artifact<T> read(const std::string& role, const std::string& path) {
         auto artifact = read_artifact<T>(path);
         record_input({role, artifact.header.kind, artifact.header.payload_hash});
+        require_same_origin(role, artifact.header, path);
         return artifact;
     }
     /// Records a foreign file (a mesh, a landmark list) as a direct input, by its content. Call it after
@@ -90,6 +92,8 @@ class Stage {
   private:
     void write_encoded(const std::string& path, const std::string& kind, int schema,
                        const std::string& payload);
+    void require_same_origin(const std::string& role, const Header& header, const std::string& path);
+    void require_origin(const std::string& role, const std::string& hash, const std::string& path);
     void write_run_file() const;
     void run(const std::function<void()>& body);
     struct State;

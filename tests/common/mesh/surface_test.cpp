@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
+#include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
@@ -132,6 +134,18 @@ TEST_F(SurfaceTest, ContradictionsAreRefused) {
     EXPECT_THROW(decode(encode(surface), copy), ArtifactError);
 }
 
+/// Walks on such a surface once took relax longer than ten seconds.
+TEST_F(SurfaceTest, FacesThinnerThanPreprocessingLeavesAreRefused) {
+    Surface surface = make(), copy;
+    surface.mesh.vertices.col(1) *= 1e-9;
+    surface.mesh.vertices /= std::sqrt(surface_area(surface.mesh));
+    surface.mesh.vertices.col(2) *= 1e-9;
+    surface.mesh.vertices /= std::sqrt(surface_area(surface.mesh));
+    surface = shapes::plain_surface(surface.mesh);
+    surface.mass = voronoi_masses(surface.mesh);
+    EXPECT_THROW(decode(encode(surface), copy), ArtifactError);
+}
+
 /// Every part of a surface can be wrong with a right hash.
 TEST_F(SurfaceTest, ForgedPartsAreRefused) {
     const Surface good = make();
@@ -155,6 +169,11 @@ TEST_F(SurfaceTest, ForgedPartsAreRefused) {
         {"mass of zero", [](Surface& s) { s.mass[5] = 0; }},
         {"negative mass", [](Surface& s) { s.mass[5] *= -1; }},
         {"masses of another sum", [](Surface& s) { s.mass *= 2; }},
+        {"masses of another mesh",
+         [](Surface& s) {
+             const double moved = .1 * s.mass[5];
+             s.mass[5] -= moved, s.mass[6] += moved;
+         }},
         {"nan mass", [&](Surface& s) { s.mass[5] = nan; }},
         {"face of no mesh", [](Surface& s) { s.on_mesh[1].face = s.mesh.face_count(); }},
         {"used vertex lost", [](Surface& s) { s.on_mesh[1].face = -1; }},

@@ -6,11 +6,14 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "fixtures/shapes.h"
 #include "fixtures/surface_data.h"
+#include "varimap/core/error.h"
 #include "varimap/spectral/neighbourhoods.h"
+#include "varimap/spectral/spectral_check.h"
 
 namespace varimap {
 namespace {
@@ -223,6 +226,44 @@ TEST(Hierarchy, IsTheSameToTheLastBitForAnyThreads) {
     Hierarchy read;
     decode(one, read);
     EXPECT_EQ(encode(read), one);
+}
+
+/// What no varimap-hierarchy writes, and what once crashed or confused the stages that read it.
+TEST(Hierarchy, ForgedPartsAreRefused) {
+    const SurfaceData good = small_figure();
+    const std::pair<const char*, std::function<void(Hierarchy&)>> forgeries[] = {
+        {"no level with every vertex", [](Hierarchy& h) { h.levels.resize(h.levels.size() - 2); }},
+        {"a full level of the wrong kind",
+         [](Hierarchy& h) {
+             for (Level& level : h.levels) level.kind = LevelKind::diffusion;
+         }},
+        {"a sample in another's cell",
+         [](Hierarchy& h) { std::swap(h.levels[2].samples[0], h.levels[2].samples[1]); }},
+        {"a descriptor that Sinkhorn's iteration chokes on",
+         [](Hierarchy& h) { h.shape.descriptors(3, 1) = 1e155; }},
+        {"bending without end", [](Hierarchy& h) { h.shape.bending[3] = 1e100; }},
+        {"endless neighbours", [](Hierarchy& h) { h.options.minimum_neighbours = 1 << 30; }}};
+    Hierarchy copy;
+    EXPECT_NO_THROW(decode(encode(good.hierarchy), copy));
+    for (const auto& [what, forge] : forgeries) {
+        Hierarchy forged = good.hierarchy;
+        forge(forged);
+        EXPECT_THROW(decode(encode(forged), copy), ArtifactError) << what;
+    }
+}
+
+TEST(Hierarchy, BelongsToTheSurfaceAndTheBasis) {
+    const SurfaceData good = small_figure();
+    EXPECT_NO_THROW(require_fit(good));
+    SurfaceData other = good;
+    other.basis.functions.conservativeResize(other.basis.functions.rows() - 1, Eigen::NoChange);
+    EXPECT_THROW(require_fit(other), ArtifactError);
+    other = good;
+    other.surface = unit_surface(shapes::tube(20, 16, true));
+    EXPECT_THROW(require_fit(other), ArtifactError);
+    other = good;
+    std::swap(other.surface.mass[0], other.surface.mass[1]);  // cells are sums of other masses
+    EXPECT_THROW(require_fit(other), ArtifactError);
 }
 
 TEST(Hierarchy, DescribesTheLocalShapeOfEveryVertex) {

@@ -536,6 +536,39 @@ TEST_F(StageRun, AnErrorFileTakesTheMessage) {
     EXPECT_EQ(read_file(errors), "3 varimap-sample: error: bad\\x1b[2J\n");
 }
 
+TEST_F(StageRun, RefusesInputsOfDifferentOrigin) {
+    const auto write_made_from = [&](const std::string& path, const std::vector<InputRecord>& inputs) {
+        Header header;
+        header.kind = "sample", header.schema = 1, header.stage = "varimap-sample", header.inputs = inputs;
+        write_payload(path, header, path);
+    };
+    const auto read_both = [&](const std::string& first, const std::string& second) {
+        return run_sample({in, out}, [&](Stage& stage) {
+            stage.read<TestArtifact>(first, folder / "first");
+            stage.read<TestArtifact>(second, folder / "second");
+        });
+    };
+    write_made_from(folder / "first", {{"surface", "surface", content_hash("one")}});
+    write_made_from(folder / "second", {{"surface", "surface", content_hash("two")}});
+    EXPECT_EQ(read_both("A.first", "B.second").code, 0);
+    const Outcome refused = read_both("A.first", "A.second");
+    EXPECT_EQ(refused.code, 4);
+    EXPECT_THAT(refused.err, HasSubstr("made from another A.surface"));
+    // The first says which second it was made from.
+    write_made_from(folder / "first", {{"A.second", "sample", content_hash(folder / "second")}});
+    EXPECT_EQ(read_both("first", "A.second").code, 0);
+    write_made_from(folder / "first", {{"A.second", "sample", content_hash("another")}});
+    EXPECT_EQ(read_both("first", "A.second").code, 4);
+    const Outcome other_way = run_sample({in, out}, [&](Stage& stage) {
+        stage.read<TestArtifact>("A.second", folder / "second");
+        stage.read<TestArtifact>("first", folder / "first");
+    });
+    EXPECT_EQ(other_way.code, 4);
+    // A file that is read, too.
+    write_made_from(folder / "first", {{"source", "mesh", content_hash("another input")}});
+    EXPECT_EQ(read_both("first", "second").code, 4);
+}
+
 TEST(Lineage, AcceptsTheParentAndRefusesAnother) {
     Header parent, other, child;
     parent.payload_hash = content_hash("parent");

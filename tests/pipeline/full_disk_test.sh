@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# A disk that is full, or a limit on the size of files: exit 6 and one line, nothing half-written is left, and with
+# space again a run carries on to the same bytes.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+mounted=''
+! own_disk || mounted=yes
+small_picture+=("${coarse[@]}")
+figure a.off 6
+figure b.off 6 .5
+map a.off b.off -o good
+
+whole() {  # FOLDER: every artifact in it passes its check
+    artifacts "$1" | xargs -r "$VARIMAP_BIN/varimap-inspect" --check >log 2>&1 || fail "a damaged artifact was left"
+}
+
+# Files may grow to so many kB only. Stages are ended by no signal for it.
+for limit in 1 8 32 64 128; do
+    for signal in '' "trap '' XFSZ;"; do
+        code=0
+        bash -c "$signal ulimit -f $limit; exec \"\$@\"" limited "$varimap" map "${small_picture[@]}" a.off b.off -o limited >out.txt 2>log || code=$?
+        ((code == 6 || code == 0)) || fail "exit $code with a limit of $limit kB on files"
+        ((code == 0)) || [[ $(grep -c 'error: ' log) == 1 ]] || fail "not one error line"
+        [[ ! -d limited/artifacts ]] || whole limited/artifacts/
+        nothing_left limited
+    done
+done
+map a.off b.off -o limited
+same_results good limited
+
+# Where no disk can be mounted, that is all.
+[[ -n $mounted ]] || { echo "no full disk: mounting is not permitted here"; exit 0; }
+
+# Some kB more are free in each run, from none on, until one has enough.
+leave_free() {  # KB
+    rm -f disk/filler
+    local free
+    free=$(df --output=avail -k disk | tail -n 1)
+    ((free <= $1)) || head -c $(((free - $1) * 1024)) /dev/zero >disk/filler
+}
+refusals=0
+for ((free = 0; ; free += 40)); do
+    leave_free $free
+    code=0
+    "$varimap" map "${small_picture[@]}" a.off b.off -o disk/out >out.txt 2>log || code=$?
+    ((code != 0)) || break
+    ((code == 6)) || fail "exit $code with $free kB free"
+    [[ $(grep -c 'error: ' log) == 1 ]] || fail "not one error line with $free kB free"
+    ((++refusals < 200)) || fail "never enough space"
+    if [[ -d disk/out ]]; then
+        nothing_left disk/out
+        [[ ! -d disk/out/artifacts ]] || whole disk/out/artifacts/
+    fi
+done
+((refusals > 3)) || fail "the disk was full $refusals times only"
+rm -f disk/filler
+same_results good disk/out
+map a.off b.off -o disk/out
+expect_ran ""
+echo "the disk was full $refusals times"
