@@ -13,9 +13,8 @@ namespace varimap {
 
 namespace {
 
-constexpr int patience = 40;    ///< sweeps without fewer folds or a better worst face; swept: 20 to 80
-constexpr int polishing = 10;   ///< sweeps once nothing is folded; swept: 5 to 20
-constexpr int leap_period = 4;  ///< sweeps; swept: 2 to 8
+constexpr int patience = 40;   ///< sweeps without fewer folds or a better worst face; swept: 20 to 80
+constexpr int polishing = 10;  ///< sweeps once nothing is folded; swept: 5 to 20
 constexpr double least_regularisation = 1e-4;
 constexpr std::array<double, 3> weights{1, 0.2, 0.05};
 constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
@@ -48,7 +47,7 @@ class Patch {
 
     /// Sweeps until nothing is folded, or nothing has become better for a while; leaves the best that was
     /// met. Returns the number of sweeps.
-    int unfold(LocalRelaxation& relax, double weight, int most_sweeps, double most_visits);
+    int unfold(LocalRelaxation& relax, double weight, int most_sweeps);
     int folded() const { return best_.count; }
     std::vector<int> folded_faces() const {
         std::vector<int> folded;
@@ -105,18 +104,12 @@ void lower_regularisation(FoldEnergy& energy, double before, double now, double 
     energy.regularisation = std::max(next, least_regularisation);
 }
 
-int Patch::unfold(LocalRelaxation& relax, double weight, int most_sweeps, double most_visits) {
+int Patch::unfold(LocalRelaxation& relax, double weight, int most_sweeps) {
     FoldEnergy energy{weight, 1};
-    const double visits = relax.visits();
     int sweeps = 0, idle = 0, clean = 0;
-    relax.wake(vertices_);
-    while (sweeps < most_sweeps && idle < patience && clean < polishing &&
-           relax.visits() - visits < most_visits) {
+    while (sweeps < most_sweeps && idle < patience && clean < polishing) {
         const double before = total(energy);
-        if (sweeps % leap_period == leap_period - 1)
-            relax.sweep(vertices_, energy, true);
-        else
-            relax.sweep_restless(vertices_, energy);
+        relax.sweep(vertices_, energy, true);
         ++sweeps;
         measure();
         const bool better = folds_.better_than(best_);
@@ -224,14 +217,16 @@ Removal::Component Removal::component_of(int first) {
 }
 
 void Removal::unfold(Component component, std::vector<Fold>& left) {
+    const double size = double(component.vertices.size());
     Patch patch(map_, std::move(component.vertices));
     int strikes = component.strikes;
     for (const double weight : weights) {
-        if (patch.folded() == 0 || strikes >= options_.strikes || visits_ <= 0) break;
+        if (patch.folded() == 0 || strikes >= options_.strikes || visits_ < size) break;
         const int before = patch.folded();
-        const double visits = relax_.visits();
-        sweeps_ += patch.unfold(relax_, weight, options_.most_sweeps, visits_);
-        visits_ -= relax_.visits() - visits;
+        const int allowed = int(std::min(double(options_.most_sweeps), visits_ / size));
+        const int sweeps = patch.unfold(relax_, weight, allowed);
+        sweeps_ += sweeps;
+        visits_ -= sweeps * size;
         strikes = patch.folded() < before ? 0 : strikes + 1;
     }
     if (strikes >= options_.strikes) return;

@@ -12,8 +12,7 @@ namespace varimap {
 namespace {
 
 constexpr int backtracks = 7;
-constexpr double longest_step = 2;   ///< of a Newton step, in lengths of the vertex's longest source edge
-constexpr double noticeable = 1e-3;  ///< step, in the same lengths
+constexpr double longest_step = 2;  ///< of a Newton step, in lengths of the vertex's longest source edge
 
 /// Newton's direction with the Hessian's eigenvalues made positive.
 Eigen::Vector2d descent(const Star::Quadratic& quadratic) {
@@ -86,25 +85,11 @@ bool Star::mean_of_others(Vec3& mean) const {
 
 void LocalRelaxation::sweep(std::vector<int>& vertices, const FoldEnergy& energy, bool leap) {
     shuffle(vertices);
-    for (const int v : vertices) visit(v, energy, leap);
-}
-
-void LocalRelaxation::sweep_restless(std::vector<int>& vertices, const FoldEnergy& energy) {
-    shuffle(vertices);
-    for (const int v : vertices)
-        if (!calm_[v]) visit(v, energy, false);
-}
-
-void LocalRelaxation::visit(int v, const FoldEnergy& energy, bool leap) {
-    const Vec3 before = map_.image(v);
-    star_.gather(map_, v);
-    newton_step(v, energy);
-    if (leap && star_.has_reversed(map_.image(v), map_.normal(v))) leap_to_mean(v, energy);
-    ++visits_;
-    calm_[v] = !((map_.image(v) - before).norm() > noticeable * map_.longest_edge(v));
-    if (calm_[v]) return;
-    for (const int f : map_.faces_of_vertex()[v])
-        for (int k = 0; k < 3; ++k) calm_[map_.source().faces(f, k)] = false;
+    for (const int v : vertices) {
+        star_.gather(map_, v);
+        newton_step(v, energy);
+        if (leap && star_.has_reversed(map_.image(v), map_.normal(v))) leap_to_mean(v, energy);
+    }
 }
 
 /// Fisher-Yates with xorshift numbers, the same everywhere.

@@ -44,34 +44,22 @@ class Star {
 /// the true energy of the vertex's faces, which therefore never grows.
 class LocalRelaxation {
   public:
-    LocalRelaxation(SlidingMap& map, std::uint32_t seed)
-        : map_(map), state_(seed), calm_(map.source().vertex_count()) {}
+    LocalRelaxation(SlidingMap& map, std::uint32_t seed) : map_(map), state_(seed) {}
 
     /// One visit of every vertex of `vertices` (none may be a landmark or without an image); reorders them.
     /// With `leap`, vertices with a reversed face also try the mean of their neighbours' images, and walks
     /// towards it.
     void sweep(std::vector<int>& vertices, const FoldEnergy& energy, bool leap);
-    /// Visits only those that moved noticeably when they were last visited, or had a neighbour that did
-    /// since.
-    void sweep_restless(std::vector<int>& vertices, const FoldEnergy& energy);
-    /// From now on they count as having moved.
-    void wake(const std::vector<int>& vertices) {
-        for (const int v : vertices) calm_[v] = false;
-    }
-    double visits() const { return visits_; }
 
   private:
     void shuffle(std::vector<int>& vertices);
-    void visit(int v, const FoldEnergy& energy, bool leap);
     void newton_step(int v, const FoldEnergy& energy);
     void leap_to_mean(int v, const FoldEnergy& energy);
     bool try_walk(int v, const SurfacePoint& from, const Vec3& step, double before, const FoldEnergy& energy);
 
     SlidingMap& map_;
     std::uint32_t state_;
-    VertexData<bool> calm_;
-    double visits_ = 0;  ///< so far
-    Star star_;          ///< of the vertex under visit
+    Star star_;  ///< of the vertex under visit
 };
 
 }  // namespace varimap
