@@ -67,8 +67,9 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
                 data_B = surface_data(B, "B", options, false);
     const auto landmarks = to_mesh_vertices(options.landmarks, data_A.surface, data_B.surface);
     const PointPairs points = landmark_points({options.landmarks, {}}, data_A.surface, data_B.surface);
-    const PairContext context(std::move(data_A), std::move(data_B), landmarks, options.landmark_weight);
-    const Surface &surface_A = context.A().surface, &surface_B = context.B().surface;
+    const Surface surface_A = data_A.surface, surface_B = data_B.surface;
+    const PairContext context =
+        pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
     const Plan plan = solve(context, points, options);
     SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;

@@ -44,9 +44,10 @@ int main(int argc, char** argv) {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
-        auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
+        const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
         PointPairs points = landmark_points(landmarks, A.surface, B.surface);
-        const PairContext context(std::move(A), std::move(B), std::move(vertices), params.landmark_weight);
+        const PairContext context =
+            pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
         const auto candidates = read_candidates(stage, inputs, candidates_in);
         Diffusion diffusion = diffuse(context, params, candidates);
         diffusion.record.landmark_points = std::move(points);

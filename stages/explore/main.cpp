@@ -40,8 +40,10 @@ int main(int argc, char** argv) {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
-        auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
-        const PairContext context(std::move(A), std::move(B), std::move(vertices), params.landmark_weight);
+        const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
+        const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
+        const PairContext context =
+            pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
         const Candidates found = explore(context, params.exploration, params.alternation, params.ironing);
         report(found.list);
         stage.record_number("candidates", double(found.list.size()));

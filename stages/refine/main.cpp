@@ -17,8 +17,9 @@ int main(int argc, char** argv) {
         const auto diffusion = stage.read<Diffusion>("diffusion", diffusion_in);
         inputs.require_same(diffusion.header, diffusion_in);
         require_surfaces(diffusion.value, A.surface, B.surface);
-        const PairContext context(std::move(A), std::move(B), diffusion.value.record.landmarks,
-                                  diffusion.value.record.landmark_weight);
+        const PairRecord& record = diffusion.value.record;
+        const PairContext context = pair_context(std::move(A), std::move(B), record.landmarks,
+                                                 record.landmark_points, record.landmark_weight);
         const Plan plan = refine(context, diffusion.value, params);
         stage.record_number("levels", plan.trace.back().level - diffusion.value.trace.back().level);
         stage.record_number("alternations", double(plan.trace.size() - diffusion.value.trace.size()));

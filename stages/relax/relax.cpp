@@ -7,7 +7,6 @@
 
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
 
@@ -76,17 +75,8 @@ PinnedPair pinned_on_meshes(const PairRecord& record, const Surface& A, const Su
         for (const auto& [a, b] : record.landmarks) pinned.A[a.index] = pinned.B[b.index] = true;
         return pinned;
     }
-    const ClosestPoint on_A(A.mesh), on_B(B.mesh);
-    const auto moved = [](const Surface& surface, const SurfacePoint& point, const ClosestPoint& closest) {
-        Vec3 x = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            const int corner = surface.input.faces(point.face, k);
-            x += point.barycentric[k] * position(surface.mesh, surface.on_mesh[std::size_t(corner)]);
-        }
-        return closest(x).point;
-    };
-    for (const auto& [a, b] : record.landmark_points)
-        pinned.points.emplace_back(moved(A, a, on_A), moved(B, b, on_B));
+    const MeshLocator on_A(A), on_B(B);
+    for (const auto& [a, b] : record.landmark_points) pinned.points.emplace_back(on_A(a), on_B(b));
     return pinned;
 }
 

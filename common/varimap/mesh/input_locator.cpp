@@ -29,4 +29,14 @@ SurfacePoint InputLocator::operator()(const Vec3& x, const Vec3& normal) const {
     return state_->closest(x, normal).point;
 }
 
+SurfacePoint MeshLocator::operator()(const SurfacePoint& on_input) const {
+    Vec3 x = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+        const SurfacePoint& corner = surface_.on_mesh[std::size_t(surface_.input.faces(on_input.face, k))];
+        if (on_input.barycentric[k] == 1) return corner;
+        x += on_input.barycentric[k] * position(surface_.mesh, corner);
+    }
+    return closest_(x).point;
+}
+
 }  // namespace varimap

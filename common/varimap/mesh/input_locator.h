@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/surface.h"
 
 namespace varimap {
@@ -21,6 +22,18 @@ class InputLocator {
   private:
     struct State;
     std::unique_ptr<State> state_;
+};
+
+/// Where points of a surface's input lie on its mesh: as its corners do, linearly between them. Keeps a
+/// reference to the surface. Thread-safe.
+class MeshLocator {
+  public:
+    explicit MeshLocator(const Surface& surface) : surface_(surface), closest_(surface.mesh) {}
+    SurfacePoint operator()(const SurfacePoint& on_input) const;
+
+  private:
+    const Surface& surface_;
+    ClosestPoint closest_;
 };
 
 /// The input in the coordinates of the mesh.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/spectral_check.h"
 
@@ -13,29 +15,72 @@ namespace varimap {
 
 namespace {
 
-MeshVertex mesh_vertex(const Surface& surface, InputVertex vertex, const char* which) {
-    const MeshVertex v = mesh_vertex_at(surface, vertex);
-    if (v.index < 0)
-        throw InputError(fmt::format("landmark vertex {} of the {} belongs to no face; choose another vertex",
-                                     vertex.index, which));
-    return v;
-}
-
 bool is_at_vertex(const Surface& surface, InputVertex vertex) {
     return vertex_of(surface.mesh, surface.on_mesh[std::size_t(vertex.index)]) >= 0;
 }
 
-/// A repair makes one vertex of several; a landmark each would ask it to go to several places.
-/// Near ones may share a vertex of a coarse mesh.
-void require_unmerged(std::map<int, int>& taken, const Surface& surface, MeshVertex at, InputVertex vertex,
-                      const char* which) {
-    if (!is_at_vertex(surface, vertex)) return;
-    const auto [other, is_new] = taken.emplace(at.index, vertex.index);
-    if (!is_new)
-        throw InputError(
-            fmt::format("landmark vertices {} and {} of the {} became one when faces without area were "
-                        "removed; keep one of the two landmarks",
-                        other->second, vertex.index, which));
+/// The mesh's vertices for the landmarks of one side.
+class VertexChoice {
+  public:
+    VertexChoice(const Surface& surface, const char* which) : surface_(surface), which_(which) {}
+
+    /// The vertex at the landmark. A repair makes one vertex of several; a landmark each would ask it to go
+    /// to several places.
+    void take_exact(InputVertex landmark) {
+        const SurfacePoint& at = surface_.on_mesh[std::size_t(landmark.index)];
+        if (at.face < 0)
+            throw InputError(
+                fmt::format("landmark vertex {} of the {} belongs to no face; choose another vertex",
+                            landmark.index, which_));
+        const int vertex = vertex_of(surface_.mesh, at);
+        if (vertex < 0) return;
+        const auto [other, is_new] = taken_.emplace(vertex, landmark.index);
+        if (!is_new)
+            throw InputError(
+                fmt::format("landmark vertices {} and {} of the {} became one when faces without area were "
+                            "removed; keep one of the two landmarks",
+                            other->second, landmark.index, which_));
+    }
+    /// That, or the nearest corner around it that no other landmark has.
+    MeshVertex operator()(InputVertex landmark) {
+        const SurfacePoint& at = surface_.on_mesh[std::size_t(landmark.index)];
+        if (const int vertex = vertex_of(surface_.mesh, at); vertex >= 0) return {vertex};
+        std::array<int, 3> corner{0, 1, 2};
+        std::sort(corner.begin(), corner.end(),
+                  [&](int i, int k) { return at.barycentric[i] > at.barycentric[k]; });
+        for (const int k : corner)
+            if (const int vertex = surface_.mesh.faces(at.face, k);
+                taken_.emplace(vertex, landmark.index).second)
+                return {vertex};
+        throw InputError(fmt::format(
+            "landmark vertex {} of the {} is too near to others for the coarse mesh; keep fewer, or use "
+            "--full-resolution or more coarsen.vertices",
+            landmark.index, which_));
+    }
+
+  private:
+    const Surface& surface_;
+    const char* which_;
+    std::map<int, int> taken_;  ///< vertices, and whose
+};
+
+/// Moves vertices, in space and in the eigenbasis, to points of the input.
+void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
+                   const std::vector<SurfacePoint>& points) {
+    const MeshLocator locate(data.surface);
+    RowMatrix places(vertices.size(), 3), functions(vertices.size(), data.basis.functions.cols());
+    for (int i = 0; i < int(vertices.size()); ++i) {
+        const SurfacePoint at = locate(points[std::size_t(i)]);
+        places.row(i) = position(data.surface.mesh, at).transpose();
+        functions.row(i).setZero();
+        for (int k = 0; k < 3; ++k)
+            functions.row(i) +=
+                at.barycentric[k] * data.basis.functions.row(data.surface.mesh.faces(at.face, k));
+    }
+    for (int i = 0; i < int(vertices.size()); ++i) {
+        data.surface.mesh.vertices.row(vertices[std::size_t(i)]) = places.row(i);
+        data.basis.functions.row(vertices[std::size_t(i)]) = functions.row(i);
+    }
 }
 
 }  // namespace
@@ -79,13 +124,13 @@ Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, co
 
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B) {
-    VertexPairs<MeshVertex> result;
-    std::map<int, int> taken_A, taken_B;
+    VertexChoice on_A(A, "source"), on_B(B, "target");
     for (const auto& [a, b] : landmarks) {
-        result.emplace_back(mesh_vertex(A, a, "source"), mesh_vertex(B, b, "target"));
-        require_unmerged(taken_A, A, result.back().first, a, "source");
-        require_unmerged(taken_B, B, result.back().second, b, "target");
+        on_A.take_exact(a);
+        on_B.take_exact(b);
     }
+    VertexPairs<MeshVertex> result;
+    for (const auto& [a, b] : landmarks) result.emplace_back(on_A(a), on_B(b));
     return result;
 }
 
@@ -100,6 +145,19 @@ PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const S
     for (const auto& [a, b] : landmarks.vertices)
         points.emplace_back(point_at_vertex(A.input, a.index), point_at_vertex(B.input, b.index));
     return points;
+}
+
+PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVertex>& landmarks,
+                         const PointPairs& points, double landmark_weight) {
+    if (!points.empty()) {
+        std::vector<int> vertices_A, vertices_B;
+        std::vector<SurfacePoint> points_A, points_B;
+        for (const auto& [a, b] : landmarks) vertices_A.push_back(a.index), vertices_B.push_back(b.index);
+        for (const auto& [a, b] : points) points_A.push_back(a), points_B.push_back(b);
+        move_vertices(A, vertices_A, points_A);
+        move_vertices(B, vertices_B, points_B);
+    }
+    return {std::move(A), std::move(B), landmarks, landmark_weight};
 }
 
 }  // namespace varimap

@@ -33,12 +33,17 @@ class PairInputs {
 /// Reads landmarks (vertex_list.h) and records their files as inputs.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, LandmarkSpace space);
-/// The vertices that landmarks became on the preprocessed meshes. Throws InputError for those no face uses,
-/// and for two that became one.
+/// The vertices that stand for landmarks on the surfaces' meshes: those at them, or else corners of the faces
+/// they lie on, a different one for each. Throws InputError for those no face uses, for two that became one,
+/// and where there are not enough.
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B);
 /// Landmarks as points of the inputs, where they lie between vertices of the preprocessed or coarsened
 /// meshes; else none.
 PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const Surface& B);
+/// The pair to solve for. Where landmarks are points (`points` is not empty), the vertices that stand for
+/// them take their places, in space and in the eigenbasis.
+PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVertex>& landmarks,
+                         const PointPairs& points, double landmark_weight);
 
 }  // namespace varimap

@@ -202,7 +202,7 @@ PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target)
 }
 
 void pin_landmarks(VertexMaps& maps, const PairRecord& record, const Surface& A, const Surface& B) {
-    if (!record.pins_landmarks()) return;
+    if (!record.pins_landmarks() || !record.landmark_points.empty()) return;  // points lie between vertices
     for (const auto& [a, b] : record.landmarks) {
         maps.A_to_B[std::size_t(a.index)] = point_at_vertex(B.mesh, b.index);
         maps.B_to_A[std::size_t(b.index)] = point_at_vertex(A.mesh, a.index);
