@@ -35,18 +35,41 @@ void make_set(std::vector<int>& values) {
 
 }  // namespace
 
-NormalAgreement::NormalAgreement(SlidingMap& map) : map_(map), closest_(map.target()) {}
+NormalAgreement::NormalAgreement(SlidingMap& map)
+    : map_(map), closest_(map.target()), target_faces_(vertex_faces(map.target())) {}
+
+/// Whether the three images lie around one vertex of the target all of whose faces the image triangle, with
+/// that normal, agrees with: it needs no closest points then.
+bool NormalAgreement::lies_within_a_star(int f, const Vec3& normal) const {
+    const TriangleMesh& target = map_.target();
+    const auto c = map_.source().faces.row(f);
+    const auto holds = [&](int corner, int vertex) {
+        const auto face = target.faces.row(map_.point(c[corner]).face);
+        return face[0] == vertex || face[1] == vertex || face[2] == vertex;
+    };
+    for (int k = 0; k < 3; ++k) {
+        const int vertex = target.faces(map_.point(c[0]).face, k);
+        if (!holds(1, vertex) || !holds(2, vertex)) continue;
+        const auto star = target_faces_[vertex];
+        if (std::all_of(star.begin(), star.end(),
+                        [&](int g) { return normal.dot(face_normal(target, g)) > 0; }))
+            return true;
+    }
+    return false;
+}
 
 bool NormalAgreement::disagrees(int f) const {
     const auto c = map_.source().faces.row(f);
     const Vec3 &x = map_.image(c[0]), &y = map_.image(c[1]), &z = map_.image(c[2]);
+    const Vec3 normal = (y - x).cross(z - x);
+    if (lies_within_a_star(f, normal)) return false;
     Vec3 below = Vec3::Zero();
     int face = -1;
     for (const Vec3& b : inner_points) {
         face = closest_(b[0] * x + b[1] * y + b[2] * z, face).point.face;
         below += face_normal(map_.target(), face).normalized();
     }
-    return !((y - x).cross(z - x).dot(below) > 0);
+    return !(normal.dot(below) > 0);
 }
 
 std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) const {

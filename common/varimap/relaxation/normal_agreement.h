@@ -24,12 +24,14 @@ class NormalAgreement {
   private:
     std::vector<int> disagreeing_among(const std::vector<int>& faces) const;
     bool disagrees(int f) const;
+    bool lies_within_a_star(int f, const Vec3& normal) const;
     /// Of the faces around a vertex; some number above `limit` if that is exceeded.
     double cost(int v, double limit) const;
     bool search(int v);
 
     SlidingMap& map_;
     ClosestPoint closest_;
+    Adjacency target_faces_;  ///< per vertex of the target
 };
 
 }  // namespace varimap
