@@ -12,7 +12,7 @@ install(DIRECTORY common/varimap pipelines/in_memory/varimap TYPE INCLUDE FILES_
 install(PROGRAMS pipelines/varimap TYPE BIN)
 set(share ${CMAKE_INSTALL_DATADIR}/varimap)
 install(FILES pipelines/Makefile pipelines/quality.jq pipelines/script.sh DESTINATION ${share})
-install(PROGRAMS pipelines/bench pipelines/selftest pipelines/torus DESTINATION ${share})
+install(PROGRAMS pipelines/bench pipelines/scaling pipelines/selftest pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/help DESTINATION ${share})
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
 
