@@ -30,7 +30,8 @@ check() {
             file = substr($0, 1, RSTART - 1); place = substr($0, 1, RSTART + RLENGTH - 2)
             if (!match($0, /[<"][^>"]*[>"]/)) next
             quoted = substr($0, RSTART, 1) == "\""; name = substr($0, RSTART + 1, RLENGTH - 2)
-            folder = file; ending = file ~ /\.h$/ ? "h" : "cpp"
+            # Headers in private/ are not installed, and include what the sources may.
+            folder = file; ending = file ~ /\.h$/ && file !~ /\/private\// ? "h" : "cpp"
             while (!(folder in folders) && sub(/\/[^\/]*$/, "", folder));
             if (!(folder in folders)) { print place ": no rule covers this folder"; next }
             count = split(allowed[folder, ending], prefix, " ")

@@ -8,7 +8,10 @@ figure c.off 8 -.5
 landmarks_of_figure a.off >tips.txt
 pair="diffuse refine relax remesh render"
 explored="diffuse explore refine relax remesh render"
-all="diffuse eigen*2 explore hierarchy*2 preprocess*2 refine relax remesh render"
+all="coarsen*2 diffuse eigen*2 explore hierarchy*2 preprocess*2 refine relax remesh render"
+
+solved="diffuse eigen*2 explore hierarchy*2 refine relax remesh render"
+coarser="coarsen*2 $solved"
 
 step() {  # STAGES ARGUMENTS: maps a onto b in out, and expects what ran
     local expected=$1
@@ -30,6 +33,13 @@ step "render" --set eigen.count=30 --set refine.tolerance=0.01 --set render.widt
 step "" --set render.width=320 --set refine.tolerance=0.01 --set eigen.count=30
 step "diffuse eigen*2 explore hierarchy*2 refine relax remesh render"
 
+# Coarse meshes; and where nothing was coarsened, all vertices are the same.
+step "" --full-resolution
+step "$coarser" --set coarsen.vertices=150
+jq -e '.source.vertices == 150 and .source.input_vertices > 250' out/quality.json >/dev/null || fail "no coarse mesh"
+step "$solved" --full-resolution
+step "coarsen*2"
+
 # Times mean nothing.
 touch a.off
 step ""
@@ -43,9 +53,9 @@ step ""
 touch -d 2001-01-01 c.off
 mv b.off kept.off
 cp -p c.off b.off
-step "diffuse eigen explore hierarchy preprocess refine relax remesh render"
+step "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
 mv kept.off b.off
-step "diffuse eigen explore hierarchy preprocess refine relax remesh render"
+step "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
 
 step "$pair" --area-bound 1.5
 step "" --set diffuse.area_bound=1.5 --set refine.area_bound=1.5
@@ -69,7 +79,7 @@ step "$pair"
 # Another pair in the same folder shares a; its exports take the place of the first's.
 cp out/source_to_target.csv to_b.csv
 map a.off c.off -o out
-expect_ran "diffuse eigen explore hierarchy preprocess refine relax remesh render"
+expect_ran "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
 cmp -s out/source_to_target.csv to_b.csv && fail "the exports are still those of a and b"
 step "remesh render"
 same out/source_to_target.csv to_b.csv
@@ -80,9 +90,9 @@ expect_ran "remesh render"
 map c.off b.off -o other --artifacts out/artifacts
 expect_ran "$explored"
 map a.off a.off -o self
-expect_ran "diffuse eigen explore hierarchy preprocess refine relax remesh render"
+expect_ran "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
 map a.off a.off -o self --mirror
-expect_ran "diffuse eigen explore hierarchy preprocess refine relax remesh render"
+expect_ran "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
 
 # The tables are made without relaxing the map again, and quality.json without making the tables again. What is made
 # again with the same bytes makes nothing else run.
@@ -94,8 +104,8 @@ cp out/quality.json whole.json
 rm out/quality.json
 step ""
 same <(jq 'del(.stages)' out/quality.json) <(jq 'del(.stages)' whole.json)
-jq -e '.stages | keys == ["diffuse a--b", "eigen a", "eigen b", "explore a--b", "hierarchy a", "hierarchy b", "preprocess a",
-    "preprocess b", "refine a--b", "relax a--b", "remesh a--b"] and all(.wall_seconds > 0)' out/quality.json >/dev/null ||
+jq -e '.stages | keys == ["coarsen a", "coarsen b", "diffuse a--b", "eigen a", "eigen b", "explore a--b", "hierarchy a",
+    "hierarchy b", "preprocess a", "preprocess b", "refine a--b", "relax a--b", "remesh a--b"] and all(.wall_seconds > 0)' out/quality.json >/dev/null ||
     fail "the stages in quality.json"
 # A stage without its side file was killed before its end.
 echo '{' >out/artifacts/a.basis.run.json

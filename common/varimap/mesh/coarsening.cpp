@@ -6,7 +6,7 @@
 #include <numbers>
 #include <queue>
 
-#include "varimap/mesh/half_edge_mesh.h"
+#include "varimap/mesh/private/half_edge_mesh.h"
 
 namespace varimap {
 namespace {

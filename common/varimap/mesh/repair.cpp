@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "varimap/mesh/half_edge_mesh.h"
+#include "varimap/mesh/private/half_edge_mesh.h"
 
 namespace varimap {
 namespace {

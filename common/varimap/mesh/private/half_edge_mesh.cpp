@@ -1,4 +1,4 @@
-#include "varimap/mesh/half_edge_mesh.h"
+#include "varimap/mesh/private/half_edge_mesh.h"
 
 #include "varimap/core/error.h"
 

@@ -4,7 +4,7 @@
 
 #include "varimap/mesh/triangle_mesh.h"
 
-/// OpenMesh's half-edges, for what changes the connectivity of a mesh. Include it in sources only.
+/// OpenMesh's half-edges, for what changes the connectivity of a mesh. For the sources of this room.
 namespace varimap {
 
 struct HalfEdgeTraits : OpenMesh::DefaultTraitsDouble {
