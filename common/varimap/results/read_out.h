@@ -15,7 +15,8 @@ struct VertexMaps {
 /// Closest points from the centres (Sec. 5, cross-remeshing). On a plan with every vertex as a sample only
 /// faces that touch the row's support (entries of at least 5% of the row's maximum) are candidates, so that a
 /// point never jumps to another limb; otherwise the closest face whose normal agrees. Pinned landmarks are
-/// mapped exactly, unless they are points between vertices. Throws ArtifactError if the plan is not one of these surfaces.
+/// mapped exactly, unless they are points between vertices. Throws ArtifactError if the plan is not one of
+/// these surfaces.
 VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B);
 /// The image vertices, and pinned landmarks. Throws as above.
 VertexMaps read_out(const Diffusion& diffusion, const Surface& A, const Surface& B);

@@ -1,0 +1,92 @@
+#include "varimap/pair_stage/pair_inputs.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/shapes.h"
+#include "stages/coarsen/coarsen.h"
+#include "stages/preprocess/preprocess.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+class PairLandmarks : public testing::Test {
+  protected:
+    static const Surface& surface() {
+        static const Surface made = [] {
+            CoarsenParams params;
+            params.vertices = 500;
+            return coarsened(preprocess(shapes::figure(.15), {}), params);
+        }();
+        return made;
+    }
+    /// Input vertices that lie on a face, not at vertices of the mesh; by `count` on one face.
+    static std::vector<InputVertex> inside_one_face(int count) {
+        std::vector<std::vector<InputVertex>> on_face(std::size_t(surface().mesh.face_count()));
+        for (int v = 0; v < surface().input.vertex_count(); ++v) {
+            const SurfacePoint& at = surface().on_mesh[std::size_t(v)];
+            if (vertex_of(surface().mesh, at) < 0) on_face[std::size_t(at.face)].push_back({v});
+        }
+        for (auto& vertices : on_face)
+            if (int(vertices.size()) >= count) {
+                vertices.resize(std::size_t(count));
+                return vertices;
+            }
+        return {};
+    }
+    static VertexPairs<InputVertex> onto_themselves(const std::vector<InputVertex>& vertices) {
+        VertexPairs<InputVertex> pairs;
+        for (const InputVertex v : vertices) pairs.emplace_back(v, v);
+        return pairs;
+    }
+};
+
+TEST_F(PairLandmarks, StandAtDifferentCornersOfTheirFace) {
+    const auto pairs = onto_themselves(inside_one_face(3));
+    ASSERT_EQ(pairs.size(), 3u);
+    const auto vertices = to_mesh_vertices(pairs, surface(), surface());
+    EXPECT_NE(vertices[0].first, vertices[1].first);
+    EXPECT_NE(vertices[0].first, vertices[2].first);
+    EXPECT_NE(vertices[1].first, vertices[2].first);
+    EXPECT_EQ(vertices[0].first, vertices[0].second);
+    EXPECT_EQ(landmark_points({pairs, {}}, surface(), surface()).size(), 3u);
+}
+
+TEST_F(PairLandmarks, FourOnOneFaceAreTooNear) {
+    const auto pairs = onto_themselves(inside_one_face(4));
+    ASSERT_EQ(pairs.size(), 4u);
+    EXPECT_THROW(to_mesh_vertices(pairs, surface(), surface()), InputError);
+}
+
+TEST_F(PairLandmarks, AtVerticesAreNoPoints) {
+    const int input = vertex_of(surface().input, surface().on_input[7]);
+    ASSERT_GE(input, 0);
+    const auto pairs = onto_themselves({{input}});
+    EXPECT_EQ(to_mesh_vertices(pairs, surface(), surface())[0].first.index, 7);
+    EXPECT_TRUE(landmark_points({pairs, {}}, surface(), surface()).empty());
+}
+
+TEST_F(PairLandmarks, MoveTheirVerticesInSpaceAndInTheBasis) {
+    const auto pairs = onto_themselves(inside_one_face(2));
+    SurfaceData data;
+    data.surface = surface();
+    data.basis.functions = RowMatrix(surface().mesh.vertex_count(), 2);
+    data.basis.functions.col(0) = surface().mesh.vertices.col(0);  // linear, so known in between
+    data.basis.functions.col(1).setOnes();
+    const auto vertices = to_mesh_vertices(pairs, surface(), surface());
+    const PairContext context =
+        pair_context(data, data, vertices, landmark_points({pairs, {}}, surface(), surface()), 1);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Vec3 expected = position(surface().mesh, surface().on_mesh[std::size_t(pairs[i].first.index)]);
+        const int v = vertices[i].first.index;
+        EXPECT_LT((context.A().surface.mesh.vertex(v) - expected).norm(), 1e-12);
+        EXPECT_NEAR(context.A().basis.functions(v, 0), expected.x(), 1e-12);
+        EXPECT_NEAR(context.A().basis.functions(v, 1), 1, 1e-12);
+    }
+    EXPECT_EQ(context.B().surface.mesh.vertex(vertices[0].second.index),
+              context.A().surface.mesh.vertex(vertices[0].first.index));
+}
+
+}  // namespace
+}  // namespace varimap
