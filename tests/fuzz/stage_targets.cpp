@@ -227,9 +227,9 @@ void run_inspect(const Artifacts& all, const std::string& name) {
 Target stage(const std::string& name, const Names& artifacts,
              void (*run)(const Artifacts& all, const std::string& forged)) {
     const auto read_and_run = [run](const std::string& bytes) {
-        std::string name;
-        const Artifacts all = read(bytes, name);
-        run(all, name);
+        std::string forged_one;
+        const Artifacts all = read(bytes, forged_one);
+        run(all, forged_one);
     };
     Target target{"stage_" + name, {}, {}, read_and_run, 64 << 20};
     target.forge = [artifacts](std::uint64_t number) { return forged(artifacts, number); };
