@@ -24,8 +24,10 @@ int main(int argc, char** argv) {
     RelaxParams params;
     Stage stage("relax", "The map in both directions on the input meshes, untangled and near to an isometry");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
-    const std::string& surface_A = stage.input("A.surface", "artifact of varimap-preprocess: the source");
-    const std::string& surface_B = stage.input("B.surface", "artifact of varimap-preprocess: the target");
+    const std::string& surface_A =
+        stage.input("A.surface", "artifact of varimap-coarsen or varimap-preprocess: the source");
+    const std::string& surface_B =
+        stage.input("B.surface", "artifact of varimap-coarsen or varimap-preprocess: the target");
     const std::string& plan_file = stage.input("plan", "artifact of varimap-refine or varimap-diffuse");
     const std::string& out = stage.output("map", ArtifactType<SurfaceMap>::schema, "artifact to write");
     return stage.main(argc, argv, [&] {

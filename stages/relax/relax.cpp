@@ -30,11 +30,9 @@ bool is_apart(const Surface& surface) {
 class Prolongation {
   public:
     Prolongation(const PointMap& images, const Surface& source, const Surface& target)
-        : images_(images),
-          source_(source),
-          target_(target),
-          locate_(target),
-          normals_{vertex_normals(target.mesh), target.mesh.faces} {}
+        : images_(images), source_(source), target_(target), locate_(target) {
+        if (source.input_face.empty()) normals_ = {vertex_normals(target.mesh), target.mesh.faces};
+    }
 
     SurfacePoint operator()(int input_vertex) const {
         const SurfacePoint& at = source_.on_mesh[std::size_t(input_vertex)];
@@ -53,7 +51,7 @@ class Prolongation {
     const PointMap& images_;
     const Surface &source_, &target_;
     InputLocator locate_;
-    TriangleMesh normals_;  ///< the target's, as a mesh to interpolate on
+    TriangleMesh normals_;  ///< the target's, as a mesh to interpolate on; for points inside faces
 };
 
 PointMap on_input(const PointMap& images, const Surface& source, const Surface& target) {
@@ -91,11 +89,7 @@ void pin(int a, int b, const Surface& A, const Surface& B, MapPair& maps, Pinned
 PinnedPair pin_on_inputs(const PairRecord& record, const Surface& A, const Surface& B, MapPair& maps) {
     PinnedPair pinned = none_pinned(A.input, B.input);
     if (!record.pins_landmarks()) return pinned;
-    PointPairs points = record.landmark_points;
-    if (points.empty())
-        for (const auto& [a, b] : record.landmarks)
-            points.emplace_back(A.on_input[std::size_t(a.index)], B.on_input[std::size_t(b.index)]);
-    for (const auto& [from, to] : points) {
+    for (const auto& [from, to] : landmarks_on_inputs(record, A, B)) {
         const int a = vertex_of(A.input, from), b = vertex_of(B.input, to);
         if (a >= 0 && b >= 0)
             pin(a, b, A, B, maps, pinned);

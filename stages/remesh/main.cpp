@@ -37,8 +37,10 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
 
 int main(int argc, char** argv) {
     Stage stage("remesh", "Tables of the map, cross-remeshed surfaces and quality numbers");
-    const std::string& surface_A = stage.input("A.surface", "artifact of varimap-preprocess: the source");
-    const std::string& surface_B = stage.input("B.surface", "artifact of varimap-preprocess: the target");
+    const std::string& surface_A =
+        stage.input("A.surface", "artifact of varimap-coarsen or varimap-preprocess: the source");
+    const std::string& surface_B =
+        stage.input("B.surface", "artifact of varimap-coarsen or varimap-preprocess: the target");
     const std::string& plan_file = stage.input("plan", "artifact of varimap-refine or varimap-diffuse");
     const std::string& map_file = stage.input("map", "artifact of varimap-relax");
     const std::string& out =

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
 #include "varimap/verification/verification.h"
 
@@ -112,21 +111,6 @@ Json to_json(const std::vector<LandmarkCheck>& checks) {
     return list;
 }
 
-/// Landmarks as points of the input meshes.
-PointPairs input_landmarks(const PairRecord& record, const Surface& A, const Surface& B) {
-    if (!record.landmark_points.empty()) return record.landmark_points;
-    const auto on_input = [](const Surface& surface, MeshVertex vertex) {
-        const SurfacePoint& point = surface.on_input[std::size_t(vertex.index)];
-        return vertex_of(surface.input, point) >= 0 ? point : SurfacePoint{};
-    };
-    PointPairs pairs;
-    for (const auto& [a, b] : record.landmarks) {
-        const SurfacePoint from = on_input(A, a), to = on_input(B, b);
-        if (from.face >= 0 && to.face >= 0) pairs.emplace_back(from, to);
-    }
-    return pairs;
-}
-
 /// JSON has no infinities: members that are not finite are left out rather than written as null.
 void remove_not_finite(Json& json) {
     if (!json.is_structured()) return;
@@ -149,7 +133,7 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     quality["area_bound"] = plan.area_bound;
     quality["mass_ratio"] = {{"source", mass_ratios(plan.transported_A, plan.mass_A)},
                              {"target", mass_ratios(plan.transported_B, plan.mass_B)}};
-    quality["landmarks"] = landmark_residuals(A_to_B, input_landmarks(record, A, B), A.input, B.input);
+    quality["landmarks"] = landmark_residuals(A_to_B, landmarks_on_inputs(record, A, B), A.input, B.input);
     if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
     if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
     if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);

@@ -19,6 +19,7 @@
 #include "stages/render/render.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/quality_numbers.h"
 #include "varimap/spectral/spectral_check.h"
 
@@ -171,8 +172,9 @@ void run_diffuse(const Artifacts& all, const std::string&) {
 void run_refine(const Artifacts& all, const std::string&) {
     require_fit(all);
     require_surfaces(all.diffusion, all.A.surface, all.B.surface);
-    const PairContext context(all.A, all.B, all.diffusion.record.landmarks,
-                              all.diffusion.record.landmark_weight);
+    const PairRecord& record = all.diffusion.record;
+    const PairContext context =
+        pair_context(all.A, all.B, record.landmarks, record.landmark_points, record.landmark_weight);
     encode(refine(context, all.diffusion, {}));
 }
 

@@ -2,6 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "varimap/mesh/triangle_mesh.h"
 
@@ -29,6 +32,21 @@ class ClosestPoint {
   private:
     struct State;
     std::unique_ptr<State> state_;
+};
+
+/// The same, built when it is first asked. Thread-safe; holds a copy of `make`, which makes the mesh.
+class ClosestPointOnDemand {
+  public:
+    explicit ClosestPointOnDemand(std::function<TriangleMesh()> make) : make_(std::move(make)) {}
+    const ClosestPoint& operator*() const {
+        std::call_once(once_, [this] { closest_.emplace(make_()); });
+        return *closest_;
+    }
+
+  private:
+    std::function<TriangleMesh()> make_;
+    mutable std::once_flag once_;
+    mutable std::optional<ClosestPoint> closest_;
 };
 
 /// Closest point of one triangle as barycentric coordinates.

@@ -3,10 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <queue>
 
 #include "varimap/mesh/private/half_edge_mesh.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {
@@ -97,10 +99,10 @@ class Coarsener {
     void add_quadrics();
     void enqueue(VertexHandle v);
     double cost(SmartHalfedgeHandle collapsed) const;
-    std::vector<SmartHalfedgeHandle> candidates(VertexHandle v) const;
     Disc lay_out(VertexHandle v) const;
     Vec3 mean_normal(const Disc& disc) const;
     double worst_quality(const Disc& disc) const;
+    int cheapest_target(const Disc& disc);
     bool is_allowed(const Disc& disc, int target);
     bool leaves_enough_faces(const Disc& disc, int target) const;
     bool is_upright(const Disc& disc, int target) const;
@@ -159,18 +161,15 @@ double Coarsener::cost(SmartHalfedgeHandle collapsed) const {
     return std::max(0.0, here(way) + there.c) + evenness * (here.area + there.area) * way.squaredNorm();
 }
 
-/// The half-edges along which a vertex may go: on a boundary only along it.
-std::vector<SmartHalfedgeHandle> Coarsener::candidates(VertexHandle v) const {
-    std::vector<SmartHalfedgeHandle> result;
-    const bool on_boundary = mesh_.is_boundary(v);
-    for (const auto h : mesh_.voh_range(v))
-        if (!on_boundary || h.edge().is_boundary()) result.push_back(h);
-    return result;
+/// On a boundary a vertex goes only along it.
+bool may_collapse(SmartHalfedgeHandle h) {
+    return !h.from().is_boundary() || h.edge().is_boundary();
 }
 
 void Coarsener::enqueue(VertexHandle v) {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto h : candidates(v)) least = std::min(least, cost(h));
+    for (const auto h : mesh_.voh_range(v))
+        if (may_collapse(h)) least = std::min(least, cost(h));
     const std::size_t i = std::size_t(v.idx());
     ++version_[i];
     if (std::isfinite(least)) queue_.push({rounded(least), v.idx(), version_[i]});
@@ -243,7 +242,7 @@ bool Coarsener::leaves_enough_faces(const Disc& disc, int target) const {
 
 bool Coarsener::is_allowed(const Disc& disc, int target) {
     const auto collapsed = disc.spokes[std::size_t(target)];
-    if (!disc.closed && !collapsed.edge().is_boundary()) return false;
+    if (!may_collapse(collapsed)) return false;
     if (int(mesh_.valence(collapsed.to())) + disc.size() - 4 > most_neighbours) return false;
     const Vec2 apex = disc.at[std::size_t(target)];
     double area = 0;
@@ -341,6 +340,17 @@ void Coarsener::collapse(const Disc& disc, int target) {
     for (const auto v : mesh_.vv_range(apex)) enqueue(v);
 }
 
+/// The spoke along which the centre goes at the least cost; -1 where it may go along none.
+int Coarsener::cheapest_target(const Disc& disc) {
+    int best = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < disc.size(); ++i) {
+        const double here = rounded(cost(disc.spokes[std::size_t(i)]));
+        if (here < least && is_allowed(disc, i)) least = here, best = i;
+    }
+    return best;
+}
+
 void Coarsener::reduce_to(int vertices) {
     while (left_ > vertices && !queue_.empty()) {
         const Entry entry = queue_.top();
@@ -348,14 +358,8 @@ void Coarsener::reduce_to(int vertices) {
         const VertexHandle v = mesh_.vertex_handle(unsigned(entry.vertex));
         if (mesh_.status(v).deleted() || entry.version != version_[std::size_t(entry.vertex)]) continue;
         const Disc disc = lay_out(v);
-        int best = -1;
-        for (int i = 0; i < disc.size(); ++i)
-            if ((best < 0 || rounded(cost(disc.spokes[std::size_t(i)])) <
-                                 rounded(cost(disc.spokes[std::size_t(best)]))) &&
-                is_allowed(disc, i))
-                best = i;
         // One that cannot go now is asked again when its surroundings change.
-        if (best >= 0) collapse(disc, best);
+        if (const int target = cheapest_target(disc); target >= 0) collapse(disc, target);
     }
 }
 
@@ -368,21 +372,18 @@ Coarsening Coarsener::result(const TriangleMesh& before) const {
         result.vertex.push_back(v.idx());
     }
     result.mesh.vertices = before.vertices(result.vertex, Eigen::all);
-    result.mesh.faces.resize(left_ > 0 ? Eigen::Index(mesh_.n_faces()) : 0, 3);
-    int count = 0;
+    std::vector<int> left;
     for (const auto f : mesh_.faces()) {
-        face_number[std::size_t(f.idx())] = count;
-        for (int k = 0; k < 3; ++k) result.mesh.faces(count, k) = number[std::size_t(faces_(f.idx(), k))];
-        ++count;
+        face_number[std::size_t(f.idx())] = int(left.size());
+        left.push_back(f.idx());
     }
-    result.mesh.faces.conservativeResize(count, 3);
+    result.mesh.faces = faces_(left, Eigen::all).unaryExpr([&](int v) { return number[std::size_t(v)]; });
     result.on_mesh = on_mesh_;
     for (SurfacePoint& point : result.on_mesh)
         if (point.face >= 0) point.face = face_number[std::size_t(point.face)];
-    for (int f = count - 1; f >= 0; --f)
-        for (int k = 2; k >= 0; --k)
-            result.on_mesh[std::size_t(result.vertex[std::size_t(result.mesh.faces(f, k))])] = {
-                f, Vec3::Unit(k)};
+    const PointMap at_vertices = points_at_vertices(result.mesh);
+    for (std::size_t v = 0; v < result.vertex.size(); ++v)
+        result.on_mesh[std::size_t(result.vertex[v])] = at_vertices[v];
     return result;
 }
 

@@ -1,13 +1,6 @@
 #include "varimap/mesh/input_locator.h"
 
-#include "varimap/mesh/closest_point.h"
-
 namespace varimap {
-
-struct InputLocator::State {
-    const Surface& surface;
-    ClosestPoint closest;
-};
 
 TriangleMesh normalised_input(const Surface& surface) {
     TriangleMesh mesh = surface.input;
@@ -15,18 +8,13 @@ TriangleMesh normalised_input(const Surface& surface) {
     return mesh;
 }
 
-InputLocator::InputLocator(const Surface& surface)
-    : state_(std::make_unique<State>(State{surface, ClosestPoint(normalised_input(surface))})) {}
-InputLocator::~InputLocator() = default;
-
 SurfacePoint InputLocator::operator()(const SurfacePoint& on_mesh) const {
-    const Surface& surface = state_->surface;
-    if (!surface.input_face.empty()) return to_input(surface, on_mesh);
-    return (*this)(position(surface.mesh, on_mesh), face_normal(surface.mesh, on_mesh.face));
+    if (!surface_.input_face.empty()) return to_input(surface_, on_mesh);
+    return (*this)(position(surface_.mesh, on_mesh), face_normal(surface_.mesh, on_mesh.face));
 }
 
 SurfacePoint InputLocator::operator()(const Vec3& x, const Vec3& normal) const {
-    return state_->closest(x, normal).point;
+    return (*closest_)(x, normal).point;
 }
 
 SurfacePoint MeshLocator::operator()(const SurfacePoint& on_input) const {
@@ -36,7 +24,7 @@ SurfacePoint MeshLocator::operator()(const SurfacePoint& on_input) const {
         if (on_input.barycentric[k] == 1) return corner;
         x += on_input.barycentric[k] * position(surface_.mesh, corner);
     }
-    return closest_(x).point;
+    return (*closest_)(x).point;
 }
 
 }  // namespace varimap

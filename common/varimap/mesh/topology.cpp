@@ -71,6 +71,17 @@ Adjacency vertex_neighbours(const TriangleMesh& mesh) {
     return result;
 }
 
+VertexData<double> longest_edges(const TriangleMesh& mesh) {
+    VertexData<double> longest(mesh.vertex_count(), 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int a = mesh.faces(f, k), b = mesh.faces(f, (k + 1) % 3);
+            const double length = (mesh.vertex(a) - mesh.vertex(b)).norm();
+            for (const int v : {a, b}) longest[v] = std::max(longest[v], length);
+        }
+    return longest;
+}
+
 SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v) {
     for (int f = 0; f < mesh.face_count(); ++f)
         for (int k = 0; k < 3; ++k)

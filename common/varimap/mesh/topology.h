@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "varimap/core/indexed.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -23,6 +24,9 @@ struct Adjacency {
 Adjacency vertex_faces(const TriangleMesh& mesh);
 /// Per vertex: the vertices it shares an edge with, ascending.
 Adjacency vertex_neighbours(const TriangleMesh& mesh);
+
+/// Per vertex: the length of its longest edge, which is as far as its faces go from it; 0 without a face.
+VertexData<double> longest_edges(const TriangleMesh& mesh);
 
 /// A vertex as a point of the first of its faces; face -1 if no face uses it.
 SurfacePoint point_at_vertex(const TriangleMesh& mesh, int v);

@@ -88,7 +88,8 @@ void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
 PairInputs::PairInputs(Stage& stage) : A_(declare(stage, "A")), B_(declare(stage, "B")) {}
 
 PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& name) {
-    const std::string& surface = stage.input(name + ".surface", "surface of varimap-preprocess");
+    const std::string& surface =
+        stage.input(name + ".surface", "surface of varimap-coarsen or varimap-preprocess");
     const std::string& basis = stage.input(name + ".basis", "basis of varimap-eigen");
     const std::string& hierarchy = stage.input(name + ".hierarchy", "hierarchy of varimap-hierarchy");
     return {surface, basis, hierarchy};

@@ -34,13 +34,17 @@ double total_energy(const SlidingMap& map, const FaceRange& faces, const Density
 struct CornerGradient {
     Vec3 q, D;  ///< a dq/dx_i and 2a dD/dx_i
 };
+/// x, y, z: x_i, x_j, x_k.
+inline CornerGradient corner_gradient(double cj, double ck, const Vec3& x, const Vec3& y, const Vec3& z,
+                                      const Vec3& up) {
+    return {ck * (x - y) + cj * (x - z), up.cross(z - y)};
+}
 inline CornerGradient corner_gradient(const SlidingMap& map, int f, int i, const ImageTriangle& image) {
     const auto corners = map.source().faces.row(f);
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const RestTriangle& rest = map.rest(f);
-    const Vec3 &x = map.image(corners[i]), &y = map.image(corners[j]), &z = map.image(corners[k]);
-    const double cj = rest.cotangent[j], ck = rest.cotangent[k];
-    return {ck * (x - y) + cj * (x - z), image.up.cross(z - y)};
+    return corner_gradient(rest.cotangent[j], rest.cotangent[k], map.image(corners[i]), map.image(corners[j]),
+                           map.image(corners[k]), image.up);
 }
 
 /// What the gradients of q and D add to the Hessian of an energy f(q, D):

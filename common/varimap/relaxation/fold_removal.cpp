@@ -51,8 +51,8 @@ class Patch {
     int folded() const { return best_.count; }
     std::vector<int> folded_faces() const {
         std::vector<int> folded;
-        for (const int f : faces_)
-            if (map_.image_triangle(f).D <= FoldRemoval::flat_limit) folded.push_back(f);
+        for (std::size_t i = 0; i < faces_.size(); ++i)
+            if (shapes_[i].D <= FoldRemoval::flat_limit) folded.push_back(faces_[i]);
         return folded;
     }
 

@@ -49,9 +49,9 @@ Star::Quadratic Star::quadratic(const Vec3& x, const Vec3& normal, const Tangent
         const ImageTriangle image = face.image(x, normal);
         const auto d = energy.derivatives(image.q, image.D);
         const double cj = rest.cotangent[1], ck = rest.cotangent[2];
-        // As corner_gradient (face_energy.h).
-        const Eigen::Vector2d q = frame.transpose() * (ck * (x - face.y) + cj * (x - face.z)) / rest.area;
-        const Eigen::Vector2d D = frame.transpose() * image.up.cross(face.z - face.y) / (2 * rest.area);
+        const CornerGradient gradient = corner_gradient(cj, ck, x, face.y, face.z, image.up);
+        const Eigen::Vector2d q = frame.transpose() * gradient.q / rest.area;
+        const Eigen::Vector2d D = frame.transpose() * gradient.D / (2 * rest.area);
         sum.value += rest.area * d.f;
         sum.gradient += rest.area * (d.f_q * q + d.f_D * D);
         sum.hessian += rest.area * gradient_products(q, D, d.f_qD, d.f_DD);

@@ -1,23 +1,10 @@
 #include "varimap/relaxation/sliding_map.h"
 
-#include <algorithm>
-
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {
 
 namespace {
-
-VertexData<double> longest_edges(const TriangleMesh& mesh) {
-    VertexData<double> longest(mesh.vertex_count(), 0);
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const int a = mesh.faces(f, k), b = mesh.faces(f, (k + 1) % 3);
-            const double length = (mesh.vertex(a) - mesh.vertex(b)).norm();
-            for (const int v : {a, b}) longest[v] = std::max(longest[v], length);
-        }
-    return longest;
-}
 
 FaceData<TangentFrame> tangent_frames(const TriangleMesh& mesh) {
     FaceData<TangentFrame> frames(mesh.face_count());

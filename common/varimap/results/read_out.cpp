@@ -21,18 +21,6 @@ constexpr double support_share = 0.05;  ///< of its row's maximum: entries from 
 constexpr double farther_for_agreement = 3;
 constexpr double reliable_normal = 0.3;  ///< length of a mean of unit normals below which it says nothing
 
-/// Per vertex: its longest edge, which is as far as its faces go from it.
-std::vector<double> longest_edges(const TriangleMesh& mesh) {
-    std::vector<double> longest(std::size_t(mesh.vertex_count()), 0);
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (int k = 0; k < 9; ++k) {
-            const int from = mesh.faces(f, k / 3), to = mesh.faces(f, k % 3);
-            const double length = (mesh.vertex(to) - mesh.vertex(from)).norm();
-            longest[std::size_t(from)] = std::max(longest[std::size_t(from)], length);
-        }
-    return longest;
-}
-
 /// The best of the faces offered: the smallest distance; among equals the lowest face, so that the order in
 /// which they are offered does not matter.
 struct Best {
@@ -114,7 +102,7 @@ class SupportReader {
     }
 
     void offer_faces(int vertex, Search& search) const {
-        const double gap = distance(search, vertex) - longest_edge_[std::size_t(vertex)];
+        const double gap = distance(search, vertex) - longest_edge_[vertex];
         if (gap > 0 && gap * gap > search.squared_limit()) return;
         for (const int face : faces_[vertex]) offer_face(face, search);
     }
@@ -133,7 +121,7 @@ class SupportReader {
     const SparseMatrix& plan_;
     const TriangleMesh& target_;
     Adjacency faces_;
-    std::vector<double> longest_edge_;
+    VertexData<double> longest_edge_;
     Points normals_;
 };
 

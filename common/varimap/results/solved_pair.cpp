@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -23,6 +24,16 @@ void require_surfaces(const SolvedPair& pair, const Surface& A, const Surface& B
         fits &= a.face < A.input.face_count() && b.face < B.input.face_count();
     if (!fits)
         throw ArtifactError("the plan names vertices or faces that the surfaces lack; rerun varimap-diffuse");
+}
+
+PointPairs landmarks_on_inputs(const PairRecord& record, const Surface& A, const Surface& B) {
+    if (!record.landmark_points.empty()) return record.landmark_points;
+    PointPairs pairs;
+    for (const auto& [a, b] : record.landmarks) {
+        const SurfacePoint &from = A.on_input[std::size_t(a.index)], &to = B.on_input[std::size_t(b.index)];
+        if (vertex_of(A.input, from) >= 0 && vertex_of(B.input, to) >= 0) pairs.emplace_back(from, to);
+    }
+    return pairs;
 }
 
 }  // namespace varimap

@@ -14,6 +14,9 @@ struct SolvedPair {
     PairRecord record;
 };
 
+/// Landmarks as points of the INPUT meshes. Those at vertices that no input vertex became are left out.
+PointPairs landmarks_on_inputs(const PairRecord& record, const Surface& A, const Surface& B);
+
 /// Throws ArtifactError if the pair names vertices or faces that these surfaces lack.
 void require_surfaces(const SolvedPair& pair, const Surface& A, const Surface& B);
 
