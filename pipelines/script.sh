@@ -42,6 +42,18 @@ require() {  # PROGRAM
     command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
 }
 
+require_shapes() {
+    [[ -x $VARIMAP_BIN/selftest-shapes ]] || fail 6 "no selftest-shapes in $VARIMAP_BIN; build the project with its tests"
+}
+
+# map_shape FOLDER OUT OPTION...: maps the pair that selftest-shapes left in FOLDER, results in OUT; log.txt and errors.json
+# in FOLDER.
+map_shape() {
+    "$varimap" map "$1/source.ply" "$1/target.ply" -o "$2" "${@:3}" >/dev/null 2>"$1/log.txt" || return
+    "$VARIMAP_BIN/varimap-evaluate" "$1/target.ply" "$2/source_to_target.csv" "$1/source.txt" "$1/target.txt" \
+        --json >"$1/errors.json" 2>>"$1/log.txt"
+}
+
 require_number() {  # OPTION VALUE LEAST
     [[ $2 =~ ^[0-9]{1,6}$ && $((10#$2)) -ge $3 ]] || fail 2 "$1 $2: give a whole number, at least $3"
 }

@@ -92,6 +92,14 @@ landmarks_of_figure() {
         END { for (k = 0; k < 5; k++) print at[k], at[k] }' "$1"
 }
 
+# coarse_pair: maps are coarse from here on; makes a.off and b.off, and the first map of one onto the other, in good.
+coarse_pair() {
+    small_picture+=("${coarse[@]}")
+    figure a.off 6
+    figure b.off 6 .5
+    map a.off b.off -o good
+}
+
 # map ARGUMENTS: runs the front end, with a small picture; what the stages say goes to the file log.
 small_picture=(--set render.width=64 --set render.samples=1)
 # Besides, where the map itself does not matter: a few hundred vertices instead of 2500, which takes a second.

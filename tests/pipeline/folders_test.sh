@@ -4,10 +4,7 @@
 . "$(dirname "$0")/common.sh"
 mounted=''
 ! own_disk || mounted=yes
-small_picture+=("${coarse[@]}")
-figure a.off 6
-figure b.off 6 .5
-map a.off b.off -o good
+coarse_pair
 
 # start OUT OPTION...: a run in the background; ended waits for it.
 start() {

@@ -5,10 +5,7 @@
 . "$(dirname "$0")/common.sh"
 mounted=''
 ! own_disk || mounted=yes
-small_picture+=("${coarse[@]}")
-figure a.off 6
-figure b.off 6 .5
-map a.off b.off -o good
+coarse_pair
 
 whole() {  # FOLDER: every artifact in it passes its check
     artifacts "$1" | xargs -r "$VARIMAP_BIN/varimap-inspect" --check >log 2>&1 || fail "a damaged artifact was left"
