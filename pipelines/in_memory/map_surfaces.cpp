@@ -30,20 +30,39 @@ SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapO
     return data;
 }
 
-std::optional<Candidates> found_candidates(const PairContext& context, const MapOptions& options) {
+/// The surface as coarse as exploration wants it.
+SurfaceData sketch(const Surface& surface) {
+    CoarsenParams params;
+    params.vertices = 1000;
+    SurfaceData data;
+    data.surface = coarsened(surface, params);
+    data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
+    data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
+    return data;
+}
+
+std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const MapOptions& options) {
     if (!options.explore && !options.landmarks.empty()) return {};
     const ExploreParams params;
-    return explore(context, params.exploration, params.alternation, params.ironing);
+    SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
+    const Candidates self_maps_A = find_self_maps({sketch_A, sketch_A, {}}, params),
+                     self_maps_B = find_self_maps({sketch_B, sketch_B, {}}, params);
+    const auto landmarks = to_mesh_vertices(options.landmarks, sketch_A.surface, sketch_B.surface);
+    const PointPairs points = landmark_points({options.landmarks, {}}, sketch_A.surface, sketch_B.surface);
+    const PairContext context =
+        pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
+    return explore(context, params, self_maps_A, self_maps_B);
 }
 
 /// The stages that solve for a plan.
-Plan solve(const PairContext& context, const PointPairs& landmark_points, const MapOptions& options) {
+Plan solve(const PairContext& context, const PointPairs& landmark_points,
+           const std::optional<Candidates>& candidates, const MapOptions& options) {
     DiffuseParams coarse;
     coarse.candidate = options.candidate;
     coarse.landmark_weight = options.landmark_weight;
     RefineParams fine;
     coarse.alternation.area_bound = fine.alternation.area_bound = options.area_bound;
-    Diffusion diffusion = diffuse(context, coarse, found_candidates(context, options));
+    Diffusion diffusion = diffuse(context, coarse, candidates);
     diffusion.record.landmark_points = landmark_points;
     return refine(context, diffusion, fine);
 }
@@ -70,7 +89,7 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     const Surface surface_A = data_A.surface, surface_B = data_B.surface;
     const PairContext context =
         pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
-    const Plan plan = solve(context, points, options);
+    const Plan plan = solve(context, points, found_candidates(surface_A, surface_B, options), options);
     SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/coarsening.h"
 #include "varimap/mesh/mass.h"
@@ -24,14 +23,20 @@ void normalise(Surface& surface) {
 }  // namespace
 
 Surface coarsened(Surface surface, const CoarsenParams& params) {
-    if (surface.input_face.empty())
-        throw InputError("the surface was coarsened before; give that of varimap-preprocess");
     if (surface.mesh.vertex_count() <= params.vertices) return surface;
-    const Coarsening coarsening = coarsen(surface.mesh, params.vertices);
+    std::vector<int> vertex;  // per input vertex: the mesh's at it, or -1
+    PointMap inside;
+    for (const SurfacePoint& point : surface.on_mesh) {
+        vertex.push_back(point.face >= 0 ? vertex_of(surface.mesh, point) : -1);
+        if (point.face >= 0 && vertex.back() < 0) inside.push_back(point);
+    }
+    const Coarsening coarsening = coarsen(surface.mesh, params.vertices, inside);
     log("coarsened from {} vertices to {}, {:.2f}% of the area lost", surface.mesh.vertex_count(),
         coarsening.mesh.vertex_count(), 100 * (1 - surface_area(coarsening.mesh)));
-    for (SurfacePoint& point : surface.on_mesh)
-        if (point.face >= 0) point = coarsening.on_mesh[std::size_t(vertex_of(surface.mesh, point))];
+    auto next_inside = coarsening.points.begin();
+    for (std::size_t i = 0; i < vertex.size(); ++i)
+        if (SurfacePoint& point = surface.on_mesh[i]; point.face >= 0)
+            point = vertex[i] >= 0 ? coarsening.on_mesh[std::size_t(vertex[i])] : *next_inside++;
     PointMap on_input;
     for (const int v : coarsening.vertex) on_input.push_back(surface.on_input[std::size_t(v)]);
     surface.on_input = std::move(on_input);

@@ -8,6 +8,7 @@
 #include "varimap/core/error.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
+#include "varimap/multilevel/matching.h"
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/multilevel/vertex_images.h"
 
@@ -50,11 +51,11 @@ LevelPair level_with_terms(int index, const PairContext& context, const DiffuseP
     return pair;
 }
 
-Coupling chosen_plan(const Candidates& candidates, int number) {
-    if (number > int(candidates.plans.size()))
+const Correspondences& chosen_map(const Candidates& candidates, int number) {
+    if (number > int(candidates.maps.size()))
         throw UsageError(
-            fmt::format("candidate {}: varimap-explore found {}", number, candidates.plans.size()));
-    return to_coupling(candidates.plans[size_t(number - 1)]);
+            fmt::format("candidate {}: varimap-explore found {}", number, candidates.maps.size()));
+    return candidates.maps[size_t(number - 1)];
 }
 
 Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const PairContext& context) {
@@ -75,17 +76,16 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
     const int all = context.diffusion_levels();
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
     TracedDescent descent(context, params.alternation, params.ironing);
+    std::optional<VertexCorrespondences> begun;
+    if (candidates) begun = at_vertices(chosen_map(*candidates, params.candidate), context.A().surface, context.B().surface);
+    const int first = begun ? std::min(first_level_for_a_map(context), levels - 1) : 0;
     Solution solution;
-    int first = 0;
-    if (candidates) {
-        solution.plan = chosen_plan(*candidates, params.candidate);
-        const int found = descent.resume(candidates->samples_A, candidates->samples_B, "varimap-explore");
-        first = std::min(found + 1, levels - 1);  // a candidate on the last level is solved there once more
-    }
     for (int l = first; l < levels; ++l) {
         descent.enter(level_with_terms(l, context, params));
-        const Start start = l == 0 && !candidates ? coarsest_start(descent.level(), context, params)
-                                                  : descent.hand_down(solution.plan);
+        const LevelPair& level = descent.level();
+        const Start start = l > first ? descent.hand_down(solution.plan)
+                            : begun   ? Start{centres_of(level, matching_of(*begun, level)), {}}
+                                      : coarsest_start(level, context, params);
         solution = descent.solve(start, {.index = l, .last = l + 1 == levels});
     }
     Diffusion diffusion = to_diffusion(descent.level(), solution, context);

@@ -11,8 +11,8 @@ namespace varimap {
 
 /// Diffusion levels of Alg. 5: the coarsest level in full, then level by level down to the last one at which
 /// diffusion distances discern.
-/// With candidates of varimap-explore, the one chosen by the parameters is continued from its coarse level.
-/// Throws UsageError if there is no such candidate, ArtifactError if their level is none of the pair's.
+/// With candidates of varimap-explore, the one chosen by the parameters is continued, from the first level
+/// that has enough samples to hold on to it. Throws UsageError if there is no such candidate.
 Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
                   const std::optional<Candidates>& candidates = {});
 

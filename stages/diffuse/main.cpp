@@ -6,11 +6,13 @@ using namespace varimap;
 
 namespace {
 
-std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs, const std::string& path) {
+std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs, const std::string& path,
+                                          const Surface& A, const Surface& B) {
     if (path.empty()) return {};
-    const auto candidates = stage.read<Candidates>("candidates", path);
-    inputs.require_same(candidates.header, path);
-    return candidates.value;
+    auto candidates = stage.read<Candidates>("candidates", path);
+    inputs.require_sketches(candidates.header, path);
+    require_surfaces(candidates.value, A.input, B.input);
+    return std::move(candidates.value);
 }
 
 void report(const std::vector<LandmarkCheck>& checks) {
@@ -42,13 +44,13 @@ int main(int argc, char** argv) {
         stage.input_option("candidates", "maps of varimap-explore, to continue one of them");
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
+        const auto candidates = read_candidates(stage, inputs, candidates_in, A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
         PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context =
             pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-        const auto candidates = read_candidates(stage, inputs, candidates_in);
         Diffusion diffusion = diffuse(context, params, candidates);
         diffusion.record.landmark_points = std::move(points);
         report(diffusion.record.landmark_checks);

@@ -1,13 +1,11 @@
 #include "stages/explore/exploration.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "stages/explore/bending_agreement.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
-#include "varimap/results/candidates.h"
+#include "varimap/multilevel/vertex_images.h"
 
 namespace varimap {
 
@@ -34,16 +32,6 @@ int promoted(int samples, int last) {
     return last;
 }
 
-/// Exact marginals, because relaxed energies of different maps do not compare; but solved no more precisely
-/// than telling maps apart takes.
-AlternationOptions for_comparison(AlternationOptions options) {
-    options.area_bound = 1;
-    options.area_energy = AreaEnergy::transported;
-    options.tolerance = std::max(options.tolerance, 3e-3);
-    options.sinkhorn_iterations = std::min(options.sinkhorn_iterations, 50);
-    return options;
-}
-
 double mean_square(const RowMatrix& rows, const Eigen::VectorXd& mass) {
     return mass.dot(Eigen::VectorXd(rows.rowwise().squaredNorm()));
 }
@@ -56,17 +44,26 @@ double relative_distance(const Trial& a, const Trial& b, const LevelPair& pair) 
            mean_square(p.column - q.column, B.mass) / variance(A.points, A.mass) / 2;
 }
 
-bool is_mirrored(const Trial& trial) {
-    return is_mirrored(Candidate{.reversed_mass = trial.orientation.reversed_mass()});
+}  // namespace
+
+AlternationOptions for_comparison(AlternationOptions options, double area_bound) {
+    options.area_bound = area_bound;
+    options.area_energy = AreaEnergy::transported;
+    options.tolerance = std::max(options.tolerance, 3e-3);
+    options.sinkhorn_iterations = std::min(options.sinkhorn_iterations, 50);
+    return options;
 }
 
-}  // namespace
+bool Trial::is_mirrored() const {
+    // A right map reads up to a tenth reversed on coarse levels, a mirrored one nearly all.
+    return orientation.reversed_mass() > 0.4;
+}
 
 Exploration::Exploration(const PairContext& context, const ExplorationOptions& options,
                          const AlternationOptions& alternation, const IroningOptions& ironing)
     : context_(context),
       options_(options),
-      alternation_(for_comparison(alternation)),
+      alternation_(for_comparison(alternation, options.area_bound)),
       descent_(context, alternation_, ironing),
       random_(unsigned(options.seed)) {}
 
@@ -74,11 +71,11 @@ Trial Exploration::tried(const Start& start, bool ironed) const {
     const Ironing& ironing = descent_.ironing();
     AlternatingMinimization minimization = descent_.settled(start);
     if (descent_.samples() < ironing.options().minimum_samples)
-        return {minimization.take_solution(), 0, 0, {}};
+        return {minimization.take_solution(), {}};
     std::optional<PairOrientation> orientation;
     if (ironed) orientation = ironing.iron(descent_.level(), minimization, unobserved);
     if (!orientation) orientation = ironing.measure(descent_.level(), minimization.solution());
-    return {minimization.take_solution(), 0, 0, std::move(*orientation)};
+    return {minimization.take_solution(), std::move(*orientation)};
 }
 
 void Exploration::try_all(const std::vector<Start>& starts, bool ironed) {
@@ -122,7 +119,7 @@ void Exploration::add_swaps(int best) {
 void Exploration::prune() {
     const int keep = promoted(descent_.samples(), options_.candidates);
     std::stable_sort(pool_.begin(), pool_.end(), [](const Trial& a, const Trial& b) {
-        return std::pair(is_mirrored(a), a.energy()) < std::pair(is_mirrored(b), b.energy());
+        return std::pair(a.is_mirrored(), a.energy()) < std::pair(b.is_mirrored(), b.energy());
     });
     std::vector<Trial> kept;
     for (Trial& trial : pool_) {
@@ -135,24 +132,12 @@ void Exploration::prune() {
     pool_ = std::move(kept);
 }
 
-double Exploration::score(const Trial& trial) const {
-    return std::log(trial.energy()) + options_.euclidean_exponent * std::log(trial.euclidean_energy) -
-           options_.bending_weight * trial.bending_agreement;
-}
-
-void Exploration::measure_finalists() {
-    const Eigen::VectorXd &bending_A = context_.A().hierarchy.shape.bending,
-                          &bending_B = context_.B().hierarchy.shape.bending;
-    for (Trial& trial : pool_)
-        trial.bending_agreement =
-            bending_agreement(descent_.level(), bending_A, bending_B, trial.orientation);
-    Descent further(context_, alternation_, descent_.ironing().options());
-    further.resume(descent_.level().A.level.samples, descent_.level().B.level.samples, "varimap-explore");
-    further.enter(context_.euclidean_level(0, 1));
-    parallel_for_each_index(pool_.size(), size_t(1), [&](size_t n) {
-        const Start start = further.hand_down(pool_[n].solution.plan);
-        pool_[n].euclidean_energy = further.settled(start).solution().step.energy;
-    });
+VertexImages Exploration::images(const Trial& trial) const {
+    const LevelPair& level = last_level();
+    return {vertex_images(level.A, level.B, trial.solution.step.row_image,
+                          largest_of_rows(trial.solution.plan), context_.graph_B()),
+            vertex_images(level.B, level.A, trial.solution.step.column_image,
+                          largest_of_columns(trial.solution.plan), context_.graph_A())};
 }
 
 void Exploration::log_pool(int level) const {
@@ -176,11 +161,8 @@ std::vector<Trial> Exploration::run() {
             prune();
         }
         log_pool(l);
+        if (samples >= options_.last_samples) break;
     }
-    measure_finalists();
-    std::stable_sort(pool_.begin(), pool_.end(), [&](const Trial& a, const Trial& b) {
-        return std::pair(is_mirrored(a), score(a)) < std::pair(is_mirrored(b), score(b));
-    });
     return pool_;
 }
 

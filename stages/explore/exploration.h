@@ -8,28 +8,26 @@
 
 namespace varimap {
 
-/// Finding a map without landmarks. The coarsest levels have so few samples that solving them costs
+/// Finding maps without landmarks. The coarsest levels have so few samples that solving them costs
 /// milliseconds: many starts are solved there, and the better ones are promoted from level to level
-/// (successive halving), with duplicates removed and the images of extremities exchanged on the way. The last
-/// few are ranked by their energies on the last diffusion level and on the first Euclidean level together,
-/// and by how well bending agrees, which tells near-symmetries that energy only just does: a person turned
-/// about. Defaults were chosen by hand on the known pairs, not swept.
+/// (successive halving), with duplicates removed and the images of extremities exchanged on the way. Energies
+/// of these levels do not tell the right map; they bring it among the few that are finished (finishing.h).
+/// Defaults were chosen by hand on half of the known pairs, not swept.
 struct ExplorationOptions {
     int random_starts = 16;  ///< at each of the three coarsest levels worth it
     int seed = 1;
-    int candidates = 3;      ///< maps that reach the last level
-    double distinct = 0.05;  ///< maps closer than this are duplicates: squared distance of centres / variance
-    double euclidean_exponent = 0.3;  ///< of the Euclidean energy in the ranking; 1 of the diffusion energy
-    double bending_weight = 0.1;      ///< of the agreement of bending in the ranking
+    int candidates = 6;      ///< maps that reach the last level
+    int last_samples = 150;  ///< the first level with so many samples is the last
+    double distinct = 0.2;   ///< maps closer than this are duplicates: squared distance of centres / variance
+    double area_bound = 4;   ///< with exact areas shapes of other proportions get a wrong map for the cheapest
 };
 
 /// A map under trial: its solution at a level, and what is known of it there.
 struct Trial {
     Solution solution;
-    double euclidean_energy = 0;
-    double bending_agreement = 0;  ///< bending_agreement.h
-    PairOrientation orientation;   ///< from ironing's first level on
+    PairOrientation orientation;  ///< from ironing's first level on
     double energy() const { return solution.step.energy; }
+    bool is_mirrored() const;
 };
 
 /// One exploration of a pair. Deterministic for a seed, for any number of threads.
@@ -38,12 +36,12 @@ class Exploration {
     Exploration(const PairContext& context, const ExplorationOptions& options,
                 const AlternationOptions& alternation, const IroningOptions& ironing);
 
-    /// Distinct maps at the last diffusion level, the best first, mirrored ones last.
+    /// Distinct maps at the last level, the one of least energy first, mirrored ones last.
     std::vector<Trial> run();
     /// The level pair they live on.
     const LevelPair& last_level() const { return descent_.level(); }
-    /// log E_diffusion + exponent log E_euclidean - weight bending agreement.
-    double score(const Trial& trial) const;
+    /// Images of all vertices.
+    VertexImages images(const Trial& trial) const;
 
   private:
     void enter(int level);
@@ -51,7 +49,6 @@ class Exploration {
     void add_swaps(int best);
     void prune();
     void log_pool(int level) const;
-    void measure_finalists();
     Trial tried(const Start& start, bool ironed) const;
     void try_all(const std::vector<Start>& starts, bool ironed = true);
 
@@ -63,5 +60,8 @@ class Exploration {
     Levels extremities_;  ///< the coarse level whose samples are exchanged
     std::vector<Trial> pool_;
 };
+
+/// Solved no more precisely than telling maps apart takes.
+AlternationOptions for_comparison(AlternationOptions options, double area_bound);
 
 }  // namespace varimap

@@ -1,108 +1,145 @@
 #include "stages/explore/explore.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "varimap/multilevel/sparse_plan.h"
-#include "varimap/multilevel/vertex_images.h"
+#include "stages/explore/appraisal.h"
+#include "stages/explore/pool.h"
+#include "varimap/core/parallel.h"
+#include "varimap/core/timing.h"
+#include "varimap/mesh/input_locator.h"
 
 namespace varimap {
 
 namespace {
 
-/// Degrees of the rotation R that minimises sum m |R (x - mean x) - (y - mean y)|^2 (Kabsch).
-double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) {
-    const Eigen::RowVector3d mean_x = mass.transpose() * x / mass.sum(),
-                             mean_y = mass.transpose() * y / mass.sum();
-    const Eigen::Matrix3d products =
-        (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    const Eigen::Matrix3d R =
-        svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
-    return Eigen::AngleAxisd(R).angle() * 180 / M_PI;
+/// What exploration found; mirrored maps only where there are no others.
+std::vector<PooledMap> explored(Exploration& exploration) {
+    const Timer timer("exploration");
+    const std::vector<Trial> trials = exploration.run();
+    std::vector<PooledMap> pool;
+    for (const Trial& trial : trials)
+        if (pool.empty() || !trial.is_mirrored())
+            pool.push_back({exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
+    return pool;
 }
 
-/// Compares a map with the best one: where the latter's inverse takes the images of the samples of A.
-void compare(const Trial& best, const Trial& other, const LevelPair& pair, const PairContext& context,
-             Candidate& candidate) {
-    constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
-    const std::vector<int>& samples = pair.A.level.samples;
-    const TriangleMesh& mesh = context.A().surface.mesh;
-    const std::vector<int>& image = other.orientation.A_to_B.image_vertex;
-    const std::vector<int>& back = best.orientation.B_to_A.image_vertex;
-    if (image.empty() || back.empty()) return;
-    Points x(samples.size(), 3), y(samples.size(), 3);
-    for (size_t k = 0; k < samples.size(); ++k) {
-        x.row(k) = mesh.vertices.row(samples[k]);
-        y.row(k) = mesh.vertices.row(back[pair.B.level.cell[image[k]]]);
-        if ((x.row(k) - y.row(k)).norm() > elsewhere) candidate.moved_mass += pair.A.side.mass[k];
-    }
-    candidate.turn = best_turn(x, y, pair.A.side.mass);
+PointPairs on_inputs(const PointMap& map, const Surface& from, const InputLocator& to) {
+    PointPairs pairs(map.size());
+    parallel_for_each_index(map.size(), std::size_t(64),
+                            [&](std::size_t v) { pairs[v] = {from.on_input[v], to(map[v])}; });
+    return pairs;
 }
 
-/// What there is to say about the maps an exploration found, for each.
-std::vector<Candidate> describe(const Exploration& exploration, const std::vector<Trial>& trials,
-                                const PairContext& context) {
-    std::vector<Candidate> list;
-    for (const Trial& trial : trials) {
-        Candidate candidate{.diffusion_energy = trial.energy(),
-                            .euclidean_energy = trial.euclidean_energy,
-                            .bending_agreement = trial.bending_agreement,
-                            .score = exploration.score(trial),
-                            .reversed_mass = trial.orientation.reversed_mass()};
-        if (&trial != &trials.front())
-            compare(trials.front(), trial, exploration.last_level(), context, candidate);
-        list.push_back(candidate);
-    }
+Correspondences correspondences(const MapPair& maps, const Surface& A, const Surface& B) {
+    const InputLocator on_A(A), on_B(B);
+    return {on_inputs(maps.A_to_B, A, on_B), on_inputs(maps.B_to_A, B, on_A)};
+}
+
+PointMap at_vertices(const std::vector<int>& images, const TriangleMesh& target) {
+    const PointMap points = points_at_vertices(target);
+    PointMap map;
+    for (const int vertex : images) map.push_back(points[std::size_t(vertex)]);
+    return map;
+}
+
+/// Per INPUT vertex of `from` its image on the INPUT of `to`, linear on the mesh's faces.
+PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
+    const InputLocator locate(to);
+    const TriangleMesh normals{vertex_normals(to.mesh), to.mesh.faces};
+    PointMap result(from.on_mesh.size());
+    parallel_for_each_index(result.size(), std::size_t(64), [&](std::size_t v) {
+        const SurfacePoint& at = from.on_mesh[v];
+        if (at.face < 0) return;
+        Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const SurfacePoint& image = map[std::size_t(from.mesh.faces(at.face, k))];
+            x += at.barycentric[k] * position(to.mesh, image);
+            normal += at.barycentric[k] * position(normals, image);
+        }
+        result[v] = locate(x, normal);
+    });
+    return between_input_and_file(std::move(result), to);
+}
+
+FinishingOptions finishing_options(const ExploreParams& params) {
+    FinishingOptions options = params.finishing;
+    options.alternation = for_comparison(params.alternation, params.alternation.area_bound);
+    return options;
+}
+
+/// The finished maps and what is known of them, the best first, mirrored ones last.
+struct Appraised {
+    FinishedMap map;
+    Candidate candidate;
+};
+std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::vector<PooledMap>& pool,
+                                 const PairContext& context) {
+    const Appraisal appraisal(context);
+    std::vector<Appraised> list;
+    for (FinishedMap& map : finished)
+        list.push_back({std::move(map), pool[std::size_t(map.start)].origin});
+    for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
+    std::stable_sort(list.begin(), list.end(), [](const Appraised& a, const Appraised& b) {
+        return std::pair(is_mirrored(a.candidate), a.candidate.score) <
+               std::pair(is_mirrored(b.candidate), b.candidate.score);
+    });
+    for (std::size_t k = 1; k < list.size(); ++k)
+        appraisal.compare(list.front().map, list[k].map, list[k].candidate);
     return list;
-}
-
-/// Per INPUT vertex of B, its image on INPUT faces of A, as well as the last diffusion level tells.
-PointMap preview(const Trial& trial, const LevelPair& pair, const PairContext& context) {
-    const std::vector<int> image = vertex_images(pair.B, pair.A, trial.solution.step.column_image,
-                                                 largest_of_columns(trial.solution.plan), context.graph_A());
-    const Surface &A = context.A().surface, &B = context.B().surface;
-    PointMap map(B.on_mesh.size());
-    for (size_t v = 0; v < map.size(); ++v)
-        if (const MeshVertex vertex = mesh_vertex_at(B, {int(v)}); vertex.index >= 0)
-            map[v] = A.on_input[image[vertex.index]];
-    return between_input_and_file(std::move(map), A);
-}
-
-/// The first level with enough samples to tell a map, or the last.
-Levels coarse_level(const PairContext& context) {
-    constexpr size_t enough = 20;  // chosen by hand on the known pairs, not swept
-    int l = 0;
-    Levels coarse = context.diffusion_samples(l);
-    while (coarse.A.samples.size() < enough && l + 1 < context.diffusion_levels())
-        coarse = context.diffusion_samples(++l);
-    return coarse;
 }
 
 }  // namespace
 
-Candidates explore(const PairContext& context, const ExplorationOptions& options,
-                   const AlternationOptions& alternation, const IroningOptions& ironing) {
-    Exploration exploration(context, options, alternation, ironing);
-    const std::vector<Trial> trials = exploration.run();
-    const LevelPair& last = exploration.last_level();
-    const Levels coarse = coarse_level(context);
-    Candidates found{.samples_A = coarse.A.samples,
-                     .samples_B = coarse.B.samples,
-                     .mass_A = coarse.A.mass,
-                     .mass_B = coarse.B.mass,
-                     .list = describe(exploration, trials, context),
-                     .plans = {},
-                     .previews = {}};
-    for (const Trial& trial : trials)
-        found.plans.push_back(
-            to_matrix(coarsened(trial.solution.plan, last, coarse), found.mass_A, found.mass_B));
-    constexpr size_t shown = 3;
+Candidates find_self_maps(const PairContext& context, const ExploreParams& params) {
+    constexpr double another = 0.1;  // share of the surface that a self-map moves; chosen by hand
+    ExplorationOptions options = params.exploration;
+    options.area_bound = 1;  // the surface has the areas it has
+    options.distinct = 0.4;
+    options.random_starts *= 2;
+    options.candidates = 4;
+    Exploration exploration(context, options, params.alternation, params.ironing);
+    const std::vector<PooledMap> pool = explored(exploration);
+    const Surface& surface = context.A().surface;
+    const Appraisal appraisal(context);
+    const FinishedMap same{0, {points_at_vertices(surface.mesh), points_at_vertices(surface.mesh)}, 0};
+    Candidates found;
+    for (const PooledMap& map : pool) {
+        if (difference(map.images, identity(surface), surface, surface) < another) continue;
+        const FinishedMap rough{0,
+                                {at_vertices(map.images.A_to_B, surface.mesh),
+                                 at_vertices(map.images.B_to_A, surface.mesh)},
+                                map.origin.energy};
+        Candidate candidate = map.origin;
+        candidate.score = std::log(map.origin.energy / pool.front().origin.energy);
+        appraisal.compare(same, rough, candidate);
+        found.list.push_back(candidate);
+        found.maps.push_back(correspondences(rough.maps, surface, surface));
+    }
+    return found;
+}
+
+Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A,
+                   const Candidates& self_maps_B) {
+    const Surface &A = context.A().surface, &B = context.B().surface;
+    Exploration exploration(context, params.exploration, params.alternation, params.ironing);
+    std::vector<PooledMap> pool = explored(exploration);
+    compose(pool, params.composed, images_of(self_maps_A, A), images_of(self_maps_B, B), context);
+    std::vector<VertexImages> starts;
+    for (const PooledMap& map : pool) starts.push_back(map.images);
+    const Timer timer("finishing");
+    const std::vector<Appraised> list =
+        appraised(finish(context, starts, finishing_options(params)), pool, context);
+    Candidates found;
+    for (const Appraised& one : list) {
+        found.list.push_back(one.candidate);
+        found.maps.push_back(correspondences(one.map.maps, A, B));
+    }
+    constexpr std::size_t shown = 3;
     if (!confidence_of(found.list).confident)
-        for (size_t k = 0; k < std::min(trials.size(), shown); ++k)
-            found.previews.push_back(preview(trials[k], last, context));
+        for (std::size_t k = 0; k < std::min(list.size(), shown); ++k)
+            found.previews.push_back(preview(list[k].map.maps.B_to_A, B, A));
     return found;
 }
 

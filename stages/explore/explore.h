@@ -1,13 +1,19 @@
 #pragma once
 
-#include "stages/explore/exploration.h"
+#include "stages/explore/params.h"
 #include "varimap/results/candidates.h"
 
 namespace varimap {
 
-/// Explores, sums the plans over the cells of a coarse level: coarse enough that varimap-diffuse can relax
-/// marginals from there on.
-Candidates explore(const PairContext& context, const ExplorationOptions& options,
-                   const AlternationOptions& alternation, const IroningOptions& ironing);
+/// Maps of a surface onto itself that are not the identity, by their energies: turns, exchanged limbs. Two
+/// maps of a pair of surfaces that are nearly as good as each other differ by these. `surface` is the context
+/// of the surface with itself. Sketches are enough (varimap-coarsen to a thousand vertices).
+Candidates find_self_maps(const PairContext& surface, const ExploreParams& params);
+
+/// Maps worth continuing, the best first. What is found by exploration is composed with self-maps of both
+/// surfaces, so that a wrong map brings the right one with it; all are finished at the resolution of these
+/// surfaces (meant to be sketches), and compared as finished maps (candidate.h).
+Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A = {},
+                   const Candidates& self_maps_B = {});
 
 }  // namespace varimap

@@ -1,4 +1,4 @@
-#include "stages/explore/params.h"
+#include "stages/explore/explore.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/stage/stage_main.h"
 
@@ -8,11 +8,12 @@ namespace {
 
 void report(const std::vector<Candidate>& candidates) {
     for (size_t k = 0; k < candidates.size(); ++k)
-        log("candidate {}: energy {:.6g} and {:.6g}, bending {:.3f}, score {:.4f}, {:.1f}% reversed; {}",
-            k + 1, candidates[k].diffusion_energy, candidates[k].euclidean_energy,
-            candidates[k].bending_agreement, candidates[k].score, 100 * candidates[k].reversed_mass,
-            relation(candidates[k]));
+        log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, score {:.4f}, {:.1f}% "
+            "reversed; {}",
+            k + 1, origin(candidates[k]), candidates[k].energy, candidates[k].dirichlet, candidates[k].relief,
+            candidates[k].score, 100 * candidates[k].reversed_mass, relation(candidates[k]));
     const Confidence confidence = confidence_of(candidates);
+    log("the first is right with a probability of {:.2f}", confidence.probability);
     if (is_mirrored(candidates.front()))
         warn(
             "only mirrored maps were found; are the surfaces of opposite handedness (--mirror)? look at "
@@ -21,8 +22,21 @@ void report(const std::vector<Candidate>& candidates) {
         warn(
             "the choice among the candidates is not sure ({}): look at candidates.png, try --candidate 2, or "
             "give landmarks",
-            confidence.levels_agree ? fmt::format("another is only {:.1f}% worse", 100 * confidence.margin)
-                                    : "coarse and fine levels disagree");
+            doubt(candidates));
+}
+
+void report_self_maps(const std::vector<Candidate>& self_maps) {
+    for (size_t k = 0; k < self_maps.size(); ++k)
+        log("self-map {}: energy {:.2f} times the identity's, {}", k + 1, std::exp(self_maps[k].score),
+            relation(self_maps[k]));
+}
+
+Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::string& side,
+                          const std::string& path, const TriangleMesh& input) {
+    auto self_maps = stage.read<Candidates>(side + ".selfmaps", path);
+    inputs.require_self_maps(self_maps.header, path, side);
+    require_surfaces(self_maps.value, input, input);
+    return std::move(self_maps.value);
 }
 
 }  // namespace
@@ -31,21 +45,33 @@ int main(int argc, char** argv) {
     ExploreParams params;
     Stage stage("explore", "Maps worth continuing, found without landmarks");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
-    PairInputs inputs(stage);
+    PairInputs inputs(stage, "sketch.");
     const std::string& out =
         stage.output(ArtifactType<Candidates>::kind, ArtifactType<Candidates>::schema, "candidates to write");
     const auto& landmark_files =
         stage.input_list_option("landmarks", "as for varimap-diffuse; may be too few to decide", 1, 2);
+    const auto& self_map_files = stage.input_list_option(
+        "self-maps", "self-maps of A and of B, found with --onto_itself true: maps are composed with them", 2, 2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
+        inputs.record_sketched(stage);
+        Candidates self_maps_A, self_maps_B;
+        if (!self_map_files.empty()) {
+            self_maps_A = read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input);
+            self_maps_B = read_self_maps(stage, inputs, "B", self_map_files[1], B.surface.input);
+        }
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
         const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context =
             pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-        const Candidates found = explore(context, params.exploration, params.alternation, params.ironing);
-        report(found.list);
+        const Candidates found = params.self_maps ? find_self_maps(context, params)
+                                                  : explore(context, params, self_maps_A, self_maps_B);
+        if (params.self_maps)
+            report_self_maps(found.list);
+        else
+            report(found.list);
         stage.record_number("candidates", double(found.list.size()));
         stage.write(out, found);
     });

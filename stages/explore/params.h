@@ -1,14 +1,18 @@
 #pragma once
 
-#include "stages/explore/explore.h"
+#include "stages/explore/exploration.h"
+#include "stages/explore/finishing.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {
 
 struct ExploreParams {
-    AlternationOptions alternation;
+    AlternationOptions alternation;  ///< its area bound is that of the maps that are finished
     IroningOptions ironing;
     ExplorationOptions exploration;
+    FinishingOptions finishing;
+    bool self_maps = false;
+    int composed = 2;  ///< maps that self-maps are composed with
     LandmarkSpace landmark_space = LandmarkSpace::stated;
     double landmark_weight = 1;  ///< W of pull_landmarks (cost.h); 1: pinned
 
@@ -23,10 +27,13 @@ struct ExploreParams {
         list.add("candidates", exploration.candidates, "maps that are kept to the last level", 1, 100);
         list.add("distinct", exploration.distinct,
                  "maps closer than this are duplicates: mean squared distance / variance", 0.0, 2.0);
-        list.add("euclidean_exponent", exploration.euclidean_exponent,
-                 "of the energy on the first Euclidean level, in the ranking", 0.0, 10.0);
-        list.add("bending_weight", exploration.bending_weight, "of the agreement of bending, in the ranking",
-                 0.0, 10.0);
+        list.add("area_bound", exploration.area_bound, "of the maps that are explored, as in varimap-diffuse",
+                 1.0, 1e6);
+        list.add("onto_itself", self_maps, "looks for maps of one surface, given twice, onto itself");
+        list.add("composed", composed, "of how many maps compositions with self-maps are tried", 0, 100);
+        list.add("finished", finishing.most, "maps that are finished and compared at most", 1, 100);
+        list.add("shape_weight", finishing.shape_weight, "as in varimap-diffuse, for the maps that are finished",
+                 0.0, 100.0);
         varimap::describe(list, landmark_space);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);

@@ -70,23 +70,6 @@ std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt
     return matchings;
 }
 
-Centres centres_of(const LevelPair& pair, const Matching& matching) {
-    const RowMatrix &a = pair.A.side.points, &b = pair.B.side.points;
-    Centres centres{RowMatrix::Zero(a.rows(), b.cols()), RowMatrix::Zero(b.rows(), a.cols())};
-    Eigen::VectorXd row_count = Eigen::VectorXd::Zero(a.rows()),
-                    column_count = Eigen::VectorXd::Zero(b.rows());
-    for (const auto& [i, j] : matching) {
-        centres.row.row(i) += b.row(j);
-        centres.column.row(j) += a.row(i);
-        ++row_count[i];
-        ++column_count[j];
-    }
-    centres.row = pair.A.side.averaging * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
-    centres.column =
-        pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
-    return centres;
-}
-
 Coupling coarsened(const Coupling& plan, const LevelPair& fine, const Levels& coarse) {
     const auto row = parents(fine.A.level, coarse.A), column = parents(fine.B.level, coarse.B);
     const int rows = int(coarse.A.samples.size()), columns = int(coarse.B.samples.size());

@@ -1,16 +1,11 @@
 #pragma once
 
 #include <random>
-#include <utility>
 #include <vector>
 
-#include "varimap/multilevel/level_transfer.h"
-#include "varimap/multilevel/pair_context.h"
+#include "varimap/multilevel/matching.h"
 
 namespace varimap {
-
-/// Samples of one level matched with each other (index on A, index on B); every sample occurs.
-using Matching = std::vector<std::pair<int, int>>;
 
 /// Samples with the most alike low eigenfunctions, once for each choice of their signs: nearly all
 /// near-isometries of generic surfaces are among these.
@@ -18,9 +13,6 @@ std::vector<Matching> spectral_matchings(const PairContext& context, const Level
 
 /// Each sample with a random one.
 std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random);
-
-/// Centres at the mean of the matched samples, smoothed by W.
-Centres centres_of(const LevelPair& pair, const Matching& matching);
 
 /// The plan between coarser samples: sums over their cells.
 Coupling coarsened(const Coupling& plan, const LevelPair& fine, const Levels& coarse);

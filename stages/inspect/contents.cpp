@@ -28,6 +28,13 @@ void visit_points(const std::string& name, const PointMap& points, ContentsVisit
     visitor.array(name + "_barycentric", view(barycentric));
 }
 
+void visit_pairs(const std::string& name, const PointPairs& pairs, ContentsVisitor& visitor) {
+    PointMap first, second;
+    for (const auto& [a, b] : pairs) first.push_back(a), second.push_back(b);
+    visit_points(name + "_A", first, visitor);
+    visit_points(name + "_B", second, visitor);
+}
+
 void visit(const Surface& surface, ContentsVisitor& visitor) {
     visitor.fact("area", fmt::format("{}", surface_area(surface.mesh)));
     visitor.fact("area of the input", fmt::format("{}", surface_area(surface.input)));
@@ -84,11 +91,11 @@ std::string trace_csv(const Trace& trace) {
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
     std::string text =
-        "candidate,diffusion_energy,euclidean_energy,bending_agreement,score,reversed_mass,moved_mass,turn\n";
+        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,score,reversed_mass,moved_mass,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", k + 1, c.diffusion_energy, c.euclidean_energy,
-                            c.bending_agreement, c.score, c.reversed_mass, c.moved_mass, c.turn);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A, c.self_map_B,
+                            c.energy, c.dirichlet, c.relief, c.score, c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;
 }
@@ -97,31 +104,26 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
     if (candidates.empty()) return;
     const Confidence confidence = confidence_of(candidates);
     for (std::size_t k = 0; k < candidates.size(); ++k)
-        visitor.fact(fmt::format("candidate {}", k + 1), relation(candidates[k]));
+        visitor.fact(fmt::format("candidate {}", k + 1),
+                     fmt::format("{}; {}", origin(candidates[k]), relation(candidates[k])));
     visitor.fact("confidence",
-                 fmt::format("{}: margin {:.2f}%, levels {}", confidence.confident ? "sure" : "not sure",
-                             100 * confidence.margin, confidence.levels_agree ? "agree" : "disagree"));
+                 fmt::format("{}: right with a probability of {:.2f}, margin {:.2f}%",
+                             confidence.confident ? "sure" : "not sure", confidence.probability,
+                             100 * confidence.margin));
     visitor.text("candidates.csv", candidates_csv(candidates));
 }
 
 void visit(const Candidates& candidates, ContentsVisitor& visitor) {
     visit_candidates(candidates.list, visitor);
-    visitor.array("samples_A", view(candidates.samples_A));
-    visitor.array("samples_B", view(candidates.samples_B));
-    visitor.array("mass_A", view(candidates.mass_A));
-    visitor.array("mass_B", view(candidates.mass_B));
-    for (std::size_t k = 0; k < candidates.plans.size(); ++k)
-        visitor.sparse(fmt::format("plan_{:02}", k + 1), candidates.plans[k]);
+    for (std::size_t k = 0; k < candidates.maps.size(); ++k) {
+        PointPairs from_B = candidates.maps[k].from_B;
+        for (auto& [point, image] : from_B) std::swap(point, image);
+        visit_pairs(fmt::format("map_{:02}_from_A", k + 1), candidates.maps[k].from_A, visitor);
+        visit_pairs(fmt::format("map_{:02}_from_B", k + 1), from_B, visitor);
+    }
     visitor.fact("previews", fmt::format("{}", candidates.previews.size()));
     for (std::size_t k = 0; k < candidates.previews.size(); ++k)
         visit_points(fmt::format("preview_{:02}", k + 1), candidates.previews[k], visitor);
-}
-
-void visit_landmark_points(const PointPairs& pairs, ContentsVisitor& visitor) {
-    PointMap on_A, on_B;
-    for (const auto& [a, b] : pairs) on_A.push_back(a), on_B.push_back(b);
-    visit_points("landmark_points_A", on_A, visitor);
-    visit_points("landmark_points_B", on_B, visitor);
 }
 
 std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
@@ -155,7 +157,7 @@ void visit_record(const PairRecord& record, ContentsVisitor& visitor) {
     visit_candidates(record.candidates, visitor);
     visitor.array("landmarks_A", view(landmarks_A));
     visitor.array("landmarks_B", view(landmarks_B));
-    visit_landmark_points(record.landmark_points, visitor);
+    visit_pairs("landmark_points", record.landmark_points, visitor);
 }
 
 void visit_solved(const SolvedPair& pair, ContentsVisitor& visitor) {

@@ -86,9 +86,10 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
     const Confidence confidence = confidence_of(candidates);
     Json list = Json::array();
     for (const Candidate& c : candidates)
-        list.push_back({{"diffusion_energy", c.diffusion_energy},
-                        {"euclidean_energy", c.euclidean_energy},
-                        {"bending_agreement", c.bending_agreement},
+        list.push_back({{"origin", origin(c)},
+                        {"energy", c.energy},
+                        {"dirichlet_energy", c.dirichlet},
+                        {"relief_agreement", c.relief},
                         {"score", c.score},
                         {"reversed_percent", 100 * c.reversed_mass},
                         {"moved_percent", 100 * c.moved_mass},
@@ -97,7 +98,8 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
     return {{"continued", continued},
             {"confident", confidence.confident},
             {"margin", confidence.margin},
-            {"levels_agree", confidence.levels_agree},
+            {"probability", confidence.probability},
+            {"doubt", doubt(candidates)},
             {"candidates", list}};
 }
 

@@ -90,7 +90,7 @@ double rounded(double cost) {
 
 class Coarsener {
   public:
-    explicit Coarsener(const TriangleMesh& mesh);
+    Coarsener(const TriangleMesh& mesh, const PointMap& points);
     void reduce_to(int vertices);
     Coarsening result(const TriangleMesh& before) const;
 
@@ -108,7 +108,7 @@ class Coarsener {
     bool is_upright(const Disc& disc, int target) const;
     void collapse(const Disc& disc, int target);
     void move_points(const Disc& disc, int target);
-    void put(int vertex, int face, const Vec3& barycentric);
+    void put(int point, int face, const Vec3& barycentric);
 
     HalfEdgeMesh mesh_;
     Faces faces_;  ///< corners stay at their places when one is exchanged
@@ -116,19 +116,21 @@ class Coarsener {
     std::vector<int> version_;
     std::priority_queue<Entry> queue_;
     int left_;
-    PointMap on_mesh_;               ///< of vertices that are gone
-    std::vector<int> first_, next_;  ///< per face, per vertex: lists of the points on each face
+    PointMap on_mesh_;               ///< of vertices that are gone; then of the further points
+    std::vector<int> first_, next_;  ///< per face, per point: lists of the points on each face
 };
 
-Coarsener::Coarsener(const TriangleMesh& mesh)
+Coarsener::Coarsener(const TriangleMesh& mesh, const PointMap& points)
     : mesh_(half_edges(mesh)),
       faces_(mesh.faces),
       quadric_(std::size_t(mesh.vertex_count())),
       version_(std::size_t(mesh.vertex_count()), 0),
       left_(mesh.vertex_count()),
-      on_mesh_(std::size_t(mesh.vertex_count())),
+      on_mesh_(std::size_t(mesh.vertex_count()) + points.size()),
       first_(std::size_t(mesh.face_count()), -1),
-      next_(std::size_t(mesh.vertex_count()), -1) {
+      next_(on_mesh_.size(), -1) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+        put(mesh.vertex_count() + int(i), points[i].face, points[i].barycentric);
     add_quadrics();
     for (const auto v : mesh_.vertices()) enqueue(v);
 }
@@ -256,10 +258,10 @@ bool Coarsener::is_allowed(const Disc& disc, int target) {
     return leaves_enough_faces(disc, target) && is_upright(disc, target) && mesh_.is_collapse_ok(collapsed);
 }
 
-void Coarsener::put(int vertex, int face, const Vec3& barycentric) {
-    on_mesh_[std::size_t(vertex)] = {face, barycentric};
-    next_[std::size_t(vertex)] = first_[std::size_t(face)];
-    first_[std::size_t(face)] = vertex;
+void Coarsener::put(int point, int face, const Vec3& barycentric) {
+    on_mesh_[std::size_t(point)] = {face, barycentric};
+    next_[std::size_t(point)] = first_[std::size_t(face)];
+    first_[std::size_t(face)] = point;
 }
 
 /// The faces that take the place of those around a vertex that goes, in the plane.
@@ -384,13 +386,16 @@ Coarsening Coarsener::result(const TriangleMesh& before) const {
     const PointMap at_vertices = points_at_vertices(result.mesh);
     for (std::size_t v = 0; v < result.vertex.size(); ++v)
         result.on_mesh[std::size_t(result.vertex[v])] = at_vertices[v];
+    const auto further = result.on_mesh.begin() + before.vertex_count();
+    result.points.assign(further, result.on_mesh.end());
+    result.on_mesh.erase(further, result.on_mesh.end());
     return result;
 }
 
 }  // namespace
 
-Coarsening coarsen(const TriangleMesh& mesh, int vertices) {
-    Coarsener coarsener(mesh);
+Coarsening coarsen(const TriangleMesh& mesh, int vertices, const PointMap& points) {
+    Coarsener coarsener(mesh, points);
     coarsener.reduce_to(vertices);
     return coarsener.result(mesh);
 }

@@ -11,6 +11,7 @@ struct Coarsening {
     TriangleMesh mesh;        ///< its vertices are some of those before, in their order
     std::vector<int> vertex;  ///< per vertex: the one it was before
     PointMap on_mesh;  ///< per vertex BEFORE: where it lies on `mesh`; at a vertex that is left, exactly
+    PointMap points;   ///< the points that were given, on `mesh`
 };
 
 /// Collapses half-edges, each removing a vertex, until `vertices` are left or no more can go: next the one
@@ -24,6 +25,7 @@ struct Coarsening {
 ///
 /// The mesh must be manifold and its vertices used; topology and boundary loops stay. Deterministic; costs
 /// count as equal within a millionth, so that rounding hardly matters. O(n log n).
-Coarsening coarsen(const TriangleMesh& mesh, int vertices);
+/// `points`: others of the mesh, inside its faces, whose places are wanted too.
+Coarsening coarsen(const TriangleMesh& mesh, int vertices, const PointMap& points = {});
 
 }  // namespace varimap

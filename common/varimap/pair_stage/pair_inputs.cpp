@@ -83,35 +83,63 @@ void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
     }
 }
 
+/// Of what surface this is a sketch: that which it was coarsened from, or itself.
+std::string sketched(const Header& surface) {
+    const std::string finer = surface.input_hash("fine");
+    return finer.empty() ? surface.payload_hash : finer;
+}
+
 }  // namespace
 
-PairInputs::PairInputs(Stage& stage) : A_(declare(stage, "A")), B_(declare(stage, "B")) {}
+PairInputs::PairInputs(Stage& stage, const std::string& kind)
+    : kind_(kind), A_(declare(stage, "A." + kind)), B_(declare(stage, "B." + kind)) {}
 
-PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& name) {
+PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& role) {
     const std::string& surface =
-        stage.input(name + ".surface", "surface of varimap-coarsen or varimap-preprocess");
-    const std::string& basis = stage.input(name + ".basis", "basis of varimap-eigen");
-    const std::string& hierarchy = stage.input(name + ".hierarchy", "hierarchy of varimap-hierarchy");
+        stage.input(role + "surface", "surface of varimap-coarsen or varimap-preprocess");
+    const std::string& basis = stage.input(role + "basis", "basis of varimap-eigen");
+    const std::string& hierarchy = stage.input(role + "hierarchy", "hierarchy of varimap-hierarchy");
     return {surface, basis, hierarchy};
 }
 
-SurfaceData PairInputs::read(Stage& stage, const std::string& name, const Paths& paths) {
-    auto surface = stage.read<Surface>(name + ".surface", paths.surface);
-    auto basis = stage.read<Basis>(name + ".basis", paths.basis);
-    auto hierarchy = stage.read<Hierarchy>(name + ".hierarchy", paths.hierarchy);
+SurfaceData PairInputs::read(Stage& stage, const std::string& side, const Paths& paths) {
+    const std::string role = side + "." + kind_;
+    auto surface = stage.read<Surface>(role + "surface", paths.surface);
+    auto basis = stage.read<Basis>(role + "basis", paths.basis);
+    auto hierarchy = stage.read<Hierarchy>(role + "hierarchy", paths.hierarchy);
     Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "basis", basis.header, paths.basis);
-    hierarchies_.emplace_back(name + ".hierarchy", hierarchy.header);
+    headers_[side] = {surface.header, hierarchy.header};
     SurfaceData data{std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
     require_fit(data);
     return data;
 }
 
 void PairInputs::require_same(const Header& plan, const std::string& plan_path) const {
-    for (const auto& [role, header] : hierarchies_)
-        Stage::require_lineage(plan, plan_path, role, header,
-                               role == "A.hierarchy" ? A_.hierarchy : B_.hierarchy);
+    for (const auto& [side, headers] : headers_)
+        Stage::require_lineage(plan, plan_path, side + "." + kind_ + "hierarchy", headers.hierarchy,
+                               side == "A" ? A_.hierarchy : B_.hierarchy);
+}
+
+void PairInputs::record_sketched(Stage& stage) const {
+    for (const auto& [side, headers] : headers_)
+        stage.record_input({side + ".sketched", ArtifactType<Surface>::kind, sketched(headers.surface)});
+}
+
+void PairInputs::require_sketches(const Header& candidates, const std::string& path) const {
+    for (const auto& [side, headers] : headers_) {
+        const std::string of = candidates.input_hash(side + ".sketched");
+        if (of != headers.surface.payload_hash && of != sketched(headers.surface))
+            throw ArtifactError(fmt::format("'{}' was found on a sketch of another surface than '{}'; rerun {}", path,
+                                            side == "A" ? A_.surface : B_.surface, candidates.stage));
+    }
+}
+
+void PairInputs::require_self_maps(const Header& self_maps, const std::string& path,
+                                   const std::string& side) const {
+    Stage::require_lineage(self_maps, path, "A." + kind_ + "hierarchy", headers_.at(side).hierarchy,
+                           side == "A" ? A_.hierarchy : B_.hierarchy);
 }
 
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,20 +15,31 @@ namespace varimap {
 /// checked.
 class PairInputs {
   public:
-    explicit PairInputs(Stage& stage);
+    /// `kind`: what their roles begin with, behind the side: "" or "sketch.".
+    explicit PairInputs(Stage& stage, const std::string& kind = "");
     SurfaceData read_A(Stage& stage) { return read(stage, "A", A_); }
     SurfaceData read_B(Stage& stage) { return read(stage, "B", B_); }
     /// Refuses a plan that was made from other hierarchies than those read.
     void require_same(const Header& plan, const std::string& plan_path) const;
+    /// Notes in the output's header of which surfaces those read are sketches.
+    void record_sketched(Stage& stage) const;
+    /// Refuses candidates that were found on sketches of other surfaces than those read.
+    void require_sketches(const Header& candidates, const std::string& path) const;
+    /// Refuses self-maps of another surface than that of the side ("A" or "B").
+    void require_self_maps(const Header& self_maps, const std::string& path, const std::string& side) const;
 
   private:
     struct Paths {
         const std::string &surface, &basis, &hierarchy;
     };
-    static Paths declare(Stage& stage, const std::string& name);
-    SurfaceData read(Stage& stage, const std::string& name, const Paths& paths);
+    static Paths declare(Stage& stage, const std::string& role);
+    SurfaceData read(Stage& stage, const std::string& side, const Paths& paths);
+    struct Headers {
+        Header surface, hierarchy;
+    };
+    std::string kind_;
     Paths A_, B_;
-    std::vector<std::pair<std::string, Header>> hierarchies_;  ///< role, header
+    std::map<std::string, Headers> headers_;  ///< by side
 };
 
 /// Reads landmarks (vertex_list.h) and records their files as inputs.

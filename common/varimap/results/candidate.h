@@ -5,16 +5,23 @@
 
 namespace varimap {
 
-/// What exploration says of one map.
+/// What exploration says of one map, which it has finished at low resolution.
 struct Candidate {
-    double diffusion_energy = 0;   ///< Eq. (3) on the last diffusion level, marginals exact
-    double euclidean_energy = 0;   ///< Eq. (3) on the first Euclidean level, marginals exact
-    double bending_agreement = 0;  ///< correlation of how far places and images stand out of the surface
-    double score = 0;          ///< weighted log of both less the agreement; .01 more is about 1% more energy
-    double reversed_mass = 0;  ///< share of the surfaces that the map reverses, on the last diffusion level
-    double moved_mass = 0;     ///< share of A with another image than the best candidate gives it
+    int explored = 0;         ///< which of the maps found, from 1
+    int self_map_A = 0;       ///< the self-map of A that goes before it (from 1), or 0
+    int self_map_B = 0;       ///< the self-map of B that follows it, or 0
+    double energy = 0;        ///< Eq. (3) of the plan on all vertices
+    double dirichlet = 1;     ///< Dirichlet energy (quality.h), geometric mean of both directions
+    double relief = 0;        ///< agreement of relief (relief_agreement.h), correlation, mean of two scales
+    double score = 0;         ///< score_of; .01 more is about 1% more energy
+    double reversed_mass = 0; ///< share of the surfaces that the map reverses
+    double moved_mass = 0;    ///< share of A with another image than the best candidate gives it
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
 };
+
+/// log energy + 1/2 log dirichlet - relief. No one of them tells the right map from a wrong one everywhere: of
+/// people turned front to back energies say little and relief much; of limbs exchanged, the converse.
+double score_of(const Candidate& candidate);
 
 /// A mirrored map is no answer, however small its energy.
 bool is_mirrored(const Candidate& candidate);
@@ -22,13 +29,19 @@ bool is_mirrored(const Candidate& candidate);
 /// How sure the choice of the first candidate is among its rivals: those that are not mirrored and give more
 /// than 5% of A another image.
 struct Confidence {
-    double margin = 0;         ///< score of the best rival, less the first's; 1 without a rival
-    bool levels_agree = true;  ///< the first has a smaller energy than each rival on both levels
-    bool confident = true;     ///< levels agree, and the margin is at least 0.015
+    double margin = 0;       ///< score of the best rival, less the first's; 1 at most, and without a rival
+    double probability = 0;  ///< that the first is right
+    bool confident = true;   ///< the probability is at least 0.9
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates);
 
+/// Why the choice is not sure, in words; for a choice that is, "".
+std::string doubt(const std::vector<Candidate>& candidates);
+
 /// "turned by 170 degrees, 80% elsewhere": what a candidate is to the best one.
 std::string relation(const Candidate& candidate);
+
+/// "found first, then self-map 2 of the target": where a candidate comes from.
+std::string origin(const Candidate& candidate);
 
 }  // namespace varimap

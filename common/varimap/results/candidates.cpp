@@ -1,5 +1,7 @@
 #include "varimap/results/candidates.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "varimap/results/checks.h"
@@ -7,9 +9,42 @@
 
 namespace varimap {
 
+namespace {
+
+bool is_finite(const Candidate& c) {
+    for (const double number :
+         {c.energy, c.dirichlet, c.relief, c.score, c.reversed_mass, c.moved_mass, c.turn})
+        if (!std::isfinite(number)) return false;
+    return c.explored >= 0 && c.self_map_A >= 0 && c.self_map_B >= 0;
+}
+
+PointMap column(const PointPairs& pairs, bool second) {
+    PointMap points;
+    for (const auto& [a, b] : pairs) points.push_back(second ? b : a);
+    return points;
+}
+
+bool are_on(const PointMap& points, int faces) {
+    return are_points(points, faces) &&
+           std::all_of(points.begin(), points.end(), [](const SurfacePoint& p) { return p.face >= 0; });
+}
+
+bool are_correspondences(const Correspondences& map, int faces_A, int faces_B) {
+    return !map.from_A.empty() && !map.from_B.empty() && are_on(column(map.from_A, false), faces_A) &&
+           are_on(column(map.from_A, true), faces_B) && are_on(column(map.from_B, false), faces_B) &&
+           are_on(column(map.from_B, true), faces_A);
+}
+
+}  // namespace
+
+template <class Archive>
+void serialize(Archive& archive, Correspondences& c) {
+    archive(c.from_A, c.from_B);
+}
+
 template <class Archive>
 void serialize(Archive& archive, Candidates& c) {
-    archive(c.samples_A, c.samples_B, c.mass_A, c.mass_B, c.list, c.plans, c.previews);
+    archive(c.list, c.maps, c.previews);
 }
 
 std::string encode(const Candidates& candidates) {
@@ -18,19 +53,20 @@ std::string encode(const Candidates& candidates) {
 
 void decode(const std::string& payload, Candidates& candidates) {
     cereal_decode(payload, candidates);
-    constexpr Eigen::Index any = std::numeric_limits<int>::max();  // the meshes' sizes are not known here
-    const auto a = Eigen::Index(candidates.samples_A.size()), b = Eigen::Index(candidates.samples_B.size());
-    require<Candidates>(!candidates.list.empty() && candidates.list.size() == candidates.plans.size(),
-                        "numbers of plans");
-    require<Candidates>(
-        are_distinct_in_range(candidates.samples_A, any) && are_distinct_in_range(candidates.samples_B, any),
-        "samples");
-    require<Candidates>(candidates.mass_A.size() == a && candidates.mass_B.size() == b, "masses");
-    require<Candidates>(are_masses(candidates.mass_A) && are_masses(candidates.mass_B), "masses");
-    for (const SparseMatrix& plan : candidates.plans)
-        require<Candidates>(plan.rows() == a && plan.cols() == b && are_plan_entries(plan), "plans");
+    constexpr int any = std::numeric_limits<int>::max();  // the meshes' sizes are not known here
+    require<Candidates>(candidates.list.size() == candidates.maps.size(), "numbers of maps");
+    require<Candidates>(std::all_of(candidates.list.begin(), candidates.list.end(), is_finite), "numbers");
+    for (const Correspondences& map : candidates.maps)
+        require<Candidates>(are_correspondences(map, any, any), "maps");
     require<Candidates>(candidates.previews.size() <= candidates.list.size(), "previews");
     for (const PointMap& preview : candidates.previews) require<Candidates>(are_points(preview), "previews");
+}
+
+void require_surfaces(const Candidates& candidates, const TriangleMesh& input_A,
+                      const TriangleMesh& input_B) {
+    for (const Correspondences& map : candidates.maps)
+        if (!are_correspondences(map, input_A.face_count(), input_B.face_count()))
+            throw ArtifactError("the candidates are not maps between these surfaces; rerun varimap-explore");
 }
 
 void require_previews(const Candidates& candidates, const TriangleMesh& source, const TriangleMesh& target) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace varimap {
@@ -42,6 +43,33 @@ double solve_piece(const Eigen::ArrayXd& log_a, const Eigen::ArrayXd& log_lower,
     return std::clamp(std::log((1 - held) / free) - top, piece.begin, piece.end);
 }
 
+/// Newton's method for log phi, from 0 on, where Sinkhorn's iterations end: the sum is linear in phi between
+/// breakpoints, so it is exact once it stays among the same ones. None where it does not get there, as among
+/// masses too far apart or all at their bounds.
+std::optional<double> newton(const Eigen::ArrayXd& log_a, const MassBounds& bounds) {
+    constexpr int iterations = 20;
+    constexpr double widest = 600;  // exp() holds 700
+    const double top = log_a.maxCoeff();
+    if (!(log_a.minCoeff() > top - widest)) return {};
+    const Eigen::ArrayXd a = (log_a - top).exp();
+    double log_phi = 0;
+    for (int k = 0; k < iterations; ++k) {
+        const double scale = std::exp(std::clamp(log_phi + top, -widest, widest));
+        double held = 0, free = 0;
+        for (Eigen::Index i = 0; i < a.size(); ++i) {
+            const double mass = a[i] * scale;
+            const bool is_low = mass <= bounds.lower[i], is_high = mass >= bounds.upper[i];
+            held += is_low ? bounds.lower[i] : is_high ? bounds.upper[i] : 0;
+            free += is_low || is_high ? 0 : a[i];
+        }
+        if (!(free > 0) || !(held < 1)) return {};
+        const double next = std::log((1 - held) / free) - top;
+        if (next == log_phi) return log_phi;
+        log_phi = next;
+    }
+    return {};
+}
+
 }  // namespace
 
 MassBounds MassBounds::around(const Eigen::VectorXd& mass, double factor) {
@@ -62,6 +90,7 @@ double MassBounds::excess(const Eigen::VectorXd& mass) const {
 }
 
 Eigen::VectorXd bounded_masses(const Eigen::ArrayXd& log_a, const MassBounds& bounds) {
+    if (const auto log_phi = newton(log_a, bounds)) return clamped(log_a, *log_phi, bounds);
     const Eigen::ArrayXd log_lower = bounds.lower.array().log(), log_upper = bounds.upper.array().log();
     std::vector<double> breakpoints(2 * log_a.size());
     Eigen::Map<Eigen::ArrayXd>(breakpoints.data(), log_a.size()) = log_lower - log_a;

@@ -1,0 +1,94 @@
+#include "stages/explore/appraisal.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "varimap/quality/quality.h"
+#include "varimap/relaxation/relief_agreement.h"
+
+namespace varimap {
+
+namespace {
+
+/// Units of sqrt(area): of bumps that tell a chest from a back, a knee from a hock.
+constexpr double relief_scales[] = {0.02, 0.04};
+
+/// Degrees of the rotation R that minimises sum m |R (x - mean x) - (y - mean y)|^2 (Kabsch).
+double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) {
+    const Eigen::RowVector3d mean_x = mass.transpose() * x / mass.sum(),
+                             mean_y = mass.transpose() * y / mass.sum();
+    const Eigen::Matrix3d products =
+        (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+    const Eigen::Matrix3d R =
+        svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    return Eigen::AngleAxisd(R).angle() * 180 / M_PI;
+}
+
+double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& mass) {
+    const Eigen::ArrayXd x = a.array() - mass.dot(a), y = b.array() - mass.dot(b);
+    const double product = (mass.array() * x * y).sum();
+    const double scale = std::sqrt((mass.array() * x * x).sum() * (mass.array() * y * y).sum());
+    return scale > 0 ? product / scale : 0;
+}
+
+/// Values of the target's vertices at the images.
+Eigen::VectorXd pulled_back(const Eigen::VectorXd& values, const TriangleMesh& target, const PointMap& map) {
+    Eigen::VectorXd result(map.size());
+    for (std::size_t v = 0; v < map.size(); ++v) {
+        result[Eigen::Index(v)] = 0;
+        for (int k = 0; k < 3; ++k)
+            result[Eigen::Index(v)] += map[v].barycentric[k] * values[target.faces(map[v].face, k)];
+    }
+    return result;
+}
+
+}  // namespace
+
+Appraisal::Appraisal(const PairContext& context) : context_(context) {
+    for (const double scale : relief_scales) {
+        relief_A_.push_back(relief(context.A().surface.mesh, scale));
+        relief_B_.push_back(relief(context.B().surface.mesh, scale));
+    }
+}
+
+double Appraisal::relief_agreement(const MapPair& maps) const {
+    const Surface &A = context_.A().surface, &B = context_.B().surface;
+    double sum = 0;
+    for (std::size_t k = 0; k < relief_A_.size(); ++k)
+        sum += correlation(relief_A_[k], pulled_back(relief_B_[k], B.mesh, maps.A_to_B), A.mass) +
+               correlation(relief_B_[k], pulled_back(relief_A_[k], A.mesh, maps.B_to_A), B.mass);
+    return sum / (2 * double(relief_A_.size()));
+}
+
+void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
+    const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
+    const Distortion there = measure_distortion(map.maps.A_to_B, A, B),
+                     back = measure_distortion(map.maps.B_to_A, B, A);
+    candidate.energy = map.energy;
+    candidate.dirichlet = std::sqrt(there.dirichlet_energy * back.dirichlet_energy);
+    candidate.relief = relief_agreement(map.maps);
+    candidate.reversed_mass = (there.flipped_area_percent + back.flipped_area_percent) / 200;
+    candidate.score = score_of(candidate);
+}
+
+void Appraisal::compare(const FinishedMap& best, const FinishedMap& other, Candidate& candidate) const {
+    constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
+    const Surface &A = context_.A().surface, &B = context_.B().surface;
+    // Where the best map's inverse takes the other's images, linear on B's faces.
+    Points moved(A.mesh.vertex_count(), 3);
+    candidate.moved_mass = 0;
+    for (int v = 0; v < A.mesh.vertex_count(); ++v) {
+        const SurfacePoint& image = other.maps.A_to_B[std::size_t(v)];
+        Vec3 x = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            x += image.barycentric[k] *
+                 position(A.mesh, best.maps.B_to_A[std::size_t(B.mesh.faces(image.face, k))]);
+        moved.row(v) = x.transpose();
+        if ((x - A.mesh.vertex(v)).norm() > elsewhere) candidate.moved_mass += A.mass[v];
+    }
+    candidate.turn = best_turn(A.mesh.vertices, moved, A.mass);
+}
+
+}  // namespace varimap

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "stages/explore/finishing.h"
+#include "varimap/results/candidate.h"
+
+namespace varimap {
+
+/// Measures finished maps of a pair.
+class Appraisal {
+  public:
+    /// Keeps a reference to the context.
+    explicit Appraisal(const PairContext& context);
+
+    /// Fills in what is known of the map by itself, and its score.
+    void measure(const FinishedMap& map, Candidate& candidate) const;
+    /// Fills in what the map is to the best one.
+    void compare(const FinishedMap& best, const FinishedMap& other, Candidate& candidate) const;
+
+  private:
+    double relief_agreement(const MapPair& maps) const;
+
+    const PairContext& context_;
+    std::vector<Eigen::VectorXd> relief_A_, relief_B_;  ///< per scale
+};
+
+}  // namespace varimap

@@ -1,0 +1,137 @@
+#include "stages/explore/finishing.h"
+
+#include <algorithm>
+
+#include "varimap/core/log.h"
+#include "varimap/core/parallel.h"
+#include "varimap/multilevel/descent.h"
+#include "varimap/multilevel/descriptor_terms.h"
+#include "varimap/multilevel/sparse_plan.h"
+#include "varimap/results/read_out.h"
+
+namespace varimap {
+
+namespace {
+
+/// A start on its way down.
+struct Pursued {
+    int start;
+    Solution solution;
+    double energy() const { return solution.step.energy; }
+};
+
+/// The way down of all starts, level by level.
+class JointDescent {
+  public:
+    JointDescent(const PairContext& context, const FinishingOptions& options)
+        : context_(context),
+          options_(options),
+          descent_(context, options.alternation, options.ironing) {}
+
+    std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
+        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}});
+        const int first = first_level_for_a_map(context_);
+        enter(context_.diffusion_level(first));
+        solve_all(true, [&](const Pursued& one) {
+            return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
+        });
+        if (const int last = context_.diffusion_levels() - 1; last > first) go_on(context_.diffusion_level(last));
+        const int levels = context_.euclidean_levels();
+        for (int l = std::max(0, levels - 2); l < levels; ++l) {
+            const bool is_last = l + 1 == levels;
+            go_on(context_.euclidean_level(l, is_last ? 0 : 1), !is_last);  // as varimap-refine
+            keep_best();
+        }
+        return std::move(pursued_);
+    }
+    const LevelPair& level() const { return descent_.level(); }
+
+  private:
+    void enter(LevelPair level) {
+        add_shape_term(level, context_, options_.shape_weight);
+        descent_.enter(std::move(level));
+    }
+    void go_on(LevelPair level, bool ironed = true) {
+        enter(std::move(level));
+        solve_all(ironed, [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
+    }
+    template <class StartOf>
+    void solve_all(bool ironed, const StartOf& start_of) {
+        parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) {
+            AlternatingMinimization minimization = descent_.settled(start_of(pursued_[n]));
+            if (ironed) descent_.ironing().iron(descent_.level(), minimization, unobserved);
+            pursued_[n].solution = minimization.take_solution();
+        });
+    }
+    /// Those whose energy may be that of the right map; the best first.
+    void keep_best() {
+        std::stable_sort(pursued_.begin(), pursued_.end(),
+                         [](const Pursued& a, const Pursued& b) { return a.energy() < b.energy(); });
+        const double worst = options_.worst * pursued_.front().energy();
+        std::erase_if(pursued_, [&](const Pursued& one) { return one.energy() > worst; });
+        if (int(pursued_.size()) > options_.most) pursued_.resize(std::size_t(options_.most));
+    }
+
+    const PairContext& context_;
+    const FinishingOptions& options_;
+    Descent descent_;
+    std::vector<Pursued> pursued_;
+};
+
+MapPair read_out(const Solution& solution, const LevelPair& level, const PairContext& context,
+                 double area_bound) {
+    Plan plan;
+    plan.plan = to_sample_plan(level, solution.plan, area_bound);
+    plan.centre_A = solution.step.centres.row.leftCols<3>();
+    plan.centre_B = solution.step.centres.column.leftCols<3>();
+    plan.record.landmarks = context.landmarks();
+    plan.record.landmark_weight = context.landmark_weight();
+    VertexMaps maps = read_out(plan, context.A().surface, context.B().surface);
+    return {std::move(maps.A_to_B), std::move(maps.B_to_A)};
+}
+
+PinnedPair pinned(const PairContext& context) {
+    PinnedPair pinned{VertexData<bool>(context.A().surface.mesh.vertex_count()),
+                      VertexData<bool>(context.B().surface.mesh.vertex_count())};
+    if (context.landmark_weight() == 1)
+        for (const auto& [a, b] : context.landmarks()) pinned.A[a.index] = pinned.B[b.index] = true;
+    return pinned;
+}
+
+double share_elsewhere(const PointMap& map, const PointMap& other, const Surface& from, const Surface& to) {
+    constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
+    double share = 0;
+    for (std::size_t v = 0; v < map.size(); ++v)
+        if ((position(to.mesh, map[v]) - position(to.mesh, other[v])).norm() > elsewhere)
+            share += from.mass[Eigen::Index(v)];
+    return share;
+}
+
+bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context, double distinct) {
+    const Surface &A = context.A().surface, &B = context.B().surface;
+    return share_elsewhere(a.A_to_B, b.A_to_B, A, B) + share_elsewhere(a.B_to_A, b.B_to_A, B, A) < 2 * distinct;
+}
+
+}  // namespace
+
+std::vector<FinishedMap> finish(const PairContext& context, const std::vector<VertexImages>& starts,
+                                const FinishingOptions& options) {
+    JointDescent descent(context, options);
+    std::vector<FinishedMap> finished;
+    for (const Pursued& one : descent.run(starts)) {
+        FinishedMap map{one.start, read_out(one.solution, descent.level(), context, options.alternation.area_bound),
+                        one.energy()};
+        if (std::none_of(finished.begin(), finished.end(), [&](const FinishedMap& better) {
+                return are_the_same(better.maps, map.maps, context, options.distinct);
+            }))
+            finished.push_back(std::move(map));
+    }
+    log("finished {} of {} maps", finished.size(), starts.size());
+    parallel_for_each_index(finished.size(), std::size_t(1), [&](std::size_t n) {
+        untangle(finished[n].maps, context.A().surface.mesh, context.B().surface.mesh, pinned(context),
+                 options.untangling);
+    });
+    return finished;
+}
+
+}  // namespace varimap

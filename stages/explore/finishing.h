@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "varimap/multilevel/ironing.h"
+#include "varimap/multilevel/matching.h"
+#include "varimap/relaxation/untangling.h"
+#include "varimap/transport/alternating_minimization.h"
+
+namespace varimap {
+
+/// A map solved for on all levels and relaxed on the meshes, which are meant to be coarse.
+struct FinishedMap {
+    int start = 0;      ///< which of the starts it was
+    MapPair maps;       ///< per vertex of either mesh, on faces of the other
+    double energy = 0;  ///< Eq. (3) on the last level, of every vertex
+};
+
+struct FinishingOptions {
+    AlternationOptions alternation;
+    IroningOptions ironing;
+    double shape_weight = 0.25;  ///< of add_shape_term, as in varimap-diffuse and varimap-refine
+    int most = 5;                ///< maps that reach the last level: those of least energy
+    double worst = 1.6;          ///< and of no more than that times the least
+    double distinct = 0.05;      ///< relaxed are those that differ on more than this share of the surfaces
+    UntanglingOptions untangling;
+
+    FinishingOptions() {
+        untangling.global_steps = 5;
+        untangling.fold_sweeps = 30;
+        untangling.replace_parts = false;
+        untangling.align_normals = false;
+    }
+};
+
+/// Continues maps side by side through the diffusion and the Euclidean levels, and relaxes the best: only
+/// finished maps can be compared. The best by its energy comes first. Deterministic for any number of threads.
+std::vector<FinishedMap> finish(const PairContext& context, const std::vector<VertexImages>& starts,
+                                const FinishingOptions& options);
+
+}  // namespace varimap
