@@ -14,7 +14,7 @@ namespace varimap {
 /// From a coarse mesh the way leads over levels between: the mesh is subdivided, and the images of its
 /// vertices are relaxed and unfolded there, until it is about as fine as the input. Straight from the coarse
 /// mesh, faces as large as a toe cut through the target, and .2 to .3% of the area comes out reversed; the
-/// levels leave a sixth of that, and folds of few faces each.
+/// levels leave about a fifth of that, and folds of few faces each.
 class Prolongation {
   public:
     /// `images`: of the vertices of source.mesh, on target.mesh. Keeps references to the surfaces.

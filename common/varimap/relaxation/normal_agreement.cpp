@@ -16,7 +16,7 @@ namespace varimap {
 
 namespace {
 
-constexpr int most_searches = 4;  ///< of a vertex; 12 leave as many, for three times the cost
+constexpr int most_searches = 4;  ///< of a vertex. Measured at 80'000: 12 leave 59 faces of 303, 4 leave 63
 constexpr int directions = 12;
 constexpr std::array<double, 5> radii{0.1, 0.3, 0.7, 1.3, 2.2};  ///< in mean edges of the vertex's image
 constexpr double disagreement = 10;                              ///< cost per area
