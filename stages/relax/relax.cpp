@@ -1,13 +1,13 @@
 #include "stages/relax/relax.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <optional>
 #include <string>
 
+#include "stages/relax/prolongation.h"
 #include "varimap/core/log.h"
-#include "varimap/core/parallel.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -17,48 +17,12 @@ namespace {
 /// Share of input vertices below which the preprocessed surfaces are untangled first.
 constexpr double coarse_input = 0.5;
 /// Over a map that was carried over from the meshes to the inputs.
-constexpr int fine_sweeps = 5;
+constexpr int fine_sweeps = 3;
 
 /// Whether mesh and input differ in resolution, so that the map is untangled on the meshes first.
 bool is_apart(const Surface& surface) {
     return surface.input_face.empty() ||
            double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
-}
-
-/// Images of the mesh's vertices carried over to the input's: linear on the mesh's faces, closest points
-/// there.
-class Prolongation {
-  public:
-    Prolongation(const PointMap& images, const Surface& source, const Surface& target)
-        : images_(images), source_(source), target_(target), locate_(target) {
-        if (source.input_face.empty()) normals_ = {vertex_normals(target.mesh), target.mesh.faces};
-    }
-
-    SurfacePoint operator()(int input_vertex) const {
-        const SurfacePoint& at = source_.on_mesh[std::size_t(input_vertex)];
-        if (at.face < 0) return {};
-        if (const int v = vertex_of(source_.mesh, at); v >= 0) return locate_(images_[std::size_t(v)]);
-        Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            const SurfacePoint& image = images_[std::size_t(source_.mesh.faces(at.face, k))];
-            x += at.barycentric[k] * position(target_.mesh, image);
-            normal += at.barycentric[k] * position(normals_, image);
-        }
-        return locate_(x, normal);
-    }
-
-  private:
-    const PointMap& images_;
-    const Surface &source_, &target_;
-    InputLocator locate_;
-    TriangleMesh normals_;  ///< the target's, as a mesh to interpolate on; for points inside faces
-};
-
-PointMap on_input(const PointMap& images, const Surface& source, const Surface& target) {
-    PointMap map(source.on_mesh.size());
-    const Prolongation prolongation(images, source, target);
-    parallel_for_each_index(int(map.size()), 64, [&](int i) { map[std::size_t(i)] = prolongation(i); });
-    return map;
 }
 
 PinnedPair none_pinned(const TriangleMesh& A, const TriangleMesh& B) {
@@ -99,6 +63,28 @@ PinnedPair pin_on_inputs(const PairRecord& record, const Surface& A, const Surfa
     return pinned;
 }
 
+PointMap on_input(const PointMap& images, const Surface& source, const Surface& target,
+                  const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks, bool relaxed) {
+    Prolongation map(images, source, target);
+    const bool is_coarse = source.input_face.empty();
+    if (is_coarse && relaxed) map.relax_between(pinned, landmarks);
+    return map.on_input();
+}
+
+/// The maps carried over from the meshes to the inputs; `relaxed`: on the way, too.
+MapPair on_inputs(const MapPair& maps, const Surface& A, const Surface& B, const PinnedPair& pinned,
+                  bool relaxed) {
+    std::vector<SurfacePoint> points_A, points_B;
+    for (const auto& [a, b] : pinned.points) {
+        points_A.push_back(a);
+        points_B.push_back(b);
+    }
+    MapPair inputs;
+    tbb::parallel_invoke([&] { inputs.A_to_B = on_input(maps.A_to_B, A, B, pinned.A, points_A, relaxed); },
+                         [&] { inputs.B_to_A = on_input(maps.B_to_A, B, A, pinned.B, points_B, relaxed); });
+    return inputs;
+}
+
 void log_untangling(const std::string& name, const UntanglingReport& report) {
     log("{}: {} triangles reversed ({:.3f}% of the area) before untangling, {} ({:.3f}%) after {} global "
         "steps and {} sweeps; {} of {} strained parts mapped anew; {} triangles cut through features, {} "
@@ -137,15 +123,16 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
                  const RelaxParams& params) {
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
     UntanglingOptions options = params.untangling;
+    const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;
     if (is_apart(A) || is_apart(B)) {
-        on_meshes = untangle(maps, A.mesh, B.mesh, pinned_on_meshes(record, A, B), options);
+        on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, options);
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = fine_sweeps;
         options.replace_parts = false;
     }
-    MapPair inputs{on_input(maps.A_to_B, A, B), on_input(maps.B_to_A, B, A)};
+    MapPair inputs = on_inputs(maps, A, B, landmarks, options.enabled);
     const PinnedPair pinned = pin_on_inputs(record, A, B, inputs);
     UntanglingReports reports = untangle(inputs, A.input, B.input, pinned, options);
     if (options.enabled) log_untangling("on the inputs", reports);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/mesh/triangle_mesh.h"
 #include "varimap/multilevel/level_transfer.h"
 
 namespace varimap::benchmarks {

@@ -8,6 +8,7 @@
 #include "fuzz/forgery.h"
 #include "fuzz/scratch_file.h"
 #include "fuzz/target.h"
+#include "stages/coarsen/coarsen.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/params.h"
 #include "stages/inspect/inspect.h"
@@ -143,6 +144,14 @@ Artifacts read(const std::string& bytes, std::string& name) {
     return all;
 }
 
+/// To half of the vertices, so that most of them can go.
+void run_coarsen(const Artifacts& all, const std::string&) {
+    const Surface& fine = all.A.surface;
+    const Surface coarse = coarsened(fine, {fine.mesh.vertex_count() / 2});
+    Surface copy;
+    decode(encode(coarse), copy);  // checks it, as the stages that read it would
+}
+
 void run_eigen(const Artifacts& all, const std::string&) {
     EigenSolverOptions options;
     options.count = 16;
@@ -247,7 +256,8 @@ std::vector<Target> stage_targets() {
         names.insert(names.end(), more.begin(), more.end());
         return names;
     };
-    return {stage("eigen", {"A.surface"}, run_eigen),
+    return {stage("coarsen", {"A.surface"}, run_coarsen),
+            stage("eigen", {"A.surface"}, run_eigen),
             stage("hierarchy", {"A.surface", "A.basis"}, run_hierarchy),
             stage("explore", sides, run_explore),
             stage("diffuse", with(sides, {"candidates", "candidates"}), run_diffuse),

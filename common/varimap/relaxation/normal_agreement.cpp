@@ -16,7 +16,7 @@ namespace varimap {
 
 namespace {
 
-constexpr int passes = 12;
+constexpr int most_searches = 4;  ///< of a vertex. Measured at 80'000: 12 leave 59 faces of 303, 4 leave 63
 constexpr int directions = 12;
 constexpr std::array<double, 5> radii{0.1, 0.3, 0.7, 1.3, 2.2};  ///< in mean edges of the vertex's image
 constexpr double disagreement = 10;                              ///< cost per area
@@ -133,12 +133,15 @@ bool NormalAgreement::search(int v) {
 
 std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const VertexData<bool>& fixed) {
     const Timer timer("normals");
-    for (int pass = 0; pass < passes && !disagreeing.empty(); ++pass) {
+    VertexData<int> searches(map_.source().vertex_count(), 0);
+    while (!disagreeing.empty()) {
         std::vector<int> vertices;
         for (const int f : disagreeing)
             for (int k = 0; k < 3; ++k)
-                if (const int v = map_.source().faces(f, k); !fixed[v]) vertices.push_back(v);
+                if (const int v = map_.source().faces(f, k); !fixed[v] && searches[v] < most_searches)
+                    vertices.push_back(v);
         make_set(vertices);
+        for (const int v : vertices) ++searches[v];
         bool moved = false;
         for (const int v : vertices) moved = search(v) || moved;
         if (!moved) break;

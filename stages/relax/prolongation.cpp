@@ -1,0 +1,91 @@
+#include "stages/relax/prolongation.h"
+
+#include <algorithm>
+
+#include "varimap/core/parallel.h"
+#include "varimap/core/timing.h"
+#include "varimap/mesh/subdivision.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/relaxation/fold_removal.h"
+#include "varimap/relaxation/local_relaxation.h"
+
+namespace varimap {
+
+namespace {
+
+/// The last level has at least this share of the input's vertices. Measured: where it has a quarter instead
+/// of a half, twice as many triangles of the input are reversed at first.
+constexpr double last_level = 0.5;
+constexpr int sweeps = 1;
+constexpr double regularisation = 0.1;  ///< of the fold energy, as in untangling.cpp
+constexpr FoldRemoval fold_removal{120, 30};
+
+}  // namespace
+
+Prolongation::Prolongation(const PointMap& images, const Surface& source, const Surface& target)
+    : source_(source),
+      locate_(target),
+      target_(normalised_input(target)),
+      normals_{vertex_normals(target_), target_.faces},
+      level_(source.mesh),
+      images_(images.size()),
+      places_(source.on_mesh) {
+    parallel_for_each_index(int(images.size()), 64,
+                            [&](int v) { images_[std::size_t(v)] = locate_(images[std::size_t(v)]); });
+}
+
+SurfacePoint Prolongation::image_of(const SurfacePoint& at) const {
+    if (at.face < 0) return {};
+    if (const int v = vertex_of(level_, at); v >= 0) return images_[std::size_t(v)];
+    Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+        const SurfacePoint& image = images_[std::size_t(level_.faces(at.face, k))];
+        x += at.barycentric[k] * position(target_, image);
+        normal += at.barycentric[k] * position(normals_, image);
+    }
+    return locate_(x, normal);
+}
+
+void Prolongation::relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks) {
+    const Timer timer("levels");
+    relax(pinned, landmarks);
+    while (level_.vertex_count() < last_level * double(places_.size())) {
+        refine();
+        for (SurfacePoint& landmark : landmarks) landmark = on_subdivision(landmark);
+        relax(pinned, landmarks);
+    }
+}
+
+void Prolongation::refine() {
+    Subdivision finer = subdivide(level_);
+    PointMap images(finer.midpoints.size());
+    parallel_for_each_index(int(images.size()), 64, [&](int e) {
+        images[std::size_t(e)] = image_of(finer.midpoints[std::size_t(e)]);
+    });
+    images_.insert(images_.end(), images.begin(), images.end());
+    for (SurfacePoint& place : places_) place = on_subdivision(place);
+    level_ = std::move(finer.mesh);
+}
+
+void Prolongation::relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks) {
+    SlidingMap map(images_, level_, target_);
+    VertexData<bool> held(level_.vertex_count());
+    for (int v = 0; v < pinned.size(); ++v) held[v] = pinned[v];
+    for (const SurfacePoint& landmark : landmarks) mark_corners(level_, landmark.face, held);
+    std::vector<int> free;
+    for (int v = 0; v < held.size(); ++v)
+        if (!held[v] && map.has_image(v)) free.push_back(v);
+    LocalRelaxation local(map, 99);
+    for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, regularisation}, false);
+    fold_removal(map, held);
+    images_ = map.points();
+}
+
+PointMap Prolongation::on_input() const {
+    PointMap map(places_.size());
+    parallel_for_each_index(int(map.size()), 64,
+                            [&](int v) { map[std::size_t(v)] = image_of(places_[std::size_t(v)]); });
+    return map;
+}
+
+}  // namespace varimap
