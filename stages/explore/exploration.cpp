@@ -70,8 +70,7 @@ Exploration::Exploration(const PairContext& context, const ExplorationOptions& o
 Trial Exploration::tried(const Start& start, bool ironed) const {
     const Ironing& ironing = descent_.ironing();
     AlternatingMinimization minimization = descent_.settled(start);
-    if (descent_.samples() < ironing.options().minimum_samples)
-        return {minimization.take_solution(), {}};
+    if (descent_.samples() < ironing.options().minimum_samples) return {minimization.take_solution(), {}};
     std::optional<PairOrientation> orientation;
     if (ironed) orientation = ironing.iron(descent_.level(), minimization, unobserved);
     if (!orientation) orientation = ironing.measure(descent_.level(), minimization.solution());

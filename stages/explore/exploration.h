@@ -19,7 +19,8 @@ struct ExplorationOptions {
     int candidates = 6;      ///< maps that reach the last level
     int last_samples = 150;  ///< the first level with so many samples is the last
     double distinct = 0.2;   ///< maps closer than this are duplicates: squared distance of centres / variance
-    double area_bound = 4;   ///< with exact areas shapes of other proportions get a wrong map for the cheapest
+    double area_bound =
+        2;  ///< with exact areas the cheapest map of shapes of other proportions is a wrong one
 };
 
 /// A map under trial: its solution at a level, and what is known of it there.

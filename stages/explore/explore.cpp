@@ -21,14 +21,16 @@ std::vector<PooledMap> explored(Exploration& exploration) {
     std::vector<PooledMap> pool;
     for (const Trial& trial : trials)
         if (pool.empty() || !trial.is_mirrored())
-            pool.push_back({exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
+            pool.push_back(
+                {exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
     return pool;
 }
 
 PointPairs on_inputs(const PointMap& map, const Surface& from, const InputLocator& to) {
     PointPairs pairs(map.size());
-    parallel_for_each_index(map.size(), std::size_t(64),
-                            [&](std::size_t v) { pairs[v] = {from.on_input[v], to(map[v])}; });
+    parallel_for_each_index(map.size(), std::size_t(64), [&](std::size_t v) {
+        pairs[v] = {from.on_input[v], to(map[v])};
+    });
     return pairs;
 }
 
@@ -66,6 +68,9 @@ PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
 FinishingOptions finishing_options(const ExploreParams& params) {
     FinishingOptions options = params.finishing;
     options.alternation = for_comparison(params.alternation, params.alternation.area_bound);
+    // Chosen by hand on half of the known pairs: energies move by a hundredth, choices do not.
+    options.alternation.tolerance = std::max(options.alternation.tolerance, 1e-2);
+    options.alternation.sinkhorn_iterations = std::min(options.alternation.sinkhorn_iterations, 20);
     return options;
 }
 
@@ -78,8 +83,7 @@ std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::v
                                  const PairContext& context) {
     const Appraisal appraisal(context);
     std::vector<Appraised> list;
-    for (FinishedMap& map : finished)
-        list.push_back({std::move(map), pool[std::size_t(map.start)].origin});
+    for (FinishedMap& map : finished) list.push_back({std::move(map), pool[std::size_t(map.start)].origin});
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
     std::stable_sort(list.begin(), list.end(), [](const Appraised& a, const Appraised& b) {
         return std::pair(is_mirrored(a.candidate), a.candidate.score) <
@@ -99,6 +103,7 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
     options.distinct = 0.4;
     options.random_starts *= 2;
     options.candidates = 4;
+    options.last_samples = 400;  // rougher self-maps composed are no good
     Exploration exploration(context, options, params.alternation, params.ironing);
     const std::vector<PooledMap> pool = explored(exploration);
     const Surface& surface = context.A().surface;
@@ -107,10 +112,10 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
     Candidates found;
     for (const PooledMap& map : pool) {
         if (difference(map.images, identity(surface), surface, surface) < another) continue;
-        const FinishedMap rough{0,
-                                {at_vertices(map.images.A_to_B, surface.mesh),
-                                 at_vertices(map.images.B_to_A, surface.mesh)},
-                                map.origin.energy};
+        const FinishedMap rough{
+            0,
+            {at_vertices(map.images.A_to_B, surface.mesh), at_vertices(map.images.B_to_A, surface.mesh)},
+            map.origin.energy};
         Candidate candidate = map.origin;
         candidate.score = std::log(map.origin.energy / pool.front().origin.energy);
         appraisal.compare(same, rough, candidate);

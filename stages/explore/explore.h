@@ -13,7 +13,7 @@ Candidates find_self_maps(const PairContext& surface, const ExploreParams& param
 /// Maps worth continuing, the best first. What is found by exploration is composed with self-maps of both
 /// surfaces, so that a wrong map brings the right one with it; all are finished at the resolution of these
 /// surfaces (meant to be sketches), and compared as finished maps (candidate.h).
-Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A = {},
-                   const Candidates& self_maps_B = {});
+Candidates explore(const PairContext& context, const ExploreParams& params,
+                   const Candidates& self_maps_A = {}, const Candidates& self_maps_B = {});
 
 }  // namespace varimap

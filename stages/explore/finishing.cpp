@@ -24,9 +24,7 @@ struct Pursued {
 class JointDescent {
   public:
     JointDescent(const PairContext& context, const FinishingOptions& options)
-        : context_(context),
-          options_(options),
-          descent_(context, options.alternation, options.ironing) {}
+        : context_(context), options_(options), descent_(context, options.alternation, options.ironing) {}
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
         for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}});
@@ -35,11 +33,12 @@ class JointDescent {
         solve_all(true, [&](const Pursued& one) {
             return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
         });
-        if (const int last = context_.diffusion_levels() - 1; last > first) go_on(context_.diffusion_level(last));
+        if (const int last = context_.diffusion_levels() - 1; last > first)
+            go_on(context_.diffusion_level(last));
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
             const bool is_last = l + 1 == levels;
-            go_on(context_.euclidean_level(l, is_last ? 0 : 1), !is_last);  // as varimap-refine
+            go_on(context_.euclidean_level(l, is_last ? 0 : 1), false);  // as varimap-refine
             keep_best();
         }
         return std::move(pursued_);
@@ -109,7 +108,8 @@ double share_elsewhere(const PointMap& map, const PointMap& other, const Surface
 
 bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context, double distinct) {
     const Surface &A = context.A().surface, &B = context.B().surface;
-    return share_elsewhere(a.A_to_B, b.A_to_B, A, B) + share_elsewhere(a.B_to_A, b.B_to_A, B, A) < 2 * distinct;
+    return share_elsewhere(a.A_to_B, b.A_to_B, A, B) + share_elsewhere(a.B_to_A, b.B_to_A, B, A) <
+           2 * distinct;
 }
 
 }  // namespace
@@ -119,7 +119,8 @@ std::vector<FinishedMap> finish(const PairContext& context, const std::vector<Ve
     JointDescent descent(context, options);
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
-        FinishedMap map{one.start, read_out(one.solution, descent.level(), context, options.alternation.area_bound),
+        FinishedMap map{one.start,
+                        read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy()};
         if (std::none_of(finished.begin(), finished.end(), [&](const FinishedMap& better) {
                 return are_the_same(better.maps, map.maps, context, options.distinct);

@@ -34,7 +34,8 @@ struct FinishingOptions {
 };
 
 /// Continues maps side by side through the diffusion and the Euclidean levels, and relaxes the best: only
-/// finished maps can be compared. The best by its energy comes first. Deterministic for any number of threads.
+/// finished maps can be compared. The best by its energy comes first. Deterministic for any number of
+/// threads.
 std::vector<FinishedMap> finish(const PairContext& context, const std::vector<VertexImages>& starts,
                                 const FinishingOptions& options);
 

@@ -51,7 +51,8 @@ int main(int argc, char** argv) {
     const auto& landmark_files =
         stage.input_list_option("landmarks", "as for varimap-diffuse; may be too few to decide", 1, 2);
     const auto& self_map_files = stage.input_list_option(
-        "self-maps", "self-maps of A and of B, found with --onto_itself true: maps are composed with them", 2, 2);
+        "self-maps", "self-maps of A and of B, found with --onto_itself true: maps are composed with them", 2,
+        2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         inputs.record_sketched(stage);

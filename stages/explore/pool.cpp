@@ -66,7 +66,8 @@ void compose(std::vector<PooledMap>& pool, int count, const std::vector<VertexIm
     constexpr double close = 0.08;  // share of the surfaces; chosen by hand, not swept
     const auto add = [&](PooledMap map) {
         for (const PooledMap& other : pool)
-            if (difference(map.images, other.images, context.A().surface, context.B().surface) < close) return;
+            if (difference(map.images, other.images, context.A().surface, context.B().surface) < close)
+                return;
         pool.push_back(std::move(map));
     };
     for (int k = 0, first = int(pool.size()); k < std::min(count, first); ++k) {

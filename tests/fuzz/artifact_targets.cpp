@@ -80,7 +80,7 @@ void use(const Plan& read) {
 }
 
 void use(const Candidates& read) {
-    if (read.list.size() != read.plans.size() || read.list.empty()) throw std::logic_error("bad candidates");
+    if (read.list.size() != read.maps.size()) throw std::logic_error("bad candidates");
 }
 
 void use(const QualityNumbers& read) {
@@ -128,10 +128,10 @@ Plan plan() {
 }
 
 Candidates candidates() {
-    const SolvedPair pair = solved_pair();
-    Candidates made{pair.plan.samples_A, pair.plan.samples_B, pair.plan.mass_A, pair.plan.mass_B, {}, {}, {}};
+    const SurfacePoint a{3, Vec3::UnitX()}, b{0, Vec3(.2, .3, .5)};
+    Candidates made;
     made.list.resize(2);
-    made.plans = {pair.plan.entries, pair.plan.entries};
+    made.maps = {{{{a, b}, {b, a}}, {{b, b}}}, {{{b, a}}, {{a, a}, {a, b}}}};
     made.previews = {PointMap(5, {0, Vec3::UnitZ()})};
     return made;
 }

@@ -274,10 +274,20 @@ void Forger::operator()(Hierarchy& h) {
     if (h.levels.empty()) h.levels.emplace_back();
 }
 
+void Forger::pairs(PointPairs& pairs) {
+    PointMap first, second;
+    for (const auto& [a, b] : pairs) first.push_back(a), second.push_back(b);
+    points(below(2) ? first : second);
+    pairs.clear();
+    for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i)
+        pairs.emplace_back(first[i], second[i]);
+}
+
 void Forger::operator()(Candidates& c) {
-    one_of({[&] { integers(c.samples_A); }, [&] { integers(c.samples_B); }, [&] { masses(c.mass_A); },
-            [&] { masses(c.mass_B); }, [&] { sparse(c.plans[below(c.plans.size())]); },
-            [&] { sparse(c.plans[below(c.plans.size())]); },
+    if (c.maps.empty()) return;
+    const auto map = [&]() -> Correspondences& { return c.maps[below(c.maps.size())]; };
+    one_of({[&] { pairs(map().from_A); }, [&] { pairs(map().from_A); }, [&] { pairs(map().from_B); },
+            [&] { pairs(map().from_B); },
             [&] {
                 if (!c.previews.empty()) points(c.previews[below(c.previews.size())]);
             },
@@ -285,7 +295,7 @@ void Forger::operator()(Candidates& c) {
                 if (!c.previews.empty()) points(c.previews[below(c.previews.size())]);
             },
             [&] { real(c.list[0].reversed_mass); }, [&] { real(c.list[0].score); },
-            [&] { std::swap(c.plans.front(), c.plans.back()); },
+            [&] { integer(c.list[0].self_map_A, 3); }, [&] { std::swap(c.maps.front(), c.maps.back()); },
             [&] { c.previews.resize(below(3 + c.previews.size()), PointMap(3)); }});
 }
 

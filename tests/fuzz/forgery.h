@@ -42,6 +42,7 @@ class Forger {
     void integers(std::vector<int>& values);
     void triangles(Faces& faces);
     void points(PointMap& points);
+    void pairs(PointPairs& pairs);
     void sparse(SparseMatrix& matrix);
     void real(double& value);
     void integer(int& value, int near);

@@ -10,7 +10,7 @@
 #include "fuzz/target.h"
 #include "stages/coarsen/coarsen.h"
 #include "stages/diffuse/diffuse.h"
-#include "stages/explore/params.h"
+#include "stages/explore/explore.h"
 #include "stages/inspect/inspect.h"
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"
@@ -59,8 +59,7 @@ ExploreParams explore_params() {
 }
 
 Candidates explored(const PairContext& context) {
-    const ExploreParams params = explore_params();
-    return explore(context, params.exploration, params.alternation, params.ironing);
+    return explore(context, explore_params());
 }
 
 RenderParams render_params() {
@@ -170,11 +169,13 @@ void require_fit(const Artifacts& all) {
 
 void run_explore(const Artifacts& all, const std::string&) {
     require_fit(all);
-    encode(explored(PairContext(all.A, all.B, {})));
+    require_surfaces(all.candidates, all.A.surface.input, all.A.surface.input);
+    encode(explore(PairContext(all.A, all.B, {}), explore_params(), all.candidates));
 }
 
 void run_diffuse(const Artifacts& all, const std::string&) {
     require_fit(all);
+    require_surfaces(all.candidates, all.A.surface.input, all.B.surface.input);
     encode(diffuse(PairContext(all.A, all.B, good().diffusion.record.landmarks), {}, all.candidates));
 }
 
@@ -259,7 +260,7 @@ std::vector<Target> stage_targets() {
     return {stage("coarsen", {"A.surface"}, run_coarsen),
             stage("eigen", {"A.surface"}, run_eigen),
             stage("hierarchy", {"A.surface", "A.basis"}, run_hierarchy),
-            stage("explore", sides, run_explore),
+            stage("explore", with(sides, {"candidates"}), run_explore),
             stage("diffuse", with(sides, {"candidates", "candidates"}), run_diffuse),
             stage("refine", with(sides, {"diffusion", "diffusion"}), run_refine),
             stage("relax", with(surfaces, {"diffusion", "plan"}), run_relax),

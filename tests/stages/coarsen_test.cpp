@@ -61,9 +61,21 @@ TEST(CoarsenStage, LeavesASmallSurfaceAsItIs) {
     EXPECT_EQ(encode(coarsened(fine, to(100'000))), encode(fine));
 }
 
-TEST(CoarsenStage, RefusesWhatWasCoarsened) {
-    const Surface surface = coarsened(preprocess(input(), {}), to(1000));
-    EXPECT_THROW(coarsened(surface, to(500)), InputError);
+TEST(CoarsenStage, CoarsensWhatWasCoarsened) {
+    const Surface coarse = coarsened(preprocess(input(), {}), to(1000)), sketch = coarsened(coarse, to(500));
+    EXPECT_EQ(sketch.mesh.vertex_count(), 500);
+    EXPECT_EQ(sketch.input.vertices, coarse.input.vertices);
+    // An input vertex lies where it did, but for what the mesh lost: less than its edges' length, .06.
+    const double size = 1 / sketch.scale;
+    for (int v = 0; v < sketch.input.vertex_count(); ++v) {
+        const Vec3 x = (sketch.input.vertex(v) - sketch.centre) * sketch.scale;
+        EXPECT_LT((position(sketch.mesh, sketch.on_mesh[std::size_t(v)]) - x).norm(), .06) << size;
+    }
+    for (int v = 0; v < 500; ++v)
+        EXPECT_LT((position(sketch.input, sketch.on_input[std::size_t(v)]) * sketch.scale -
+                   sketch.centre * sketch.scale - sketch.mesh.vertex(v))
+                      .norm(),
+                  1e-9);
 }
 
 TEST(CoarsenStage, ServesMirroredSurfaces) {

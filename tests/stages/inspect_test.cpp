@@ -156,12 +156,10 @@ TEST(Inspect, ExportWritesWhatTheArtifactHolds) {
 TEST(Inspect, ExportWritesThePreviewsOfCandidates) {
     const TemporaryFolder folder;
     Candidates candidates;
-    candidates.samples_A = candidates.samples_B = {0};
-    candidates.mass_A = candidates.mass_B = Eigen::VectorXd::Ones(1);
+    const SurfacePoint point{0, Vec3(.25, .75, 0)};
     candidates.list.resize(1);
-    candidates.plans.resize(1, SparseMatrix(1, 1));
-    candidates.plans[0].insert(0, 0) = 1;
-    candidates.previews = {{SurfacePoint{0, Vec3(.25, .75, 0)}}};
+    candidates.maps = {{{{point, point}}, {{point, point}}}};
+    candidates.previews = {{point}};
     write_sample(folder / "AB.candidates", candidates);
     EXPECT_THAT(summarise(folder / "AB.candidates"), HasSubstr("previews"));
     export_contents(folder / "AB.candidates", folder / "out");

@@ -54,8 +54,7 @@ Matching joined(const std::vector<int>& of_rows, const std::vector<int>& of_colu
 
 std::vector<int> cells_of_images(const std::vector<int>& images, const Level& from, const Level& to) {
     std::vector<int> cells;
-    for (const int sample : from.samples)
-        cells.push_back(to.cell[std::size_t(images[std::size_t(sample)])]);
+    for (const int sample : from.samples) cells.push_back(to.cell[std::size_t(images[std::size_t(sample)])]);
     return cells;
 }
 

@@ -131,8 +131,9 @@ void PairInputs::require_sketches(const Header& candidates, const std::string& p
     for (const auto& [side, headers] : headers_) {
         const std::string of = candidates.input_hash(side + ".sketched");
         if (of != headers.surface.payload_hash && of != sketched(headers.surface))
-            throw ArtifactError(fmt::format("'{}' was found on a sketch of another surface than '{}'; rerun {}", path,
-                                            side == "A" ? A_.surface : B_.surface, candidates.stage));
+            throw ArtifactError(
+                fmt::format("'{}' was found on a sketch of another surface than '{}'; rerun {}", path,
+                            side == "A" ? A_.surface : B_.surface, candidates.stage));
     }
 }
 

@@ -12,7 +12,8 @@ double score_of(const Candidate& candidate) {
 }
 
 bool is_mirrored(const Candidate& candidate) {
-    return candidate.reversed_mass > 0.4;
+    // Parts of a wrong map may be reversed before they are mapped anew; of a mirrored one nearly all is.
+    return candidate.reversed_mass > 0.6;
 }
 
 Confidence confidence_of(const std::vector<Candidate>& candidates) {
@@ -41,7 +42,8 @@ std::string doubt(const std::vector<Candidate>& candidates) {
     std::string why;
     const auto add = [&](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
     if (confidence.margin < close) add(fmt::format("another is only {:.1f}% worse", 100 * confidence.margin));
-    if (best.dirichlet > strained) add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
+    if (best.dirichlet > strained)
+        add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
     if (best.relief < unlike) add(fmt::format("relief agrees by {:.2f} only", best.relief));
     return why.empty() ? "no one cue decides" : why;
 }
@@ -55,8 +57,10 @@ std::string relation(const Candidate& candidate) {
 
 std::string origin(const Candidate& candidate) {
     std::string text = fmt::format("map {}", candidate.explored);
-    if (candidate.self_map_A > 0) text += fmt::format(" after self-map {} of the source", candidate.self_map_A);
-    if (candidate.self_map_B > 0) text += fmt::format(", then self-map {} of the target", candidate.self_map_B);
+    if (candidate.self_map_A > 0)
+        text += fmt::format(" after self-map {} of the source", candidate.self_map_A);
+    if (candidate.self_map_B > 0)
+        text += fmt::format(", then self-map {} of the target", candidate.self_map_B);
     return text;
 }
 

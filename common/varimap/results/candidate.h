@@ -7,20 +7,20 @@ namespace varimap {
 
 /// What exploration says of one map, which it has finished at low resolution.
 struct Candidate {
-    int explored = 0;         ///< which of the maps found, from 1
-    int self_map_A = 0;       ///< the self-map of A that goes before it (from 1), or 0
-    int self_map_B = 0;       ///< the self-map of B that follows it, or 0
-    double energy = 0;        ///< Eq. (3) of the plan on all vertices
-    double dirichlet = 1;     ///< Dirichlet energy (quality.h), geometric mean of both directions
-    double relief = 0;        ///< agreement of relief (relief_agreement.h), correlation, mean of two scales
-    double score = 0;         ///< score_of; .01 more is about 1% more energy
-    double reversed_mass = 0; ///< share of the surfaces that the map reverses
-    double moved_mass = 0;    ///< share of A with another image than the best candidate gives it
+    int explored = 0;          ///< which of the maps found, from 1
+    int self_map_A = 0;        ///< the self-map of A that goes before it (from 1), or 0
+    int self_map_B = 0;        ///< the self-map of B that follows it, or 0
+    double energy = 0;         ///< Eq. (3) of the plan on all vertices
+    double dirichlet = 1;      ///< Dirichlet energy (quality.h), geometric mean of both directions
+    double relief = 0;         ///< agreement of relief (relief_agreement.h), correlation, mean of two scales
+    double score = 0;          ///< score_of; .01 more is about 1% more energy
+    double reversed_mass = 0;  ///< share of the surfaces that the map reverses
+    double moved_mass = 0;     ///< share of A with another image than the best candidate gives it
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
 };
 
-/// log energy + 1/2 log dirichlet - relief. No one of them tells the right map from a wrong one everywhere: of
-/// people turned front to back energies say little and relief much; of limbs exchanged, the converse.
+/// log energy + 1/2 log dirichlet - relief. No one of them tells the right map from a wrong one everywhere:
+/// of people turned front to back energies say little and relief much; of limbs exchanged, the converse.
 double score_of(const Candidate& candidate);
 
 /// A mirrored map is no answer, however small its energy.

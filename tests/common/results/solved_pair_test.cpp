@@ -144,13 +144,11 @@ TEST(SolvedPair, IsRefusedWithImagesThatCannotBe) {
 }
 
 Candidates small_candidates() {
+    const SurfacePoint point{0, Vec3(.25, .75, 0)};
     Candidates candidates;
-    candidates.samples_A = candidates.samples_B = {0};
-    candidates.mass_A = candidates.mass_B = Eigen::VectorXd::Ones(1);
     candidates.list.resize(1);
-    candidates.plans.resize(1, SparseMatrix(1, 1));
-    candidates.plans[0].insert(0, 0) = 1;
-    candidates.previews = {{SurfacePoint{0, Vec3(.25, .75, 0)}}};
+    candidates.maps = {{{{point, point}}, {{point, point}}}};
+    candidates.previews = {{point}};
     return candidates;
 }
 
@@ -158,12 +156,12 @@ TEST(CandidatesArtifact, IsRefusedWhereItContradictsItself) {
     Candidates again;
     EXPECT_NO_THROW(decode(encode(small_candidates()), again));
     const std::pair<const char*, std::function<void(Candidates&)>> defects[] = {
-        {"numbers of plans", [](Candidates& c) { c.list.clear(); }},
-        {"samples", [](Candidates& c) { c.samples_A[0] = -1; }},
-        {"masses", [](Candidates& c) { c.mass_A.resize(2); }},
-        {"masses", [](Candidates& c) { c.mass_A[0] = 2; }},
-        {"plans", [](Candidates& c) { c.plans[0].resize(2, 1); }},
-        {"plans", [](Candidates& c) { c.plans[0].setZero(); }},
+        {"numbers of maps", [](Candidates& c) { c.list.clear(); }},
+        {"numbers", [](Candidates& c) { c.list[0].score = std::nan(""); }},
+        {"numbers", [](Candidates& c) { c.list[0].self_map_B = -1; }},
+        {"maps", [](Candidates& c) { c.maps[0].from_A.clear(); }},
+        {"maps", [](Candidates& c) { c.maps[0].from_B[0].second.face = -1; }},
+        {"maps", [](Candidates& c) { c.maps[0].from_A[0].first.barycentric *= 2; }},
         {"previews", [](Candidates& c) { c.previews.resize(2); }},
         {"previews", [](Candidates& c) { c.previews[0][0].barycentric[0] = std::nan(""); }},
     };
@@ -172,6 +170,14 @@ TEST(CandidatesArtifact, IsRefusedWhereItContradictsItself) {
         damage(candidates);
         expect_refused(candidates, what);
     }
+}
+
+TEST(CandidatesArtifact, IsRefusedForSurfacesWithFewerFaces) {
+    TriangleMesh one, none;
+    one.faces.resize(1, 3);
+    none.faces.resize(0, 3);
+    EXPECT_NO_THROW(require_surfaces(small_candidates(), one, one));
+    EXPECT_THROW(require_surfaces(small_candidates(), one, none), ArtifactError);
 }
 
 }  // namespace
