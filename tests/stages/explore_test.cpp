@@ -200,6 +200,7 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     const Confidence sure = confidence_of({best, rival});
     EXPECT_TRUE(sure.confident);
     EXPECT_NEAR(sure.margin, .3, 1e-12);
+    EXPECT_GT(sure.probability, .95);
     EXPECT_EQ(doubt({best, rival}), "");
     Candidate close = rival;
     close.score = -5.99;

@@ -31,7 +31,7 @@ bool is_mirrored(const Candidate& candidate);
 struct Confidence {
     double margin = 0;       ///< score of the best rival, less the first's; 1 at most, and without a rival
     double probability = 0;  ///< that the first is right
-    bool confident = true;   ///< the probability is at least 0.9
+    bool confident = false;  ///< the probability is at least 0.9
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates);
 
