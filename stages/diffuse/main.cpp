@@ -10,7 +10,7 @@ std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs
                                           const Surface& A, const Surface& B) {
     if (path.empty()) return {};
     auto candidates = stage.read<Candidates>("candidates", path);
-    inputs.require_sketches(candidates.header, path);
+    inputs.require_sketches(candidates.value, path);
     require_surfaces(candidates.value, A.input, B.input);
     return std::move(candidates.value);
 }

@@ -6,6 +6,7 @@
 
 #include "stages/explore/appraisal.h"
 #include "stages/explore/pool.h"
+#include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/input_locator.h"
@@ -65,13 +66,23 @@ PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
     return between_input_and_file(std::move(result), to);
 }
 
-FinishingOptions finishing_options(const ExploreParams& params) {
-    FinishingOptions options = params.finishing;
-    options.alternation = for_comparison(params.alternation, params.alternation.area_bound);
-    // Chosen by hand on half of the known pairs: energies move by a hundredth, choices do not.
-    options.alternation.tolerance = std::max(options.alternation.tolerance, 1e-2);
-    options.alternation.sinkhorn_iterations = std::min(options.alternation.sinkhorn_iterations, 20);
-    return options;
+struct SelfMaps {
+    std::vector<VertexImages> A, B;
+};
+
+/// Maps that explorations found, composed with self-maps.
+std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
+                              int composed, const ExploreParams& params, const SelfMaps& self_maps) {
+    std::vector<PooledMap> pool;
+    for (const ExplorationOptions& options : explorations) {
+        Exploration exploration(context, options, params.alternation, params.ironing);
+        for (PooledMap& map : explored(exploration)) {
+            map.origin.explored = int(pool.size()) + 1;
+            add_if_new(pool, std::move(map), context);
+        }
+    }
+    compose(pool, composed, self_maps.A, self_maps.B, context);
+    return pool;
 }
 
 /// The finished maps and what is known of them, the best first, mirrored ones last.
@@ -92,6 +103,46 @@ std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::v
     for (std::size_t k = 1; k < list.size(); ++k)
         appraisal.compare(list.front().map, list[k].map, list[k].candidate);
     return list;
+}
+
+std::vector<Appraised> finished(const std::vector<PooledMap>& pool, const PairContext& context,
+                                const FinishingOptions& options) {
+    const Timer timer("finishing");
+    std::vector<VertexImages> starts;
+    for (const PooledMap& map : pool) starts.push_back(map.images);
+    return appraised(finish(context, starts, options), pool, context);
+}
+
+/// What most pairs need: one exploration, and maps finished just well enough to be told apart.
+std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
+                                     const SelfMaps& self_maps) {
+    FinishingOptions finishing = params.finishing;
+    finishing.alternation = for_comparison(params.alternation, params.alternation.area_bound);
+    // Chosen by hand on half of the known pairs: most energies move by a hundredth.
+    finishing.alternation.tolerance = std::max(finishing.alternation.tolerance, 1e-2);
+    finishing.alternation.sinkhorn_iterations = std::min(finishing.alternation.sinkhorn_iterations, 20);
+    return finished(pooled(context, {params.exploration}, params.composed, params, self_maps), context,
+                    finishing);
+}
+
+/// For shapes that differ much: explorations with looser and with exact areas, more compositions, and maps
+/// finished with care.
+std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
+                                        const SelfMaps& self_maps) {
+    std::vector<ExplorationOptions> explorations;
+    for (const double factor : {1.0, 2.0, 0.5}) {
+        ExplorationOptions options = params.exploration;
+        options.area_bound = std::max(1.0, factor * options.area_bound);
+        options.random_starts *= 2;
+        options.seed += int(explorations.size());
+        explorations.push_back(options);
+    }
+    FinishingOptions finishing = params.finishing;
+    finishing.alternation = for_comparison(params.alternation, params.alternation.area_bound);
+    finishing.iron_all = true;
+    finishing.most += 3;
+    return finished(pooled(context, explorations, 2 * params.composed, params, self_maps), context,
+                    finishing);
 }
 
 }  // namespace
@@ -127,15 +178,14 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A,
                    const Candidates& self_maps_B) {
+    constexpr double plausible = 0.9;  // chosen by hand
     const Surface &A = context.A().surface, &B = context.B().surface;
-    Exploration exploration(context, params.exploration, params.alternation, params.ironing);
-    std::vector<PooledMap> pool = explored(exploration);
-    compose(pool, params.composed, images_of(self_maps_A, A), images_of(self_maps_B, B), context);
-    std::vector<VertexImages> starts;
-    for (const PooledMap& map : pool) starts.push_back(map.images);
-    const Timer timer("finishing");
-    const std::vector<Appraised> list =
-        appraised(finish(context, starts, finishing_options(params)), pool, context);
+    const SelfMaps self_maps{images_of(self_maps_A, A), images_of(self_maps_B, B)};
+    std::vector<Appraised> list = quickly_found(context, params, self_maps);
+    if (const double found = plausibility(list.front().candidate); found < plausible) {
+        log("the best of these maps is not good (plausible by {:.2f}): looking further", found);
+        list = thoroughly_found(context, params, self_maps);
+    }
     Candidates found;
     for (const Appraised& one : list) {
         found.list.push_back(one.candidate);

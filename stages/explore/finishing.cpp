@@ -38,7 +38,8 @@ class JointDescent {
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
             const bool is_last = l + 1 == levels;
-            go_on(context_.euclidean_level(l, is_last ? 0 : 1), false);  // as varimap-refine
+            go_on(context_.euclidean_level(l, is_last ? 0 : 1),
+                  options_.iron_all && !is_last);  // as varimap-refine
             keep_best();
         }
         return std::move(pursued_);

@@ -20,6 +20,7 @@ struct FinishingOptions {
     AlternationOptions alternation;
     IroningOptions ironing;
     double shape_weight = 0.25;  ///< of add_shape_term, as in varimap-diffuse and varimap-refine
+    bool iron_all = false;       ///< on the first Euclidean level, too
     int most = 5;                ///< maps that reach the last level: those of least energy
     double worst = 1.6;          ///< and of no more than that times the least
     double distinct = 0.05;      ///< relaxed are those that differ on more than this share of the surfaces

@@ -55,7 +55,6 @@ int main(int argc, char** argv) {
         2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
-        inputs.record_sketched(stage);
         Candidates self_maps_A, self_maps_B;
         if (!self_map_files.empty()) {
             self_maps_A = read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input);
@@ -67,12 +66,14 @@ int main(int argc, char** argv) {
         const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context =
             pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-        const Candidates found = params.self_maps ? find_self_maps(context, params)
-                                                  : explore(context, params, self_maps_A, self_maps_B);
+        Candidates found = params.self_maps ? find_self_maps(context, params)
+                                            : explore(context, params, self_maps_A, self_maps_B);
         if (params.self_maps)
             report_self_maps(found.list);
         else
             report(found.list);
+        found.sketched_A = inputs.sketched("A");
+        found.sketched_B = inputs.sketched("B");
         stage.record_number("candidates", double(found.list.size()));
         stage.write(out, found);
     });

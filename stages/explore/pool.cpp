@@ -61,15 +61,16 @@ std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& 
     return images;
 }
 
+void add_if_new(std::vector<PooledMap>& pool, PooledMap map, const PairContext& context) {
+    constexpr double close = 0.08;  // share of the surfaces; chosen by hand, not swept
+    for (const PooledMap& other : pool)
+        if (difference(map.images, other.images, context.A().surface, context.B().surface) < close) return;
+    pool.push_back(std::move(map));
+}
+
 void compose(std::vector<PooledMap>& pool, int count, const std::vector<VertexImages>& self_maps_A,
              const std::vector<VertexImages>& self_maps_B, const PairContext& context) {
-    constexpr double close = 0.08;  // share of the surfaces; chosen by hand, not swept
-    const auto add = [&](PooledMap map) {
-        for (const PooledMap& other : pool)
-            if (difference(map.images, other.images, context.A().surface, context.B().surface) < close)
-                return;
-        pool.push_back(std::move(map));
-    };
+    const auto add = [&](PooledMap map) { add_if_new(pool, std::move(map), context); };
     for (int k = 0, first = int(pool.size()); k < std::min(count, first); ++k) {
         const PooledMap map = pool[std::size_t(k)];
         for (int s = 0; s < int(self_maps_B.size()); ++s) {

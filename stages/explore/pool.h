@@ -16,6 +16,9 @@ struct PooledMap {
 /// The self-maps of an artifact, as images of the surface's vertices.
 std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& surface);
 
+/// Adds a map, but not one close to another that is there.
+void add_if_new(std::vector<PooledMap>& pool, PooledMap map, const PairContext& context);
+
 /// Adds the compositions of the first `count` maps with self-maps, but not those close to one that is there.
 void compose(std::vector<PooledMap>& pool, int count, const std::vector<VertexImages>& self_maps_A,
              const std::vector<VertexImages>& self_maps_B, const PairContext& context);

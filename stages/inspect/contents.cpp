@@ -114,6 +114,7 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
 }
 
 void visit(const Candidates& candidates, ContentsVisitor& visitor) {
+    visitor.fact("found on sketches of", candidates.sketched_A + " and " + candidates.sketched_B);
     visit_candidates(candidates.list, visitor);
     for (std::size_t k = 0; k < candidates.maps.size(); ++k) {
         PointPairs from_B = candidates.maps[k].from_B;

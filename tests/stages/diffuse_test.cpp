@@ -196,8 +196,9 @@ TEST(Diffuse, ContinuesTheCandidateAskedFor) {
     for (SurfaceData* side : {&pair.A, &pair.B})  // coordinates of meshes and inputs agree
         side->surface.input = normalised_input(side->surface);
     const PairContext context = pair.context();
-    const Candidates candidates{
-        {Candidate{.score = 1}, Candidate{.score = 2}}, {true_map(pair, 700), true_map(pair, 0)}, {}};
+    Candidates candidates;
+    candidates.list.resize(2);
+    candidates.maps = {true_map(pair, 700), true_map(pair, 0)};
     DiffuseParams params;
     params.candidate = 2;
     const Diffusion found = diffuse(context, params, candidates);

@@ -83,8 +83,8 @@ void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
     }
 }
 
-/// Of what surface this is a sketch: that which it was coarsened from, or itself.
-std::string sketched(const Header& surface) {
+/// What the surface was coarsened from, or itself.
+std::string finer_surface(const Header& surface) {
     const std::string finer = surface.input_hash("fine");
     return finer.empty() ? surface.payload_hash : finer;
 }
@@ -122,18 +122,17 @@ void PairInputs::require_same(const Header& plan, const std::string& plan_path) 
                                side == "A" ? A_.hierarchy : B_.hierarchy);
 }
 
-void PairInputs::record_sketched(Stage& stage) const {
-    for (const auto& [side, headers] : headers_)
-        stage.record_input({side + ".sketched", ArtifactType<Surface>::kind, sketched(headers.surface)});
+std::string PairInputs::sketched(const std::string& side) const {
+    return finer_surface(headers_.at(side).surface);
 }
 
-void PairInputs::require_sketches(const Header& candidates, const std::string& path) const {
+void PairInputs::require_sketches(const Candidates& candidates, const std::string& path) const {
     for (const auto& [side, headers] : headers_) {
-        const std::string of = candidates.input_hash(side + ".sketched");
-        if (of != headers.surface.payload_hash && of != sketched(headers.surface))
+        const std::string& of = side == "A" ? candidates.sketched_A : candidates.sketched_B;
+        if (of != headers.surface.payload_hash && of != finer_surface(headers.surface))
             throw ArtifactError(
-                fmt::format("'{}' was found on a sketch of another surface than '{}'; rerun {}", path,
-                            side == "A" ? A_.surface : B_.surface, candidates.stage));
+                fmt::format("'{}' was found on a sketch of another surface than '{}'; rerun varimap-explore",
+                            path, side == "A" ? A_.surface : B_.surface));
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/multilevel/pair_context.h"
+#include "varimap/results/candidates.h"
 #include "varimap/stage/stage_main.h"
 
 namespace varimap {
@@ -21,10 +22,10 @@ class PairInputs {
     SurfaceData read_B(Stage& stage) { return read(stage, "B", B_); }
     /// Refuses a plan that was made from other hierarchies than those read.
     void require_same(const Header& plan, const std::string& plan_path) const;
-    /// Notes in the output's header of which surfaces those read are sketches.
-    void record_sketched(Stage& stage) const;
+    /// Payload hash of the surface of which that of a side ("A" or "B") is a sketch.
+    std::string sketched(const std::string& side) const;
     /// Refuses candidates that were found on sketches of other surfaces than those read.
-    void require_sketches(const Header& candidates, const std::string& path) const;
+    void require_sketches(const Candidates& candidates, const std::string& path) const;
     /// Refuses self-maps of another surface than that of the side ("A" or "B").
     void require_self_maps(const Header& self_maps, const std::string& path, const std::string& side) const;
 

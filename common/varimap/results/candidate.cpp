@@ -28,14 +28,13 @@ double doubt_by(const Candidate& rival, const Candidate& best) {
            std::min(1.0, rival.moved_mass / whole);
 }
 
-/// How probable it is that a map of that quality is right at all, if it is the best of those found.
-double plausibility(const Candidate& map) {
-    constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
-    return 1 / (1 + std::exp(-14 * (map.relief - relief) +
-                             4 * (std::log(std::max(map.dirichlet, 1.0)) - dirichlet)));
-}
-
 }  // namespace
+
+double plausibility(const Candidate& candidate) {
+    constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
+    return 1 / (1 + std::exp(-14 * (candidate.relief - relief) +
+                             4 * (std::log(std::max(candidate.dirichlet, 1.0)) - dirichlet)));
+}
 
 Confidence confidence_of(const std::vector<Candidate>& candidates) {
     constexpr double sure = 0.9;

@@ -26,6 +26,9 @@ double score_of(const Candidate& candidate);
 /// A mirrored map is no answer, however small its energy.
 bool is_mirrored(const Candidate& candidate);
 
+/// How probable it is that a map of that quality is right at all, if it is the best of those found.
+double plausibility(const Candidate& candidate);
+
 /// How sure the choice of the first candidate is among its rivals: those that are not mirrored and give more
 /// than 5% of A another image.
 struct Confidence {

@@ -44,7 +44,7 @@ void serialize(Archive& archive, Correspondences& c) {
 
 template <class Archive>
 void serialize(Archive& archive, Candidates& c) {
-    archive(c.list, c.maps, c.previews);
+    archive(c.sketched_A, c.sketched_B, c.list, c.maps, c.previews);
 }
 
 std::string encode(const Candidates& candidates) {

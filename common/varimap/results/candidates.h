@@ -13,7 +13,8 @@ namespace varimap {
 /// Maps found without landmarks, the best first: the artifact of varimap-explore. Of a surface onto itself:
 /// its self-maps, without the identity.
 struct Candidates {
-    std::vector<Candidate> list;  ///< may be empty for self-maps
+    std::string sketched_A, sketched_B;  ///< payload hashes of the surfaces on whose sketches they were found
+    std::vector<Candidate> list;         ///< may be empty for self-maps
     std::vector<Correspondences> maps;
     /// For a picture of the first three, where the choice among them is not sure: per INPUT vertex of B, its
     /// image on INPUT faces of A. Else none.
