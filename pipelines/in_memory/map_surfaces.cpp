@@ -9,7 +9,7 @@
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"
 #include "stages/relax/relax.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/bridges.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {
@@ -19,11 +19,10 @@ namespace {
 /// The stages of one surface.
 SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapOptions& options,
                          bool mirror) {
-    require_manifold(input, name);
     PreprocessParams params;
     params.mirror = mirror;
     SurfaceData data;
-    data.surface = preprocess(input, params);
+    data.surface = preprocess(bridged(repaired(input, params.repair, name)), params);
     if (!options.full_resolution) data.surface = coarsened(std::move(data.surface), CoarsenParams{});
     data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
     data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
@@ -73,10 +72,10 @@ DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const 
 
 /// Fills in the quality, measured where both surfaces have the same handedness.
 void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
-    const PointMap onto_A = between_input_and_file(mapped.B_to_A, A);
-    mapped.A_to_B_quality = measure(mapped.A_to_B, A.input, B.input);
+    const PointMap onto_B = from_file(mapped.A_to_B, A, B), onto_A = from_file(mapped.B_to_A, B, A);
+    mapped.A_to_B_quality = measure(onto_B, A.input, B.input);
     mapped.B_to_A_quality = measure(onto_A, B.input, A.input);
-    mapped.round_trip = measure_round_trip(mapped.A_to_B, onto_A, A.input, B.input);
+    mapped.round_trip = measure_round_trip(onto_B, onto_A, A.input, B.input);
 }
 
 }  // namespace
@@ -84,8 +83,9 @@ void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
 MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options) {
     SurfaceData data_A = surface_data(A, "A", options, options.mirror),
                 data_B = surface_data(B, "B", options, false);
-    const auto landmarks = to_mesh_vertices(options.landmarks, data_A.surface, data_B.surface);
-    const PointPairs points = landmark_points({options.landmarks, {}}, data_A.surface, data_B.surface);
+    const auto given = on_inputs({options.landmarks, {}}, data_A.surface, data_B.surface);
+    const auto landmarks = to_mesh_vertices(given.vertices, data_A.surface, data_B.surface);
+    const PointPairs points = landmark_points(given, data_A.surface, data_B.surface);
     const Surface surface_A = data_A.surface, surface_B = data_B.surface;
     const PairContext context =
         pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);

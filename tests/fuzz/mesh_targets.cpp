@@ -8,7 +8,7 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 
 namespace varimap::fuzz {
 namespace {
@@ -82,7 +82,7 @@ void read(const std::string& bytes, const std::string& name) {
         mesh.faces.maxCoeff() >= mesh.vertex_count())
         throw std::logic_error("the reader gave a bad mesh");
     require_manifold(mesh, name);
-    const Repair repair = remove_thin_faces(mesh, 1e-6);
+    const ThinFaceRemoval repair = remove_thin_faces(mesh, 1e-6);
     if (repair.collapsed + repair.turned > 0) require_manifold(repair.mesh, name);
 }
 
