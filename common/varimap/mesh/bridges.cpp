@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
 
@@ -40,21 +41,37 @@ double cost_of(const Tube& tube, const TriangleMesh& mesh, double total_area) {
     return cost;
 }
 
-/// The cheapest tube from a component's faces to the nearest of the others.
-Tube cheapest_tube(const TriangleMesh& mesh, const std::vector<int>& component,
-                   const std::vector<int>& others) {
+/// Tubes up to this multiple of the least cost are as good.
+constexpr double as_good = 2;
+
+/// A lid touches its pot all around. A shape and its like should be joined at like places, so that of tubes
+/// that are as good the one farthest from the centre of all is chosen.
+Tube outermost_of_cheap(const std::vector<Tube>& tubes, const TriangleMesh& mesh) {
+    const auto by_cost = [](const Tube& a, const Tube& b) { return a.cost < b.cost; };
+    const double limit = as_good * std::min_element(tubes.begin(), tubes.end(), by_cost)->cost;
+    const Vec3 centre = area_centroid(mesh);
+    const auto distance = [&](const Tube& tube) {
+        return tube.cost > limit ? -1 : (position(mesh, {tube.here, Vec3::Constant(1. / 3)}) - centre).norm();
+    };
+    return *std::max_element(tubes.begin(), tubes.end(),
+                             [&](const Tube& a, const Tube& b) { return distance(a) < distance(b); });
+}
+
+/// The best tube from a component's faces to the nearest of the others.
+Tube best_tube(const TriangleMesh& mesh, const std::vector<int>& component, const std::vector<int>& others) {
     const ClosestPoint closest({mesh.vertices, mesh.faces(others, Eigen::all)});
     const double total_area = surface_area(mesh);
-    Tube best;
+    std::vector<Tube> tubes;
     for (const int f : component) {
         const Vec3 centroid = position(mesh, {f, Vec3::Constant(1. / 3)});
-        Tube tube{f, others[std::size_t(closest(centroid).point.face)]};
+        Tube best, tube{f, others[std::size_t(closest(centroid).point.face)]};
         for (tube.shift = 0; tube.shift < 3; ++tube.shift) {
             tube.cost = cost_of(tube, mesh, total_area);
             if (tube.cost < best.cost) best = tube;
         }
+        tubes.push_back(best);
     }
-    return best;
+    return outermost_of_cheap(tubes, mesh);
 }
 
 void add(const Tube& tube, RepairedMesh& repaired) {
@@ -117,7 +134,7 @@ RepairedMesh bridged(RepairedMesh repaired) {
     for (auto parts = components_by_area(repaired.mesh); parts.size() > 1;
          parts = components_by_area(repaired.mesh)) {
         if (repaired.link.is_identity()) repaired.link = link_to_itself(repaired.mesh);
-        add(cheapest_tube(repaired.mesh, parts[1], parts[0]), repaired);
+        add(best_tube(repaired.mesh, parts[1], parts[0]), repaired);
     }
     return repaired;
 }

@@ -116,10 +116,8 @@ void require_connected(const TriangleMesh& mesh, const std::string& path) {
         "{}: the surface has {} components, the second starts at vertex {}; keep one", path, count, second));
 }
 
-namespace {
-
 /// Within these sizes no product of lengths that the method needs leaves the range of double precision.
-void refuse_extreme_sizes(const TriangleMesh& mesh, const std::string& path) {
+void require_size(const TriangleMesh& mesh, const std::string& path) {
     constexpr double least = 1e-50, largest = 1e50;
     const auto [low, high] = bounding_box(mesh);
     const double size = (high - low).maxCoeff();
@@ -130,8 +128,6 @@ void refuse_extreme_sizes(const TriangleMesh& mesh, const std::string& path) {
     if (!(surface_area(mesh) > 0))
         throw InputError(path + ": the surface has no area (are its points all on one line?)");
 }
-
-}  // namespace
 
 void require_plain_faces(const TriangleMesh& mesh, const std::string& path) {
     if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
@@ -145,7 +141,7 @@ void require_sheets(const TriangleMesh& mesh, const std::string& path) {
     refuse_crowded_edges(edges, path);
     refuse_inconsistent_orientation(mesh, edges, path);
     refuse_pinched_vertices(mesh, edges, path);
-    refuse_extreme_sizes(mesh, path);
+    require_size(mesh, path);
 }
 
 void require_manifold(const TriangleMesh& mesh, const std::string& path) {

@@ -237,6 +237,7 @@ RepairedMesh Repair::run() {
         drop_degenerate();
     }
     require_plain_faces(current(), path_);
+    require_size(current(), path_);
     if (actions.weld) {
         weld();
         drop_degenerate();

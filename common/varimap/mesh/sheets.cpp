@@ -76,7 +76,9 @@ std::vector<Flank> SheetFinder::flanks(int edge) const {
     std::vector<Flank> result;
     for (const int side : edges_.sides[edge]) {
         const Vec3 across = mesh_.vertex(start(next(next(side)))) - origin;
-        result.push_back({side, start(side) == low, std::atan2(across.dot(y), across.dot(x))});
+        const double angle = std::atan2(across.dot(y), across.dot(x));
+        // About an edge without length there are no angles.
+        result.push_back({side, start(side) == low, std::isfinite(angle) ? angle : 0});
     }
     std::sort(result.begin(), result.end(), [](const Flank& a, const Flank& b) {
         return a.angle != b.angle ? a.angle < b.angle : a.side < b.side;

@@ -163,6 +163,20 @@ TopologySummary summarise_topology(const TriangleMesh& mesh) {
     return summary;
 }
 
+double longest_boundary(const TriangleMesh& mesh) {
+    const Edges edges = find_edges(mesh);
+    DisjointSets loops(mesh.vertex_count());
+    for (int e = 0; e < edges.size(); ++e)
+        if (edges.sides[e].size() == 1) loops.join(edges.vertices[e][0], edges.vertices[e][1]);
+    std::vector<double> length(mesh.vertex_count(), 0);
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() > 1) continue;
+        const auto [a, b] = edges.vertices[e];
+        length[loops.lowest(a)] += (mesh.vertex(a) - mesh.vertex(b)).norm();
+    }
+    return *std::max_element(length.begin(), length.end());
+}
+
 bool is_closed(const TriangleMesh& mesh) {
     std::vector<std::array<int, 2>> sides, opposite;
     for (int f = 0; f < mesh.face_count(); ++f)

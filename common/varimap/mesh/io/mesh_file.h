@@ -25,8 +25,10 @@ std::string to_ply(const TriangleMesh& mesh);
 
 /// No faces, faces with corners that are not finite, faces that name a vertex twice.
 void require_plain_faces(const TriangleMesh& mesh, const std::string& path);
-/// These, edges of three or more faces, inconsistent or non-orientable faces, vertices whose faces do not
-/// form one fan, zero area, sizes outside 1e-50 to 1e50.
+/// Zero area, sizes outside 1e-50 to 1e50. Corners must be finite.
+void require_size(const TriangleMesh& mesh, const std::string& path);
+/// All of these, edges of three or more faces, inconsistent or non-orientable faces, vertices whose faces do
+/// not form one fan.
 void require_sheets(const TriangleMesh& mesh, const std::string& path);
 /// Several components.
 void require_connected(const TriangleMesh& mesh, const std::string& path);
