@@ -323,7 +323,9 @@ TEST(FileLink, PointsOnBridgesGoToFacesOfTheFile) {
     const PointMap in_file = to_file(everywhere, {}, joined.link, joined.mesh);
     for (std::size_t f = 0; f < in_file.size(); ++f) {
         ASSERT_GE(in_file[f].face, 0);
-        if (joined.link.face[f] >= 0) EXPECT_EQ(in_file[f].face, joined.link.face[f]);
+        if (joined.link.face[f] >= 0) {
+            EXPECT_EQ(in_file[f].face, joined.link.face[f]);
+        }
     }
 }
 

@@ -83,7 +83,7 @@ TEST(Evaluation, RefusesWhatDoesNotFit) {
 }
 
 TEST(Evaluation, MeasuresStraightBetweenComponents) {
-    TriangleMesh two = square(1);  // and the same once more, 3 above
+    TriangleMesh two = square(2);  // and the same once more, 3 above
     two.vertices.conservativeResize(8, 3);
     two.vertices.bottomRows(4) = two.vertices.topRows(4).rowwise() + Eigen::RowVector3d(0, 0, 3);
     two.faces.conservativeResize(4, 3);
