@@ -52,6 +52,7 @@ class Repair {
     void drop_not_finite();
     void weld();
     void drop_degenerate();
+    void drop_duplicates();
     void separate_sheets();
     void choose_components();
     void require_faces() const;
@@ -126,6 +127,11 @@ void Repair::drop_degenerate() {
     for (const auto corner : faces_.rowwise())
         keep.push_back(corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0]);
     counts_.degenerate += keep_faces(keep);
+    require_faces();
+}
+
+void Repair::drop_duplicates() {
+    counts_.duplicates += keep_faces(without_duplicates(current()));
     require_faces();
 }
 
@@ -238,12 +244,12 @@ RepairedMesh Repair::run() {
     }
     require_plain_faces(current(), path_);
     require_size(current(), path_);
+    if (actions.faces) drop_duplicates();  // a loose triangle that is there twice has no boundary to weld
     if (actions.weld) {
         weld();
         drop_degenerate();
+        if (actions.faces) drop_duplicates();
     }
-    if (actions.faces) counts_.duplicates = keep_faces(without_duplicates(current()));
-    require_faces();
     if (actions.sheets) separate_sheets();
     if (actions.components) choose_components();
     RepairedMesh repaired = result();

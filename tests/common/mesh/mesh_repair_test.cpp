@@ -89,6 +89,16 @@ TEST(MeshRepair, WeldsSeparateTriangles) {
     expect_faces_of_file(whole);
 }
 
+TEST(MeshRepair, WeldsATriangleThatIsThereTwice) {
+    TriangleMesh file = soup(shapes::ellipsoid(1));
+    add_face(file, 0, 1, 2);
+    add_face(file, 4, 3, 5);
+    const RepairedMesh whole = repaired(file);
+    EXPECT_TRUE(is_closed(whole.mesh));
+    EXPECT_EQ(whole.counts.duplicates, 2);
+    EXPECT_EQ(whole.counts.dropped_components, 0);
+}
+
 TEST(MeshRepair, WeldsWithinATolerance) {
     TriangleMesh file = soup(shapes::ellipsoid(1));
     for (int v = 0; v < file.vertex_count(); ++v) file.vertices(v, v % 3) += 1e-5 * (v % 7);
