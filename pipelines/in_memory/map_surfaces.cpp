@@ -40,14 +40,16 @@ SurfaceData sketch(const Surface& surface) {
     return data;
 }
 
-std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const MapOptions& options) {
+/// `given`: landmarks on the inputs.
+std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const Landmarks& given,
+                                           const MapOptions& options) {
     if (!options.explore && !options.landmarks.empty()) return {};
     const ExploreParams params;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
     const Candidates self_maps_A = find_self_maps({sketch_A, sketch_A, {}}, params),
                      self_maps_B = find_self_maps({sketch_B, sketch_B, {}}, params);
-    const auto landmarks = to_mesh_vertices(options.landmarks, sketch_A.surface, sketch_B.surface);
-    const PointPairs points = landmark_points({options.landmarks, {}}, sketch_A.surface, sketch_B.surface);
+    const auto landmarks = to_mesh_vertices(given.vertices, sketch_A.surface, sketch_B.surface);
+    const PointPairs points = landmark_points(given, sketch_A.surface, sketch_B.surface);
     const PairContext context =
         pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
     return explore(context, params, self_maps_A, self_maps_B);
@@ -89,7 +91,7 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     const Surface surface_A = data_A.surface, surface_B = data_B.surface;
     const PairContext context =
         pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
-    const Plan plan = solve(context, points, found_candidates(surface_A, surface_B, options), options);
+    const Plan plan = solve(context, points, found_candidates(surface_A, surface_B, given, options), options);
     SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);
