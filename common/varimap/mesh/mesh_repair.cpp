@@ -40,6 +40,23 @@ Actions actions_from(const std::string& words) {
     return actions;
 }
 
+double tolerance(const TriangleMesh& mesh, const RepairOptions& options) {
+    return options.weld_tolerance * std::sqrt(surface_area(mesh));
+}
+
+/// Most meshes need none, which is found out at the cost of the checks that they would have to pass anyway.
+bool needs_repair(const TriangleMesh& file, const RepairOptions& options) {
+    try {
+        require_manifold(file, "");
+    } catch (const InputError&) {
+        return true;
+    }
+    const std::vector<int> welded = weld_boundaries(file, tolerance(file, options));
+    for (int v = 0; v < file.vertex_count(); ++v)
+        if (welded[std::size_t(v)] != v) return true;
+    return !file.vertices.allFinite();
+}
+
 /// The repair of one mesh: which of its faces are left, and by which numbers they name vertices.
 class Repair {
   public:
@@ -137,8 +154,7 @@ void Repair::drop_duplicates() {
 
 void Repair::weld() {
     const TriangleMesh mesh = current();
-    const double tolerance = options_.weld_tolerance * std::sqrt(surface_area(mesh));
-    welded_ = weld_boundaries(mesh, tolerance);
+    welded_ = weld_boundaries(mesh, tolerance(mesh, options_));
     for (int v = 0; v < int(welded_.size()); ++v) counts_.welded += welded_[std::size_t(v)] != v;
     faces_ = faces_.unaryExpr([&](int v) { return welded_[std::size_t(v)]; }).eval();
 }
@@ -213,7 +229,7 @@ void Repair::find_fates(FileLink& link, const Faces& corners) const {
 }
 
 RepairedMesh Repair::result() const {
-    if (!counts_.any()) return {file_, {}, counts_};
+    if (!counts_.any() && file_.vertices.allFinite()) return {file_, {}, counts_};
     RepairedMesh result;
     result.counts = counts_;
     FileLink& link = result.link;
@@ -258,20 +274,20 @@ RepairedMesh Repair::run() {
     return repaired;
 }
 
-std::string counted(int count, const char* one, const char* several) {
-    return fmt::format("{} {}", count, count == 1 ? one : several);
-}
-
 }  // namespace
 
 RepairedMesh repaired(const TriangleMesh& file, const RepairOptions& options, const std::string& path) {
+    actions_from(options.repair);  // unknown words are refused in any case
+    if (!needs_repair(file, options)) return {file, {}, {}};
     return Repair(file, options, path).run();
 }
 
 std::string in_words(const RepairCounts& counts) {
     std::string text;
     const auto add = [&](int count, const char* one, const char* several) {
-        if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, one, several);
+        if (count == 0) return;
+        if (!text.empty()) text += ", ";
+        text += fmt::format("{} {}", count, count == 1 ? one : several);
     };
     add(counts.welded, "vertex welded", "vertices welded");
     add(counts.not_finite, "face with a corner that is not a number dropped",

@@ -1,5 +1,6 @@
 #include "varimap/mesh/surface_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "varimap/artifact/consistency.h"
@@ -68,6 +69,8 @@ void require_link(const Surface& surface) {
     require<Surface>(are_in_range(link.origin, file.vertex_count()), "link to the file");
     for (const int v : link.vertex) require<Surface>(v >= -1 && v < mesh.vertex_count(), "link to the file");
     for (const int f : link.face) require<Surface>(f >= -1 && f < file.face_count(), "link to the file");
+    require<Surface>(std::any_of(link.face.begin(), link.face.end(), [](int f) { return f >= 0; }),
+                     "link to the file");
     for (const VertexFate fate : link.fate)
         require<Surface>(fate <= VertexFate::component_dropped, "link to the file");
 }

@@ -121,6 +121,15 @@ TEST(MeshRepair, DropsFacesWithCornersThatAreNotNumbers) {
     expect_faces_of_file(holed);
 }
 
+TEST(MeshRepair, LeavesOutUnusedVerticesThatAreNotNumbers) {
+    TriangleMesh file = shapes::ellipsoid(1);
+    file.vertices.conservativeResize(file.vertex_count() + 1, 3);
+    file.vertices.bottomRows(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+    const RepairedMesh mesh = repaired(file);
+    EXPECT_EQ(mesh.mesh.vertices, shapes::ellipsoid(1).vertices);
+    EXPECT_EQ(mesh.link.fate.back(), VertexFate::not_finite);
+}
+
 TEST(MeshRepair, DropsDegenerateAndDuplicateFaces) {
     TriangleMesh file = shapes::ellipsoid(1);
     const int faces = file.face_count();
