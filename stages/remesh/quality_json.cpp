@@ -106,12 +106,9 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
                         {"moved_percent", 100 * c.moved_mass},
                         {"turn_degrees", c.turn},
                         {"mirrored", is_mirrored(c)}});
-    return {{"continued", continued},
-            {"confident", confidence.confident},
-            {"margin", confidence.margin},
-            {"probability", confidence.probability},
-            {"doubt", doubt(candidates)},
-            {"candidates", list}};
+    return {{"continued", continued},      {"confident", confidence.confident},
+            {"margin", confidence.margin}, {"probability", confidence.probability},
+            {"doubt", doubt(candidates)},  {"candidates", list}};
 }
 
 Json to_json(const std::vector<LandmarkCheck>& checks) {
