@@ -250,7 +250,7 @@ std::string names_in_one(const std::vector<Named> (&lists)[2]) {
         for (const Named& named : list) ++count[named.name];
     std::vector<std::string> names;
     for (const auto& [name, times] : count)
-        if (times == 1) names.push_back("'" + excerpt(name) + "'");
+        if (times == 1) names.push_back(fmt::format("'{}'", excerpt(name)));
     const size_t shown = std::min(names.size(), most);
     const std::string list =
         fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), ", "));
