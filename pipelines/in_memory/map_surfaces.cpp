@@ -9,7 +9,7 @@
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"
 #include "stages/relax/relax.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/bridges.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {
@@ -19,11 +19,10 @@ namespace {
 /// The stages of one surface.
 SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapOptions& options,
                          bool mirror) {
-    require_manifold(input, name);
     PreprocessParams params;
     params.mirror = mirror;
     SurfaceData data;
-    data.surface = preprocess(input, params);
+    data.surface = preprocess(bridged(repaired(input, params.repair, name)), params);
     if (!options.full_resolution) data.surface = coarsened(std::move(data.surface), CoarsenParams{});
     data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
     data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
@@ -41,14 +40,16 @@ SurfaceData sketch(const Surface& surface) {
     return data;
 }
 
-std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const MapOptions& options) {
+/// `given`: landmarks on the inputs.
+std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const Landmarks& given,
+                                           const MapOptions& options) {
     if (!options.explore && !options.landmarks.empty()) return {};
     const ExploreParams params;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
     const Candidates self_maps_A = find_self_maps({sketch_A, sketch_A, {}}, params),
                      self_maps_B = find_self_maps({sketch_B, sketch_B, {}}, params);
-    const auto landmarks = to_mesh_vertices(options.landmarks, sketch_A.surface, sketch_B.surface);
-    const PointPairs points = landmark_points({options.landmarks, {}}, sketch_A.surface, sketch_B.surface);
+    const auto landmarks = to_mesh_vertices(given.vertices, sketch_A.surface, sketch_B.surface);
+    const PointPairs points = landmark_points(given, sketch_A.surface, sketch_B.surface);
     const PairContext context =
         pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
     return explore(context, params, self_maps_A, self_maps_B);
@@ -73,10 +74,10 @@ DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const 
 
 /// Fills in the quality, measured where both surfaces have the same handedness.
 void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
-    const PointMap onto_A = between_input_and_file(mapped.B_to_A, A);
-    mapped.A_to_B_quality = measure(mapped.A_to_B, A.input, B.input);
+    const PointMap onto_B = from_file(mapped.A_to_B, A, B), onto_A = from_file(mapped.B_to_A, B, A);
+    mapped.A_to_B_quality = measure(onto_B, A.input, B.input);
     mapped.B_to_A_quality = measure(onto_A, B.input, A.input);
-    mapped.round_trip = measure_round_trip(mapped.A_to_B, onto_A, A.input, B.input);
+    mapped.round_trip = measure_round_trip(onto_B, onto_A, A.input, B.input);
 }
 
 }  // namespace
@@ -84,12 +85,13 @@ void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
 MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options) {
     SurfaceData data_A = surface_data(A, "A", options, options.mirror),
                 data_B = surface_data(B, "B", options, false);
-    const auto landmarks = to_mesh_vertices(options.landmarks, data_A.surface, data_B.surface);
-    const PointPairs points = landmark_points({options.landmarks, {}}, data_A.surface, data_B.surface);
+    const auto given = on_inputs({options.landmarks, {}}, data_A.surface, data_B.surface);
+    const auto landmarks = to_mesh_vertices(given.vertices, data_A.surface, data_B.surface);
+    const PointPairs points = landmark_points(given, data_A.surface, data_B.surface);
     const Surface surface_A = data_A.surface, surface_B = data_B.surface;
     const PairContext context =
         pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
-    const Plan plan = solve(context, points, found_candidates(surface_A, surface_B, options), options);
+    const Plan plan = solve(context, points, found_candidates(surface_A, surface_B, given, options), options);
     SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);

@@ -1,4 +1,5 @@
 #include "stages/diffuse/diffuse.h"
+#include "varimap/pair_stage/likely_part.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/stage/stage_main.h"
 
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto candidates = read_candidates(stage, inputs, candidates_in, A.surface, B.surface);
+        warn_of_part(A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);

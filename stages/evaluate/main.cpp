@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "varimap/core/error.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/mesh_repair.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
 #include "varimap/verification/evaluation.h"
@@ -42,10 +44,22 @@ std::string as_text(const MapErrors& errors) {
     return text;
 }
 
+/// The errors on the repaired target.
+MapErrors errors_on(const RepairedMesh& target, const PointMap& map, const std::vector<int>& source_points,
+                    std::vector<int> target_points) {
+    if (target.link.is_identity()) return map_errors(map, target.mesh, source_points, target_points);
+    if (!are_points(map, file_of(target).face_count()))
+        throw InputError("the map does not lead to this target: it has other faces");
+    for (int& vertex : target_points) vertex = target.link.vertex[size_t(vertex)];
+    return map_errors(from_file(map, {}, target.link), target.mesh, source_points, target_points);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    RepairOptions options;
     Stage stage("evaluate", "Geodesic error of a map against known correspondences");
+    stage.parameters([&](ParameterList& list) { options.describe(list); });
     const auto& target_path = stage.input("target-mesh", "mesh the map leads to");
     const auto& map_path = stage.input("map", "CSV of varimap-remesh, one row per source vertex");
     const auto& source_list = stage.input("source-points", "vertices of the source, one per line");
@@ -60,13 +74,18 @@ int main(int argc, char** argv) {
     const auto& json = stage.flag("json", "print a JSON object");
     return stage.main(argc, argv, [&] {
         const IndexBase base = index_base_from(base_text.empty() ? "auto" : base_text);
-        const TriangleMesh target = read_mesh(target_path);
+        const RepairedMesh target = repaired(read_mesh(target_path), options, target_path);
         std::optional<TriangleMesh> source;
         if (!source_path.empty()) source = read_mesh(source_path);
         const auto source_points = read_vertex_list(source_list, base, source ? &*source : nullptr);
-        const auto target_points = read_vertex_list(target_list, base, &target);
-        const MapErrors errors = map_errors(read_csv_map(map_path), target, source_points, target_points);
-        if (errors.unmapped > 0) warn("{} pairs left out: the map has no image for them", errors.unmapped);
+        const auto target_points = read_vertex_list(target_list, base, &file_of(target));
+        const MapErrors errors = errors_on(target, read_csv_map(map_path), source_points, target_points);
+        if (errors.unmapped > 0)
+            warn("{} pairs left out: the map has no image for them, or the target is not mapped there",
+                 errors.unmapped);
+        if (errors.apart > 0)
+            warn("{} images are on other components than they belong to: their errors are straight distances",
+                 errors.apart);
         if (!curve_path.empty()) write_file_atomically(curve_path, curve_csv(errors));
         fmt::print("{}", json ? as_json(errors) : as_text(errors));
     });

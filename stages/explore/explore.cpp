@@ -47,7 +47,7 @@ PointMap at_vertices(const std::vector<int>& images, const TriangleMesh& target)
     return map;
 }
 
-/// Per INPUT vertex of `from` its image on the INPUT of `to`, linear on the mesh's faces.
+/// Per vertex of the file of `from` its image on the file of `to`, linear on the mesh's faces.
 PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
     const InputLocator locate(to);
     const TriangleMesh normals{vertex_normals(to.mesh), to.mesh.faces};
@@ -63,7 +63,7 @@ PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
         }
         result[v] = locate(x, normal);
     });
-    return between_input_and_file(std::move(result), to);
+    return to_file(std::move(result), from, to);
 }
 
 struct SelfMaps {

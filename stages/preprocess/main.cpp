@@ -1,4 +1,5 @@
 #include "stages/preprocess/preprocess.h"
+#include "varimap/mesh/bridges.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/surface.h"
 #include "varimap/stage/stage_main.h"
@@ -8,12 +9,29 @@ namespace {
 using namespace varimap;
 
 /// Errors name the file.
-Surface preprocess_file(const std::string& path, const TriangleMesh& input, const PreprocessParams& params) {
+Surface preprocess_file(const std::string& path, RepairedMesh input, const PreprocessParams& params) {
     try {
-        return preprocess(input, params);
+        return preprocess(std::move(input), params);
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
+}
+
+/// What is said in words (preprocess.h) once more as numbers, where it is not 0.
+void record(Stage& stage, const RepairCounts& counts) {
+    const auto number = [&](const char* name, double value) {
+        if (value > 0) stage.record_number(name, value);
+    };
+    number("welded_vertices", counts.welded);
+    number("not_finite_faces", counts.not_finite);
+    number("degenerate_faces", counts.degenerate);
+    number("duplicate_faces", counts.duplicates);
+    number("turned_faces", counts.turned);
+    number("cut_edges", counts.cut_edges);
+    number("split_vertices", counts.split_vertices);
+    number("bridges", counts.bridges);
+    number("dropped_components", counts.dropped_components);
+    number("dropped_area_percent", 100 * counts.dropped_area);
 }
 
 }  // namespace
@@ -25,11 +43,13 @@ int main(int argc, char** argv) {
     const std::string& in = stage.input("mesh", "OBJ, PLY, OFF or STL file");
     const std::string& out = stage.output("surface", ArtifactType<Surface>::schema, "artifact to write");
     return stage.main(argc, argv, [&] {
-        const TriangleMesh input = read_mesh(in);
-        require_manifold(input, in);
+        const TriangleMesh file = read_mesh(in);
+        RepairedMesh input = repaired(file, params.repair, in);
         stage.record_file("mesh", in);
-        const Surface surface = preprocess_file(in, input, params);
-        stage.record_number("input_vertices", input.vertex_count());
+        input = bridged(std::move(input));
+        record(stage, input.counts);
+        const Surface surface = preprocess_file(in, std::move(input), params);
+        stage.record_number("input_vertices", file.vertex_count());
         stage.record_number("scale", surface.scale);
         stage.record_number("vertices", surface.mesh.vertex_count());
         stage.write(out, surface);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "varimap/mesh/mesh_repair.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {
@@ -8,6 +9,7 @@ struct PreprocessParams {
     double target_edge_length = 0;
     int max_vertices = 2'000'000;
     bool mirror = false;
+    RepairOptions repair;
 
     void describe(ParameterList& list) {
         list.add("target_edge_length", target_edge_length,
@@ -17,6 +19,7 @@ struct PreprocessParams {
         list.add("max_vertices", max_vertices, "refuse to bisect beyond this many vertices", 3, 100'000'000);
         list.add("mirror", mirror,
                  "reverse the surface's orientation, to map it onto one of opposite handedness");
+        repair.describe(list);
     }
 };
 

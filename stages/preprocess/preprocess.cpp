@@ -9,7 +9,7 @@
 #include "varimap/core/log.h"
 #include "varimap/mesh/bisection.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -58,7 +58,7 @@ void log_edge_lengths(const char* when, const TriangleMesh& mesh) {
 /// converge. Measured: 1.4e-7 fails, 1e-5 does not.
 constexpr double thinnest_face = 1e-6;
 
-void require_no_thin_faces(const Repair& repair) {
+void require_no_thin_faces(const ThinFaceRemoval& repair) {
     int count = 0, first = -1;
     for (int f = 0; f < repair.mesh.face_count(); ++f)
         if (thinness(repair.mesh, f) < thinnest_face && count++ == 0) first = repair.origin[f];
@@ -71,8 +71,8 @@ void require_no_thin_faces(const Repair& repair) {
 }
 
 /// The used vertices without thin faces. vertex_of_input leads to what is left.
-Repair repaired(Normalised& normalised) {
-    Repair repair = remove_thin_faces(normalised.mesh, thinnest_face);
+ThinFaceRemoval repaired(Normalised& normalised) {
+    ThinFaceRemoval repair = remove_thin_faces(normalised.mesh, thinnest_face);
     require_no_thin_faces(repair);
     if (repair.collapsed + repair.turned == 0) return repair;
     warn(
@@ -85,8 +85,8 @@ Repair repaired(Normalised& normalised) {
 }
 
 /// A point of a repaired face as one of the input: by its corners, each of which is an input vertex.
-SurfacePoint before_repair(const SurfacePoint& point, const Repair& repair, const PointMap& corner_on_input,
-                           const TriangleMesh& input) {
+SurfacePoint before_repair(const SurfacePoint& point, const ThinFaceRemoval& repair,
+                           const PointMap& corner_on_input, const TriangleMesh& input) {
     SurfacePoint result{repair.origin[point.face], Vec3::Zero()};
     for (int c = 0; c < 3; ++c)
         if (point.barycentric[c] != 0)
@@ -97,8 +97,8 @@ SurfacePoint before_repair(const SurfacePoint& point, const Repair& repair, cons
 }
 
 /// Fills on_mesh, input_face and on_input, through the repair.
-void record_ways(const Bisection& bisection, const Repair& repair, const std::vector<int>& vertex_of_input,
-                 Surface& surface) {
+void record_ways(const Bisection& bisection, const ThinFaceRemoval& repair,
+                 const std::vector<int>& vertex_of_input, Surface& surface) {
     const PointMap at_vertices = points_at_vertices(bisection.mesh);
     for (const int v : vertex_of_input) surface.on_mesh.push_back(v < 0 ? SurfacePoint{} : at_vertices[v]);
     PointMap corner_on_input(repair.mesh.vertex_count());
@@ -153,6 +153,19 @@ void report_end(const Bisection& bisection, double target, const TriangleMesh& i
         thinnest, thinness(input, thinnest), vertices, bisection.longest_left, target);
 }
 
+/// A repair may leave out parts that the user wants: it is said loudly.
+void report(const RepairCounts& counts) {
+    if (!in_words(counts).empty())
+        warn("repaired: {}; varimap help meshes says how to do without", in_words(counts));
+    constexpr double much = 0.01;
+    if (counts.dropped_area > much)
+        warn(
+            "{:.1f}% of the area is on components that are left out, and has no image; map them on their "
+            "own, or set "
+            "--components all and a lower preprocess.least_component",
+            100 * counts.dropped_area);
+}
+
 }  // namespace
 
 double target_edge_length(const PreprocessParams& params, int used_vertices) {
@@ -170,7 +183,7 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
         input.vertex_count() - normalised.vertex_count());
     log_edge_lengths("input", normalised);
 
-    const Repair repair = repaired(used);
+    const ThinFaceRemoval repair = repaired(used);
     const double target = target_edge_length(params, normalised.vertex_count());
     const Bisection bisection =
         bisect_longest_edges(repair.mesh, target, most_vertices(params, normalised.vertex_count()));
@@ -181,6 +194,13 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
     if (params.mirror) surface = with_reversed_orientation(std::move(surface));
     log("target edge length {:.4f}", target);
     log_edge_lengths("output", surface.mesh);
+    return surface;
+}
+
+Surface preprocess(RepairedMesh input, const PreprocessParams& params) {
+    report(input.counts);
+    Surface surface = preprocess(input.mesh, params);
+    surface.link = std::move(input.link);
     return surface;
 }
 

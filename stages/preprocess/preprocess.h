@@ -8,11 +8,14 @@ namespace varimap {
 /// Unit area, area centroid at the origin, edges no longer than the target (Sec. 5, Limitations), and Voronoi
 /// masses. `input` must have passed require_manifold. Vertices that no face uses are left out of the result's
 /// mesh. Mirroring reverses the orientation of the result's meshes. A moved, turned or uniformly scaled input
-/// gives the same connectivity. Faces without area, or all but, are removed from the result's mesh (repair.h)
-/// with a warning. Bisection to the automatic target ends at four times the vertices of the input, or 10,000,
-/// with a warning: only slivers need more. Throws InputError if it would exceed max_vertices, if it ends with
-/// edges beyond .25 sqrt(area), and for thin faces that cannot be removed.
+/// gives the same connectivity. Faces without area, or all but, are removed from the result's mesh
+/// (thin_faces.h) with a warning. Bisection to the automatic target ends at four times the vertices of the
+/// input, or 10,000, with a warning: only slivers need more. Throws InputError if it would exceed
+/// max_vertices, if it ends with edges beyond .25 sqrt(area), and for thin faces that cannot be removed.
 Surface preprocess(const TriangleMesh& input, const PreprocessParams& params);
+/// The same of a mesh that was repaired and whose components were joined, with the way back to its file.
+/// Warns of what was repaired.
+Surface preprocess(RepairedMesh input, const PreprocessParams& params);
 
 /// The target edge length in units of sqrt(area): the parameter, or the automatic choice
 /// h = 2 * 1.0746 / sqrt(max(vertices, 2500)). 1.0746 / sqrt(n) is the edge of an even triangulation of unit

@@ -138,8 +138,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
     if (options.enabled) log_untangling("on the inputs", reports);
     if (on_meshes)
         reports = {joined(on_meshes->A_to_B, reports.A_to_B), joined(on_meshes->B_to_A, reports.B_to_A)};
-    return {between_input_and_file(std::move(inputs.A_to_B), B),
-            between_input_and_file(std::move(inputs.B_to_A), A), reports};
+    return {to_file(std::move(inputs.A_to_B), A, B), to_file(std::move(inputs.B_to_A), B, A), reports};
 }
 
 }  // namespace varimap

@@ -29,6 +29,8 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
                      masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
     stage.write_file(folder + "/target_masses.csv",
                      masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
+    stage.write_file(folder + "/source_vertices.csv", vertices_csv(A));
+    stage.write_file(folder + "/target_vertices.csv", vertices_csv(B));
     stage.write_file(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
     stage.write_file(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
 }
@@ -48,7 +50,8 @@ int main(int argc, char** argv) {
     const std::string& folder =
         stage.option("export",
                      "folder for source_to_target.csv, target_to_source.csv, source_on_target.ply, "
-                     "target_on_source.ply, source_masses.csv and target_masses.csv");
+                     "target_on_source.ply, source_masses.csv, target_masses.csv, source_vertices.csv and "
+                     "target_vertices.csv");
     const std::string& json_file = stage.option("numbers", "JSON file for the quality numbers");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "varimap/core/log.h"
 #include "varimap/quality/quality.h"
 #include "varimap/verification/verification.h"
 
@@ -59,9 +60,19 @@ Json mass_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass
     return {{"min", ratio.minCoeff()}, {"max", ratio.maxCoeff()}};
 }
 
+/// The input with the faces of its file alone.
+TriangleMesh without_added_faces(const Surface& surface) {
+    std::vector<int> left;
+    for (int f = 0; f < int(surface.link.face.size()); ++f)
+        if (surface.link.face[std::size_t(f)] >= 0) left.push_back(f);
+    if (left.size() == surface.link.face.size()) return surface.input;
+    return {surface.input.vertices, surface.input.faces(left, Eigen::all), surface.input.space};
+}
+
 Json sizes(const Surface& surface) {
-    return {{"input_vertices", surface.input.vertex_count()},
-            {"input_faces", surface.input.face_count()},
+    const TriangleMesh& file = file_of(surface);
+    return {{"input_vertices", file.vertex_count()},
+            {"input_faces", file.face_count()},
             {"vertices", surface.mesh.vertex_count()}};
 }
 
@@ -95,12 +106,9 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
                         {"moved_percent", 100 * c.moved_mass},
                         {"turn_degrees", c.turn},
                         {"mirrored", is_mirrored(c)}});
-    return {{"continued", continued},
-            {"confident", confidence.confident},
-            {"margin", confidence.margin},
-            {"probability", confidence.probability},
-            {"doubt", doubt(candidates)},
-            {"candidates", list}};
+    return {{"continued", continued},      {"confident", confidence.confident},
+            {"margin", confidence.margin}, {"probability", confidence.probability},
+            {"doubt", doubt(candidates)},  {"candidates", list}};
 }
 
 Json to_json(const std::vector<LandmarkCheck>& checks) {
@@ -123,11 +131,24 @@ void remove_not_finite(Json& json) {
     }
 }
 
+/// Good maps of whole surfaces have less than .5% reversed and more than 95% covered, those of skulls with
+/// their insides 87%. The upper half of a person on a whole one has 8% reversed.
+void warn_of_tears(const Json& direction, const char* which) {
+    constexpr double much_reversed = 2, little_covered = 0.8;
+    const double reversed = direction["verification"]["reversed_area_percent"],
+                 covered = direction["coverage"];
+    if (reversed > much_reversed || covered < little_covered)
+        warn(
+            "{}: the map tears: {:.1f}% of the area is reversed, {:.1f}% of the other surface covered. Is "
+            "one a part of the "
+            "other, or do they have different parts? Look at the picture, give landmarks",
+            which, reversed, 100 * covered);
+}
+
 }  // namespace
 
 std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair) {
-    const PointMap A_to_B = between_input_and_file(map.A_to_B, B),
-                   B_to_A = between_input_and_file(map.B_to_A, A);
+    const PointMap A_to_B = from_file(map.A_to_B, A, B), B_to_A = from_file(map.B_to_A, B, A);
     const SamplePlan& plan = pair.plan;
     const PairRecord& record = pair.record;
     Json quality;
@@ -139,10 +160,12 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
     if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
     if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);
-    quality["source_to_target"] = direction(A_to_B, A.input, B.input);
-    quality["target_to_source"] = direction(B_to_A, B.input, A.input);
+    quality["source_to_target"] = direction(A_to_B, without_added_faces(A), B.input);
+    quality["target_to_source"] = direction(B_to_A, without_added_faces(B), A.input);
     quality["source_to_target"]["untangling"] = to_json(map.untangling.A_to_B);
     quality["target_to_source"]["untangling"] = to_json(map.untangling.B_to_A);
+    warn_of_tears(quality["source_to_target"], "source to target");
+    warn_of_tears(quality["target_to_source"], "target to source");
     const RoundTrip round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     quality["round_trip"] = {{"mean", round_trip.mean}, {"p95", round_trip.p95}};
     quality["source"] = sizes(A);

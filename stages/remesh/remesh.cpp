@@ -4,15 +4,42 @@
 
 namespace varimap {
 
+namespace {
+
+/// The target's file, its faces as the file has them.
+TriangleMesh plain_file(const Surface& surface) {
+    if (!surface.link.is_identity()) return surface.link.file;
+    return surface.mirrored ? with_reversed_orientation(surface).input : surface.input;
+}
+
+/// Places for vertices without an image.
+Points fallback_positions(const TriangleMesh& file, const Surface& source, const Surface& target) {
+    Points places = file.vertices;
+    places.rowwise() -= source.centre.transpose();
+    places *= source.scale / target.scale;
+    places.rowwise() += target.centre.transpose();
+    for (Eigen::Index v = 0; v < places.rows(); ++v)
+        if (!places.row(v).allFinite()) places.row(v) = target.centre.transpose();
+    return places;
+}
+
+Faces faces_with_images(const Faces& faces, const PointMap& map) {
+    std::vector<int> left;
+    for (int f = 0; f < int(faces.rows()); ++f) {
+        bool has_images = true;
+        for (const int v : faces.row(f)) has_images = has_images && map[std::size_t(v)].face >= 0;
+        if (has_images) left.push_back(f);
+    }
+    return faces(left, Eigen::all);
+}
+
+}  // namespace
+
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target) {
-    Points fallback = source.input.vertices;
-    fallback.rowwise() -= source.centre.transpose();
-    fallback *= source.scale / target.scale;
-    fallback.rowwise() += target.centre.transpose();
-    const TriangleMesh in_file = target.mirrored ? with_reversed_orientation(target).input : target.input;
-    Faces faces = source.input.faces;
-    if (target.mirrored) faces.col(1).swap(faces.col(2));
-    return {image_positions(map, in_file, fallback), faces};
+    const TriangleMesh file = plain_file(source);
+    Faces faces = faces_with_images(file.faces, map);
+    if (source.mirrored != target.mirrored) faces.col(1).swap(faces.col(2));
+    return {image_positions(map, plain_file(target), fallback_positions(file, source, target)), faces};
 }
 
 std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
@@ -20,8 +47,10 @@ std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
     std::vector<int> sample_at(std::size_t(surface.mesh.vertex_count()), -1);
     for (std::size_t k = 0; k < samples.size(); ++k) sample_at[std::size_t(samples[k])] = int(k);
     std::string text = "vertex,ratio\n";
-    for (std::size_t i = 0; i < surface.on_mesh.size(); ++i) {
-        const SurfacePoint& point = surface.on_mesh[i];
+    for (int i = 0; i < file_of(surface).vertex_count(); ++i) {
+        const int vertex = surface.link.is_identity() ? i : surface.link.vertex[std::size_t(i)];
+        if (vertex < 0) continue;
+        const SurfacePoint& point = surface.on_mesh[std::size_t(vertex)];
         double ratio = 0;
         bool known = point.face >= 0;
         for (int c = 0; c < 3 && known; ++c) {
@@ -31,6 +60,20 @@ std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
             if (known) ratio += point.barycentric[c] * transported[k] / mass[k];
         }
         if (known) text += fmt::format("{},{}\n", i, ratio);
+    }
+    return text;
+}
+
+std::string vertices_csv(const Surface& surface) {
+    std::string text = "vertex,fate,twin\n";
+    const FileLink& link = surface.link;
+    for (std::size_t v = 0; v < surface.on_mesh.size() && link.is_identity(); ++v)
+        if (surface.on_mesh[v].face < 0) text += fmt::format("{},{},\n", v, name_of(VertexFate::unused));
+    for (std::size_t v = 0; v < link.vertex.size(); ++v) {
+        if (link.fate[v] == VertexFate::kept) continue;
+        const bool has_twin = link.fate[v] == VertexFate::welded;
+        text += fmt::format("{},{},{}\n", v, name_of(link.fate[v]),
+                            has_twin ? std::to_string(link.origin[std::size_t(link.vertex[v])]) : "");
     }
     return text;
 }

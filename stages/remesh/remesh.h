@@ -8,14 +8,19 @@
 
 namespace varimap {
 
-/// The source's input mesh (faces reversed if one of the two is mirrored, so that they show their outside)
-/// with its vertices moved to their images, in the target's input coordinates. Vertices no face uses have no
-/// image: they keep their place relative to the source's centroid, scaled like the target.
+/// The source's file (faces reversed if one of the two is mirrored, so that they show their outside) with its
+/// vertices moved to their images, in the coordinates of the target's file. Vertices without an image keep
+/// their place relative to the source's centroid, scaled like the target; those that are not finite go to the
+/// target's centroid. Faces with corners that have no image are left out. `map`: between the files.
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target);
 
-/// `vertex,ratio`: transported mass by mass at the INPUT vertices that are samples of the plan; with the plan
-/// of varimap-refine these are all vertices that faces use.
+/// `vertex,ratio`: transported mass by mass at the vertices of the file that are samples of the plan; with
+/// the plan of varimap-refine these are all that have an image.
 std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
                        const Eigen::VectorXd& transported, const Eigen::VectorXd& mass);
+
+/// `vertex,fate,twin`: a row for every vertex of the file that is not simply mapped, its VertexFate
+/// (file_link.h), and, where it was welded, the vertex whose image it has.
+std::string vertices_csv(const Surface& surface);
 
 }  // namespace varimap

@@ -8,8 +8,19 @@
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
 
+namespace {
+
+using namespace varimap;
+
+/// Per vertex of the repaired mesh.
+Eigen::VectorXd read_masses(const std::string& path, const RepairedMesh& mesh) {
+    const Eigen::VectorXd masses = read_csv_masses(path, file_of(mesh).vertex_count());
+    return mesh.link.is_identity() ? masses : masses(mesh.link.origin);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-    using namespace varimap;
     RenderParams params;
     Stage stage("render", "Picture of a map: the source's colours carried to the target, from two sides");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
@@ -28,22 +39,26 @@ int main(int argc, char** argv) {
                            "three also go to candidates.png beside the picture");
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
-        const TriangleMesh A = read_mesh(source), B = read_mesh(target);
-        const PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);
+        const RepairedMesh A = repaired(read_mesh(source), params.repair, source),
+                           B = repaired(read_mesh(target), params.repair, target);
+        PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);
+        require_fit(A_to_B, B_to_A, file_of(A), file_of(B));
+        A_to_B = from_file(A_to_B, A.link, B.link);
+        B_to_A = from_file(B_to_A, B.link, A.link);
         Candidates candidates;
         if (!candidates_in.empty()) candidates = stage.read<Candidates>("candidates", candidates_in).value;
-        require_previews(candidates, A, B);
-        const Image image =
-            masses.empty()
-                ? render(A, B, A_to_B, B_to_A, params)
-                : render_distortion(A, B, A_to_B, B_to_A, read_csv_masses(masses[0], A.vertex_count()),
-                                    read_csv_masses(masses[1], B.vertex_count()), params);
+        require_previews(candidates, file_of(A), file_of(B));
+        const Image image = masses.empty()
+                                ? render(A.mesh, B.mesh, A_to_B, B_to_A, params)
+                                : render_distortion(A.mesh, B.mesh, A_to_B, B_to_A, read_masses(masses[0], A),
+                                                    read_masses(masses[1], B), params);
         stage.write_file(out, to_png(image));
         log("{} x {} pixels to {}", image.width, image.height, out);
         if (candidates.previews.empty()) return;
         const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
         params.samples = std::min(params.samples, 2);  // rough maps need no smooth picture
-        stage.write_file(beside, to_png(render_candidates(A, B, candidates.previews, params)));
+        for (PointMap& preview : candidates.previews) preview = from_file(preview, B.link, A.link);
+        stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, params)));
         log("the first candidates to {}", beside);
     });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "varimap/mesh/mesh_repair.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {
@@ -15,6 +16,7 @@ struct RenderParams {
     bool mirror = false;
     double ratio_range = 4;
     double conformal_range = 4;
+    RepairOptions repair;
 
     void describe(ParameterList& list) {
         list.add("width", width, "width of the picture, pixels", 64, 16384);
@@ -31,6 +33,7 @@ struct RenderParams {
         list.add("flips", flips, "shows triangles in magenta whose image is reversed");
         list.add("mirror", mirror,
                  "the map reverses orientation on purpose; flips are triangles where it does not");
+        repair.describe(list);
     }
 };
 

@@ -37,12 +37,9 @@ std::vector<bool> have_image(const PointMap& map) {
     return result;
 }
 
-void require_fit(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
-                 const PointMap& target_to_source) {
+void require_visible(const TriangleMesh& source, const TriangleMesh& target) {
     if (!(surface_area(source) > 0) || !(surface_area(target) > 0))
         throw InputError("a mesh without area cannot be shown");
-    require_fit(source_to_target, source, target, "source_to_target", "source", "target");
-    require_fit(target_to_source, target, source, "target_to_source", "target", "source");
 }
 
 /// Colour at the source's point closest to the image of a point of the target.
@@ -54,9 +51,16 @@ Colour carried_colour(const ImageMesh& back, const ClosestPoint& closest, const 
 
 }  // namespace
 
+void require_fit(const PointMap& source_to_target, const PointMap& target_to_source,
+                 const TriangleMesh& source, const TriangleMesh& target) {
+    require_fit(source_to_target, source, target, "source_to_target", "source", "target");
+    require_fit(target_to_source, target, source, "target_to_source", "target", "source");
+}
+
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params) {
-    require_fit(source, target, source_to_target, target_to_source);
+    require_visible(source, target);
+    require_fit(source_to_target, target_to_source, source, target);
     const ImageMesh there(source_to_target, source, target), back(target_to_source, target, source);
     const SourceColour colour(there.source, params.checker);
     const ClosestPoint closest(there.source);
@@ -106,7 +110,8 @@ Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
                         const PointMap& source_to_target, const PointMap& target_to_source,
                         const Eigen::VectorXd& source_masses, const Eigen::VectorXd& target_masses,
                         const RenderParams& params) {
-    require_fit(source, target, source_to_target, target_to_source);
+    require_visible(source, target);
+    require_fit(source_to_target, target_to_source, source, target);
     const ImageMesh back(target_to_source, target, source);
     const View source_view = natural_view(source, params.up);
     const View target_view =

@@ -6,6 +6,8 @@
 int main(int argc, char** argv) {
     using namespace varimap;
     Stage stage("verify", "Judges a map on its own: reversed triangles, branch points, degree");
+    RepairOptions options;
+    stage.parameters([&](ParameterList& list) { options.describe(list); });
     const auto& source = stage.input("source-mesh", "mesh the map starts from");
     const auto& target = stage.input("target-mesh", "mesh the map leads to");
     const auto& map = stage.input("map", "CSV of varimap-remesh, one row per source vertex");
@@ -13,7 +15,7 @@ int main(int argc, char** argv) {
         stage.flag("mirror", "the map reverses orientation on purpose (varimap map --mirror)");
     const auto& json = stage.flag("json", "print a JSON object, with the faces and vertices found (0-based)");
     return stage.main(argc, argv, [&] {
-        const Verification found = verify_files(source, target, map, mirror);
+        const Verification found = verify_files(source, target, map, mirror, options);
         if (found.left_out_count > 0)
             warn("{} triangles left out: a corner has no image", found.left_out_count);
         if (!found.degree)

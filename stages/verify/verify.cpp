@@ -12,10 +12,12 @@ namespace varimap {
 
 namespace {
 
-TriangleMesh read_surface(const std::string& path) {
-    TriangleMesh mesh = read_mesh(path);
-    require_manifold(mesh, path);
-    return mesh;
+/// Of what was found, faces and vertices by the numbers of the file.
+Verification in_file(Verification found, const FileLink& link) {
+    if (link.is_identity()) return found;
+    for (int& face : found.reversed_faces) face = link.face[std::size_t(face)];
+    for (int& vertex : found.branch_vertices) vertex = number_in_file(vertex, link);
+    return found;
 }
 
 void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& source,
@@ -34,13 +36,14 @@ void require_fit(const PointMap& map, const std::string& path, const TriangleMes
 }  // namespace
 
 Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
-                          const std::string& map, bool mirror) {
-    TriangleMesh source = read_surface(source_mesh);
-    if (mirror) source.faces.col(1).swap(source.faces.col(2));
-    const TriangleMesh target = read_surface(target_mesh);
+                          const std::string& map, bool mirror, const RepairOptions& options) {
+    RepairedMesh source = repaired(read_mesh(source_mesh), options, source_mesh);
+    const RepairedMesh target = repaired(read_mesh(target_mesh), options, target_mesh);
     const PointMap images = read_csv_map(map);
-    require_fit(images, map, source, target);
-    return verify_map(images, source, target);
+    require_fit(images, map, file_of(source), file_of(target));
+    if (mirror) source.mesh.faces.col(1).swap(source.mesh.faces.col(2));
+    return in_file(verify_map(from_file(images, source.link, target.link), source.mesh, target.mesh),
+                   source.link);
 }
 
 std::string as_text(const Verification& found) {

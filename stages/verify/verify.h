@@ -2,15 +2,17 @@
 
 #include <string>
 
+#include "varimap/mesh/mesh_repair.h"
 #include "varimap/verification/verification.h"
 
 namespace varimap {
 
 /// Reads two meshes and a map between them and judges the map; `mirror`: it reverses orientation on purpose,
-/// and triangles that keep it are the reversed ones. Throws InputError (a mesh that is not one manifold
-/// surface, a map that does not fit the meshes), IoError.
+/// and triangles that keep it are the reversed ones. The meshes are repaired as varimap-preprocess does it;
+/// what is found has the numbers of the files. Throws InputError (no surface, a map that does not fit the
+/// meshes), IoError.
 Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
-                          const std::string& map, bool mirror = false);
+                          const std::string& map, bool mirror = false, const RepairOptions& options = {});
 
 /// The numbers, one per line.
 std::string as_text(const Verification& found);

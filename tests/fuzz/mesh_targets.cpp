@@ -1,14 +1,16 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include "fixtures/shapes.h"
 #include "fuzz/target.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/bridges.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 
 namespace varimap::fuzz {
 namespace {
@@ -75,23 +77,30 @@ std::string ascii_stl(const TriangleMesh& mesh) {
     return text + "endsolid a\n";
 }
 
+/// What is repaired must not be refused.
+void require_good(const std::function<void()>& require) {
+    try {
+        require();
+    } catch (const InputError& error) {
+        throw std::logic_error(std::string("a repaired mesh is refused: ") + error.what());
+    }
+}
+
 /// What the reader lets through keeps its word, and is refused or served by what comes next.
 void read(const std::string& bytes, const std::string& name) {
-    const TriangleMesh mesh = parse_mesh(bytes, name);
-    if (!mesh.vertices.allFinite() || mesh.faces.minCoeff() < 0 ||
-        mesh.faces.maxCoeff() >= mesh.vertex_count())
+    const TriangleMesh file = parse_mesh(bytes, name);
+    if (file.faces.minCoeff() < 0 || file.faces.maxCoeff() >= file.vertex_count())
         throw std::logic_error("the reader gave a bad mesh");
-    require_manifold(mesh, name);
-    const Repair repair = remove_thin_faces(mesh, 1e-6);
-    if (repair.collapsed + repair.turned > 0) require_manifold(repair.mesh, name);
+    const TriangleMesh mesh = bridged(repaired(file, {}, name)).mesh;
+    require_good([&] { require_manifold(mesh, name); });
+    const ThinFaceRemoval repair = remove_thin_faces(mesh, 1e-6);
+    if (repair.collapsed + repair.turned > 0) require_good([&] { require_manifold(repair.mesh, name); });
 }
 
 /// As varimap-preprocess does; what it writes can be read.
 void make_surface(const std::string& bytes) {
-    const TriangleMesh mesh = parse_mesh(bytes, "a.off");
-    require_manifold(mesh, "a.off");
     Surface copy;
-    decode(encode(preprocess(mesh, {})), copy);
+    decode(encode(preprocess(bridged(repaired(parse_mesh(bytes, "a.off"), {}, "a.off")), {})), copy);
 }
 
 }  // namespace

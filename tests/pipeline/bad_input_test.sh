@@ -65,9 +65,14 @@ printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n
 printf 'OFF\n3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2\n' >point.off
 cp a.off a.unknown
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n.5 1e-5 0\n.5 0 1e-5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' >sliver.off
-for bad in sliver.off text.off cut.off empty.off nan.off range.off nonmanifold.off parts.off point.off a.unknown; do
+printf 'OFF\n3 1 0\n0 0 nan\n0 1 0\n1 0 0\n3 0 1 2\n' >nothing.off
+for bad in sliver.off text.off cut.off empty.off range.off point.off nothing.off a.unknown; do
     refuse 3 "$bad" b.off -o bad -j 1
     refuse 3 b.off "$bad" -o bad -j 1
+done
+for bad in nan.off nonmanifold.off parts.off; do
+    refuse 3 "$bad" b.off -o bad -j 1 --repair none
+    refuse 3 b.off "$bad" -o bad -j 1 --repair none
 done
 
 for line in "0 1 x" "zero one" "0 100000" "-1 0" "0.5 1"; do

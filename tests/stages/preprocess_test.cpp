@@ -7,7 +7,7 @@
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/eigenbasis.h"
 

@@ -76,10 +76,24 @@ TEST_F(Verify, RefusesFacesTheTargetLacks) {
 }
 
 TEST_F(Verify, RefusesWhatIsNoSurface) {
-    TriangleMesh turned = sphere_;
-    std::swap(turned.faces(4, 0), turned.faces(4, 1));
-    const std::string a = write_mesh("a.ply", sphere_), b = write_mesh("b.ply", turned);
+    TriangleMesh nothing = sphere_;
+    nothing.vertices.setConstant(std::nan(""));
+    const std::string a = write_mesh("a.ply", sphere_), b = write_mesh("b.ply", nothing);
     EXPECT_THAT(refusal(a, b, write_map(identity_)), HasSubstr("b.ply"));
+}
+
+TEST_F(Verify, NamesFacesAndVerticesOfTheFile) {
+    TriangleMesh file = sphere_;  // its first face is degenerate, and all numbers of faces are one more
+    file.faces.resize(sphere_.face_count() + 1, 3);
+    file.faces << 0, 0, 1, sphere_.faces;
+    const std::string target = write_mesh("a.ply", sphere_), source = write_mesh("b.ply", file);
+    PointMap map = identity_;
+    map[7] = {identity_[100].face, identity_[100].barycentric};  // far away
+    const auto plain = verify_files(target, target, write_map(map)).reversed_faces;
+    auto shifted = plain;
+    for (int& face : shifted) ++face;
+    ASSERT_FALSE(plain.empty());
+    EXPECT_EQ(verify_files(source, target, write_map(map)).reversed_faces, shifted);
 }
 
 TEST_F(Verify, JsonHoldsEveryNumber) {

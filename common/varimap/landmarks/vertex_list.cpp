@@ -242,6 +242,21 @@ bool have_distinct_names(const std::vector<Named>& list) {
     return true;
 }
 
+/// Names that one of two lists lacks, the first few of them.
+std::string names_in_one(const std::vector<Named> (&lists)[2]) {
+    constexpr size_t most = 12;
+    std::map<std::string, int> count;
+    for (const auto& list : lists)
+        for (const Named& named : list) ++count[named.name];
+    std::vector<std::string> names;
+    for (const auto& [name, times] : count)
+        if (times == 1) names.push_back(fmt::format("'{}'", excerpt(name)));
+    const size_t shown = std::min(names.size(), most);
+    const std::string list =
+        fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), ", "));
+    return names.size() > shown ? fmt::format("{} and {} more", list, names.size() - shown) : list;
+}
+
 /// Row by row, or by name where all have one; names that only one list has are left out.
 std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
                                              const std::vector<std::string>& files) {
@@ -255,8 +270,8 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
         if (pairs.empty())
             throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
         if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
-            warn("{} landmarks are in both {} and {}; the others are left out", pairs.size(), files[0],
-                 files[1]);
+            warn("{} landmarks are in both {} and {}; left out are {}", pairs.size(), files[0], files[1],
+                 names_in_one(lists));
         return pairs;
     }
     if (lists[0].size() != lists[1].size())

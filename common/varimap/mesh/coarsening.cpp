@@ -244,7 +244,7 @@ bool Coarsener::leaves_enough_faces(const Disc& disc, int target) const {
 
 bool Coarsener::is_allowed(const Disc& disc, int target) {
     const auto collapsed = disc.spokes[std::size_t(target)];
-    if (!may_collapse(collapsed)) return false;
+    if (!may_collapse(collapsed) || disc.faces() < 2) return false;  // a face must be left to its points
     if (int(mesh_.valence(collapsed.to())) + disc.size() - 4 > most_neighbours) return false;
     const Vec2 apex = disc.at[std::size_t(target)];
     double area = 0;

@@ -20,6 +20,16 @@ struct Defect {
     }
 };
 
+void refuse_not_finite(const TriangleMesh& mesh, const std::string& path) {
+    Defect defect;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (!mesh.vertices(mesh.faces.row(f), Eigen::all).allFinite()) defect.add(f);
+    if (defect.count > 0)
+        throw InputError(fmt::format(
+            "{}: {} faces have a corner with a coordinate that is not finite, the first is face {}", path,
+            defect.count, defect.first));
+}
+
 void refuse_degenerate_faces(const TriangleMesh& mesh, const std::string& path) {
     Defect defect;
     for (int f = 0; f < mesh.face_count(); ++f) {
@@ -95,7 +105,9 @@ void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const
                         path, defect.count, defect.first));
 }
 
-void refuse_several_components(const TriangleMesh& mesh, const std::string& path) {
+}  // namespace
+
+void require_connected(const TriangleMesh& mesh, const std::string& path) {
     const std::vector<int> component = vertex_components(mesh);
     const int count = 1 + *std::max_element(component.begin(), component.end());
     if (count < 2) return;
@@ -105,7 +117,7 @@ void refuse_several_components(const TriangleMesh& mesh, const std::string& path
 }
 
 /// Within these sizes no product of lengths that the method needs leaves the range of double precision.
-void refuse_extreme_sizes(const TriangleMesh& mesh, const std::string& path) {
+void require_size(const TriangleMesh& mesh, const std::string& path) {
     constexpr double least = 1e-50, largest = 1e50;
     const auto [low, high] = bounding_box(mesh);
     const double size = (high - low).maxCoeff();
@@ -117,17 +129,24 @@ void refuse_extreme_sizes(const TriangleMesh& mesh, const std::string& path) {
         throw InputError(path + ": the surface has no area (are its points all on one line?)");
 }
 
-}  // namespace
-
-void require_manifold(const TriangleMesh& mesh, const std::string& path) {
+void require_plain_faces(const TriangleMesh& mesh, const std::string& path) {
     if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
+    refuse_not_finite(mesh, path);
     refuse_degenerate_faces(mesh, path);
+}
+
+void require_sheets(const TriangleMesh& mesh, const std::string& path) {
+    require_plain_faces(mesh, path);
     const Edges edges = find_edges(mesh);
     refuse_crowded_edges(edges, path);
     refuse_inconsistent_orientation(mesh, edges, path);
     refuse_pinched_vertices(mesh, edges, path);
-    refuse_several_components(mesh, path);
-    refuse_extreme_sizes(mesh, path);
+    require_size(mesh, path);
+}
+
+void require_manifold(const TriangleMesh& mesh, const std::string& path) {
+    require_sheets(mesh, path);
+    require_connected(mesh, path);
 }
 
 }  // namespace varimap

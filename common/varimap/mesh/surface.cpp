@@ -19,8 +19,13 @@ void serialize(Archive& archive, SurfacePoint& point) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, FileLink& link) {
+    archive(link.file, link.vertex, link.fate, link.origin, link.face, link.turned);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Surface& surface) {
-    archive(surface.mesh, surface.mass, surface.input, surface.input.space, surface.on_mesh,
+    archive(surface.mesh, surface.mass, surface.input, surface.input.space, surface.link, surface.on_mesh,
             surface.input_face, surface.on_input, surface.centre, surface.scale, surface.mirrored);
 }
 
@@ -50,9 +55,21 @@ Surface with_reversed_orientation(Surface surface) {
     return surface;
 }
 
-PointMap between_input_and_file(PointMap points, const Surface& surface) {
-    if (surface.mirrored) swap_last_corners(points);
-    return points;
+PointMap to_file(PointMap map, const Surface& source, const Surface& target) {
+    if (target.mirrored) swap_last_corners(map);
+    if (target.link.is_identity()) return to_file(map, source.link, target.link, target.input);
+    const TriangleMesh plain = target.mirrored ? with_reversed_orientation(target).input : target.input;
+    return to_file(map, source.link, target.link, plain);
+}
+
+PointMap from_file(const PointMap& map, const Surface& source, const Surface& target) {
+    PointMap result = from_file(map, source.link, target.link);
+    if (target.mirrored) swap_last_corners(result);
+    return result;
+}
+
+const TriangleMesh& file_of(const Surface& surface) {
+    return surface.link.is_identity() ? surface.input : surface.link.file;
 }
 
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {

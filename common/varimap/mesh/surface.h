@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/mesh/file_link.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/mesh/vertex_index.h"
 
@@ -14,13 +15,14 @@ namespace varimap {
 /// `mesh` has unit area and its area centroid at the origin. Of varimap-preprocess, its edges are no longer
 /// than the target length (Sec. 5, Limitations: recursive longest-edge bisection), each of its faces lies
 /// inside one input face, and the used input vertices are its first vertices, in input order. Where the input
-/// has faces too thin for the method (repair.h), these have no counterpart, input vertices that are the same
-/// for all purposes share one of `mesh`, and a face may lie off its input face by that little. Of
+/// has faces too thin for the method (thin_faces.h), these have no counterpart, input vertices that are the
+/// same for all purposes share one of `mesh`, and a face may lie off its input face by that little. Of
 /// varimap-coarsen, `mesh` has some of those vertices (coarsening.h), and its faces lie near the input.
 struct Surface {
     TriangleMesh mesh;     ///< normalised and bisected
     Eigen::VectorXd mass;  ///< per vertex of mesh: Voronoi area, sums to 1 (Sec. 2.1)
-    TriangleMesh input;    ///< the input in its own coordinates, polygons fanned, vertex order kept
+    TriangleMesh input;    ///< the input in its own coordinates, polygons fanned, vertex order kept; repaired
+    FileLink link;         ///< from `input`, not mirrored, to the file it was read from
     PointMap on_mesh;      ///< per input vertex: where it lies on mesh, one to one; nowhere without a face
     std::vector<int> input_face;  ///< per face of mesh: the input face it lies in; none where mesh is coarser
     PointMap on_input;            ///< per vertex of mesh: where it lies on the input
@@ -33,7 +35,7 @@ template <>
 struct ArtifactType<Surface> {
     static constexpr const char* kind = "surface";
     static constexpr const char* stage = "varimap-preprocess";
-    static constexpr int schema = 4;
+    static constexpr int schema = 5;
 };
 std::string encode(const Surface& surface);
 void decode(const std::string& payload, Surface& surface);
@@ -41,9 +43,12 @@ void decode(const std::string& payload, Surface& surface);
 /// The surface with the opposite orientation: faces with their last two corners exchanged, `mirrored`
 /// toggled. A map from it that preserves orientation reverses that of the original.
 Surface with_reversed_orientation(Surface surface);
-/// The same points, from the faces of `surface.input` to those of its mesh file or back: where it is
-/// mirrored, their last two corners are exchanged.
-PointMap between_input_and_file(PointMap points, const Surface& surface);
+/// A map from `source.input` to `target.input` as one between their files (file_link.h), and back. Where a
+/// surface is mirrored, the last two corners of its file's faces are exchanged.
+PointMap to_file(PointMap map, const Surface& source, const Surface& target);
+PointMap from_file(const PointMap& map, const Surface& source, const Surface& target);
+/// The surface's file as it was read; where nothing was repaired and the surface is mirrored, mirrored too.
+const TriangleMesh& file_of(const Surface& surface);
 
 /// A point of a mesh as barycentric coordinates of another face that holds it too: exact by the vertices that
 /// both faces name; where these are not enough, because a repair moved the point, those of the closest point.

@@ -1,11 +1,12 @@
 #include "varimap/mesh/surface_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "varimap/artifact/consistency.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 
 namespace varimap {
 namespace {
@@ -54,6 +55,26 @@ void require_way_back(const Surface& surface) {
     }
 }
 
+void require_link(const Surface& surface) {
+    const FileLink& link = surface.link;
+    if (link.is_identity()) return;
+    const TriangleMesh &mesh = surface.input, &file = link.file;
+    require<Surface>(int(link.vertex.size()) == file.vertex_count() &&
+                         link.fate.size() == link.vertex.size() &&
+                         int(link.origin.size()) == mesh.vertex_count() &&
+                         int(link.face.size()) == mesh.face_count() && link.turned.size() == link.face.size(),
+                     "link to the file");
+    for (const int v : file.faces.reshaped())
+        require<Surface>(v >= 0 && v < file.vertex_count(), "link to the file");
+    require<Surface>(are_in_range(link.origin, file.vertex_count()), "link to the file");
+    for (const int v : link.vertex) require<Surface>(v >= -1 && v < mesh.vertex_count(), "link to the file");
+    for (const int f : link.face) require<Surface>(f >= -1 && f < file.face_count(), "link to the file");
+    require<Surface>(std::any_of(link.face.begin(), link.face.end(), [](int f) { return f >= 0; }),
+                     "link to the file");
+    for (const VertexFate fate : link.fate)
+        require<Surface>(fate <= VertexFate::component_dropped, "link to the file");
+}
+
 /// Preprocessing leaves no face thinner than 1e-6, of which bisection makes ones down to a quarter. On
 /// thinner ones neither Laplacian nor walks can be trusted.
 void require_no_thin_faces(const TriangleMesh& mesh) {
@@ -76,6 +97,7 @@ void require_complete(const Surface& surface) {
     require_all_used(surface.mesh);
     require_sizes(surface);
     require_way_back(surface);
+    require_link(surface);
     require<Surface>(std::abs(surface_area(surface.mesh) - 1) < 1e-3, "area");
     require_no_thin_faces(surface.mesh);
     require_masses(surface);

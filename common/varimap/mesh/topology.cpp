@@ -4,21 +4,10 @@
 #include <cstdint>
 #include <numeric>
 
+#include "varimap/mesh/private/disjoint_sets.h"
+
 namespace varimap {
 namespace {
-
-/// Root of v's tree; halves the path on the way.
-int find_root(std::vector<int>& parent, int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-}
-
-/// Joins a and b; the lower root wins, so that roots do not depend on the order of the joins.
-void join(std::vector<int>& parent, int a, int b) {
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    parent[std::max(a, b)] = std::min(a, b);
-}
 
 struct Side {
     std::uint64_t edge;  ///< lower vertex in the high half, higher vertex in the low half
@@ -138,16 +127,16 @@ std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<ch
 
 std::vector<int> vertex_components(const TriangleMesh& mesh) {
     const int n = mesh.vertex_count();
-    std::vector<int> parent(n), component(n, -1);
-    std::iota(parent.begin(), parent.end(), 0);
+    std::vector<int> component(n, -1);
+    DisjointSets sets(n);
     for (int f = 0; f < mesh.face_count(); ++f)
-        for (int c = 1; c < 3; ++c) join(parent, mesh.faces(f, 0), mesh.faces(f, c));
+        for (int c = 1; c < 3; ++c) sets.join(mesh.faces(f, 0), mesh.faces(f, c));
     std::vector<char> used(n, 0);
     for (int s = 0; s < 3 * mesh.face_count(); ++s) used[mesh.faces.data()[s]] = 1;
     int count = 0;
     for (int v = 0; v < n; ++v) {
         if (!used[v]) continue;
-        const int root = find_root(parent, v);
+        const int root = sets.lowest(v);
         component[v] = root == v ? count++ : component[root];
     }
     return component;
@@ -155,24 +144,37 @@ std::vector<int> vertex_components(const TriangleMesh& mesh) {
 
 TopologySummary summarise_topology(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
-    std::vector<int> parent(mesh.vertex_count());
-    std::iota(parent.begin(), parent.end(), 0);
+    DisjointSets loops(mesh.vertex_count());
     std::vector<char> used(mesh.vertex_count(), 0), on_boundary(mesh.vertex_count(), 0);
     for (int e = 0; e < edges.size(); ++e) {
         const auto [a, b] = edges.vertices[e];
         used[a] = used[b] = 1;
         if (edges.sides[e].size() > 1) continue;
         on_boundary[a] = on_boundary[b] = 1;
-        join(parent, a, b);
+        loops.join(a, b);
     }
     TopologySummary summary;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         summary.used_vertices += used[v];
-        summary.boundary_loops += on_boundary[v] && parent[v] == v;
+        summary.boundary_loops += on_boundary[v] && loops.lowest(v) == v;
     }
     const int euler = summary.used_vertices - edges.size() + mesh.face_count();
     summary.genus = (2 - summary.boundary_loops - euler) / 2;
     return summary;
+}
+
+double longest_boundary(const TriangleMesh& mesh) {
+    const Edges edges = find_edges(mesh);
+    DisjointSets loops(mesh.vertex_count());
+    for (int e = 0; e < edges.size(); ++e)
+        if (edges.sides[e].size() == 1) loops.join(edges.vertices[e][0], edges.vertices[e][1]);
+    std::vector<double> length(mesh.vertex_count(), 0);
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() > 1) continue;
+        const auto [a, b] = edges.vertices[e];
+        length[loops.lowest(a)] += (mesh.vertex(a) - mesh.vertex(b)).norm();
+    }
+    return *std::max_element(length.begin(), length.end());
 }
 
 bool is_closed(const TriangleMesh& mesh) {

@@ -6,7 +6,8 @@
 
 namespace varimap {
 
-/// A vertex of a mesh file, from 0, as users name it: a row of Surface::input.
+/// A vertex of a surface's input, from 0: a row of Surface::input. Where nothing was repaired, that is the
+/// number users have for it; where something was, file_link.h leads there.
 struct InputVertex {
     int index = -1;
     friend auto operator<=>(const InputVertex&, const InputVertex&) = default;

@@ -31,15 +31,15 @@ class VertexChoice {
         if (at.face < 0)
             throw InputError(
                 fmt::format("landmark vertex {} of the {} belongs to no face; choose another vertex",
-                            landmark.index, which_));
+                            number(landmark), which_));
         const int vertex = vertex_of(surface_.mesh, at);
         if (vertex < 0) return;
-        const auto [other, is_new] = taken_.emplace(vertex, landmark.index);
+        const auto [other, is_new] = taken_.emplace(vertex, number(landmark));
         if (!is_new)
             throw InputError(
-                fmt::format("landmark vertices {} and {} of the {} became one when faces without area were "
-                            "removed; keep one of the two landmarks",
-                            other->second, landmark.index, which_));
+                fmt::format("landmark vertices {} and {} of the {} became one when the mesh was repaired; "
+                            "keep one of the two landmarks",
+                            other->second, number(landmark), which_));
     }
     /// That, or the nearest corner around it that no other landmark has.
     MeshVertex operator()(InputVertex landmark) {
@@ -50,18 +50,19 @@ class VertexChoice {
                   [&](int i, int k) { return at.barycentric[i] > at.barycentric[k]; });
         for (const int k : corner)
             if (const int vertex = surface_.mesh.faces(at.face, k);
-                taken_.emplace(vertex, landmark.index).second)
+                taken_.emplace(vertex, number(landmark)).second)
                 return {vertex};
         throw InputError(fmt::format(
             "landmark vertex {} of the {} is too near to others for the coarse mesh; keep fewer, or use "
             "--full-resolution or more coarsen.vertices",
-            landmark.index, which_));
+            number(landmark), which_));
     }
 
   private:
+    int number(InputVertex landmark) const { return number_in_file(landmark.index, surface_.link); }
     const Surface& surface_;
     const char* which_;
-    std::map<int, int> taken_;  ///< vertices, and whose
+    std::map<int, int> taken_;  ///< vertices, and whose, by the file's numbers
 };
 
 /// Moves vertices, in space and in the eigenbasis, to points of the input.
@@ -142,10 +143,35 @@ void PairInputs::require_self_maps(const Header& self_maps, const std::string& p
                            side == "A" ? A_.hierarchy : B_.hierarchy);
 }
 
+namespace {
+
+InputVertex on_input(InputVertex in_file, const Surface& surface, const char* which) {
+    const FileLink& link = surface.link;
+    if (link.is_identity()) return in_file;
+    const int vertex = in_file.index < int(link.vertex.size()) ? link.vertex[std::size_t(in_file.index)] : -1;
+    if (vertex < 0)
+        throw InputError(fmt::format(
+            "landmark vertex {} of the {} is not on the surface that is mapped; choose another vertex",
+            in_file.index, which));
+    return {vertex};
+}
+
+}  // namespace
+
+Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B) {
+    for (auto& [a, b] : landmarks.vertices) {
+        a = on_input(a, A, "source");
+        b = on_input(b, B, "target");
+    }
+    return landmarks;
+}
+
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, LandmarkSpace space) {
     if (files.empty()) return {};
-    const Landmarks landmarks = read_landmarks(files, A.input, B.input, space);
+    const Landmarks landmarks = on_inputs(read_landmarks(files, in_numbers_of_file(A.input, A.link),
+                                                         in_numbers_of_file(B.input, B.link), space),
+                                          A, B);
     for (size_t i = 0; i < files.size(); ++i)
         stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);
     return landmarks;

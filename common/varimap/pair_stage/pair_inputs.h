@@ -43,6 +43,9 @@ class PairInputs {
     std::map<std::string, Headers> headers_;  ///< by side
 };
 
+/// Landmarks whose vertices have their files' numbers as those of the inputs. Throws InputError for a vertex
+/// that is not on the surface.
+Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B);
 /// Reads landmarks (vertex_list.h) and records their files as inputs.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, LandmarkSpace space);

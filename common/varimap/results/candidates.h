@@ -16,8 +16,8 @@ struct Candidates {
     std::string sketched_A, sketched_B;  ///< payload hashes of the surfaces on whose sketches they were found
     std::vector<Candidate> list;         ///< may be empty for self-maps
     std::vector<Correspondences> maps;
-    /// For a picture of the first three, where the choice among them is not sure: per INPUT vertex of B, its
-    /// image on INPUT faces of A. Else none.
+    /// For a picture of the first three, where the choice among them is not sure: per vertex of B's file, its
+    /// image on faces of A's. Else none.
     std::vector<PointMap> previews;
 };
 

@@ -128,7 +128,7 @@ bool is_finite(const UntanglingReport& report) {
 }
 
 bool is_between(const PointMap& map, const Surface& source, const Surface& target) {
-    return int(map.size()) == source.input.vertex_count() && are_points(map, target.input.face_count());
+    return int(map.size()) == file_of(source).vertex_count() && are_points(map, file_of(target).face_count());
 }
 
 }  // namespace

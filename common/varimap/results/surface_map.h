@@ -9,9 +9,9 @@
 
 namespace varimap {
 
-/// The dense map in both directions, between the INPUT meshes: the artifact of varimap-relax.
-/// A_to_B has one row per INPUT vertex of A, in A's order, on INPUT faces of B; face -1 for vertices no face
-/// uses.
+/// The dense map in both directions, between the mesh FILES: the artifact of varimap-relax. A_to_B has one
+/// row per vertex of A's file, in its order, on faces of B's file; face -1 for vertices that have no image
+/// (file_link.h says why).
 struct SurfaceMap {
     PointMap A_to_B;
     PointMap B_to_A;
@@ -28,7 +28,7 @@ std::string encode(const SurfaceMap& map);
 /// Throws ArtifactError unless points are points and numbers of the reports are finite.
 void decode(const std::string& payload, SurfaceMap& map);
 
-/// Throws ArtifactError if the map is not one between the inputs of these surfaces.
+/// Throws ArtifactError if the map is not one between the files of these surfaces.
 void require_surfaces(const SurfaceMap& map, const Surface& A, const Surface& B);
 
 /// `vertex,face,b0,b1,b2`, one row per vertex; numbers read back exactly, in any locale.

@@ -49,6 +49,7 @@ std::vector<Pair> pairs_with_images(const PointMap& map, const TriangleMesh& tar
         if (s < 0 || size_t(s) >= map.size())
             throw InputError(fmt::format("row {} of the source's points: vertex {}, but the map has {} rows",
                                          i + 1, s, map.size()));
+        if (t == -1) continue;
         if (t < 0 || t >= target.vertex_count())
             throw InputError(fmt::format("row {} of the target's points: vertex {}, but the mesh has {}",
                                          i + 1, t, target.vertex_count()));
@@ -69,16 +70,16 @@ MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std:
     const double unit = std::sqrt(surface_area(target));
     if (!(unit > 0)) throw InputError("the target mesh has no area");
     const Geodesic distance(target);
-    MapErrors result{std::vector<double>(pairs.size()), int(source_points.size() - pairs.size())};
+    MapErrors result{std::vector<double>(pairs.size()), int(source_points.size() - pairs.size()), 0};
     parallel_for_each_index(pairs.size(), size_t(16), [&](size_t i) {
         result.errors[i] = distance(pairs[i].image, pairs[i].truth) / unit;
     });
-    for (size_t i = 0; i < pairs.size(); ++i)
-        if (!std::isfinite(result.errors[i]))
-            throw InputError(
-                fmt::format("the image of source vertex {} and target vertex {} lie on different "
-                            "components of the target",
-                            pairs[i].source, pairs[i].target));
+    for (size_t i = 0; i < pairs.size(); ++i) {
+        if (std::isfinite(result.errors[i])) continue;
+        result.errors[i] =
+            (position(target, pairs[i].image) - position(target, pairs[i].truth)).norm() / unit;
+        ++result.apart;
+    }
     return result;
 }
 

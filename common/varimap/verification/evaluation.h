@@ -12,7 +12,9 @@ namespace varimap {
 /// Fig. 18).
 struct MapErrors {
     std::vector<double> errors;  ///< per evaluated pair: geodesic distance from the image to the true image
-    int unmapped = 0;            ///< pairs left out because the map gives their source vertex no image
+    int unmapped = 0;  ///< pairs left out because the map gives their source vertex no image, or their
+                       ///< target vertex is -1
+    int apart = 0;     ///< images on another component than the true one; their errors are straight distances
 
     double mean() const;
     double median() const;
@@ -23,7 +25,7 @@ struct MapErrors {
 
 /// map: per source vertex, on faces of `target`. Pair i says that vertex source_points[i] belongs on
 /// target_points[i]. Throws InputError: lists of different lengths, vertices or faces that do not exist,
-/// vertices that no face uses, an image on another component than the true one, no pair with an image.
+/// vertices that no face uses, no pair with an image.
 MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
                      const std::vector<int>& target_points);
 

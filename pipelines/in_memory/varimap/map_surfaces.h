@@ -25,17 +25,16 @@ struct DirectionQuality {
 
 /// The map between two meshes in both directions, and its quality; lengths in units of sqrt(area).
 struct MappedSurfaces {
-    PointMap A_to_B;  ///< per vertex of A, in A's order, on faces of B; face -1 where no face uses the vertex
+    PointMap A_to_B;  ///< per vertex of A, in A's order, on faces of B; face -1 where a vertex has no image
     PointMap B_to_A;
     DirectionQuality A_to_B_quality, B_to_A_quality;
     RoundTrip round_trip;  ///< A -> B -> A
 };
 
 /// Maps two surfaces onto each other: what `varimap map` does (Mandad et al. 2017, Alg. 5 and Sec. 5), in
-/// memory, with the same result to the last bit. Each mesh must be connected, oriented and manifold, with or
-/// without boundary. Deterministic, for any number of threads; logs go to stderr. Minutes of time for 20'000
-/// vertices.
-/// Throws Error (error.h): InputError for meshes or landmarks that the method cannot serve, UsageError for a
+/// memory, with the same result to the last bit. Meshes are repaired where need be (mesh_repair.h).
+/// Deterministic, for any number of threads; logs go to stderr. Minutes of time for 20'000 vertices. Throws
+/// Error (error.h): InputError for meshes or landmarks that the method cannot serve, UsageError for a
 /// candidate there is none of, ConvergenceError.
 MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options = {});
 

@@ -10,6 +10,7 @@
 #include "fixtures/temporary_folder.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 
 namespace varimap {
 namespace {
@@ -161,6 +162,7 @@ TEST_F(VertexList, MatchesPickedPointsByName) {
                                   "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
                                   "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n");
     EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_).vertices, are({{4, 9}, {7, 2}}));
+    EXPECT_THAT(logged_warnings().back(), HasSubstr("left out are 'ear', 'off'"));
     EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_).vertices, are({{4, 1}, {7, 2}}));
     EXPECT_THAT(error_of({meshlab, write("other.fcsv", "1,0,0,0,0,0,0,1,1,1,0,paw,,\n")}),
                 HasSubstr("no name in common"));

@@ -234,6 +234,13 @@ TEST_F(MeshFile, NonManifoldFilesAreReadAsTheyStand) {
     EXPECT_EQ(mesh.faces(3, 1), 0);
 }
 
+TEST_F(MeshFile, CoordinatesThatAreNotNumbersAreReadAsTheyStand) {
+    const TriangleMesh mesh = read("a.obj", "v 0 0 0\nv 1 0 0\nv nan 0 0\nv 0 inf 0\nf 1 2 3\n");
+    EXPECT_TRUE(std::isnan(mesh.vertices(2, 0)));
+    EXPECT_TRUE(std::isinf(mesh.vertices(3, 1)));
+    EXPECT_TRUE(mesh.vertices.topRows(2).allFinite());
+}
+
 TEST_F(MeshFile, FilesThatCannotBeOpened) {
     EXPECT_THROW(read_mesh(folder_ / "missing.off"), IoError);
     std::filesystem::create_directory(folder_ / "folder.off");
@@ -248,8 +255,6 @@ TEST_F(MeshFile, BadFilesGetOneClearLine) {
     EXPECT_THAT(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 1 x 0\n"),
                 AllOf(HasSubstr("a.obj:3"), HasSubstr("'x'")));
     EXPECT_THAT(complaint("a.obj", "v 0 0\n"), AllOf(HasSubstr(":1"), HasSubstr("z is missing")));
-    EXPECT_THAT(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv nan 0 0\nf 1 2 3\n"), HasSubstr("vertex 2"));
-    EXPECT_THAT(complaint("a.obj", "v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("not finite"));
     EXPECT_THAT(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"), HasSubstr("face 1"));
     EXPECT_THAT(complaint("a.obj", "v 0 0 0\nf 1 0 1\n"), HasSubstr(":2"));
     EXPECT_THAT(complaint("a.obj", "v 0 0 0\nf -1 -2 -1\n"), HasSubstr(":2"));

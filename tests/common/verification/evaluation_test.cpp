@@ -82,6 +82,18 @@ TEST(Evaluation, RefusesWhatDoesNotFit) {
     EXPECT_THROW(map_errors({{-1, Vec3(0, 0, 0)}}, mesh, {0}, {0}), InputError);
 }
 
+TEST(Evaluation, MeasuresStraightBetweenComponents) {
+    TriangleMesh two = square(2);  // and the same once more, 3 above
+    two.vertices.conservativeResize(8, 3);
+    two.vertices.bottomRows(4) = two.vertices.topRows(4).rowwise() + Eigen::RowVector3d(0, 0, 3);
+    two.faces.conservativeResize(4, 3);
+    two.faces.bottomRows(2) = two.faces.topRows(2).array() + 4;
+    const MapErrors errors = map_errors(to_vertices(two, {0, 1, 2}), two, {0, 1, 2}, {4, 1, -1});
+    EXPECT_EQ(errors.apart, 1);
+    EXPECT_EQ(errors.unmapped, 1);
+    EXPECT_NEAR(errors.maximum(), 3 / std::sqrt(2), 1e-12);
+}
+
 TEST(Evaluation, CurveRisesFromExactHitsToAll) {
     const MapErrors errors{{0, .01, .02, .2}, 0};
     const std::string csv = curve_csv(errors);

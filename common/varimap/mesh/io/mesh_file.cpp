@@ -35,9 +35,6 @@ void require_valid(const PolygonSoup& soup, const std::string& path) {
     if (soup.ends.empty()) throw InputError(path + ": the file holds no faces");
     if (soup.points.size() > limit || soup.corners.size() > limit)
         throw InputError(path + ": the mesh is too large");
-    for (std::size_t v = 0; v < soup.points.size(); ++v)
-        if (!soup.points[v].allFinite())
-            throw InputError(fmt::format("{}: vertex {} has a coordinate that is not finite", path, v));
     for (std::size_t f = 0, c = 0; f < soup.ends.size(); ++f)
         for (; c < soup.ends[f]; ++c)
             if (soup.corners[c] < 0 || soup.corners[c] >= static_cast<long long>(soup.points.size()))

@@ -9,7 +9,8 @@ namespace varimap {
 
 /// Reads OBJ, PLY (ascii, binary), OFF and STL (corners welded) by the file's ending, in any case of letters.
 /// Vertex order is the file's; polygons are fanned from their first corner, in file order.
-/// Throws IoError (cannot open), InputError (unreadable, no faces, index out of range, not finite).
+/// Coordinates may be anything that the file says, not-a-number too. Throws IoError (cannot open), InputError
+/// (unreadable, no faces, index out of range).
 /// Not OpenMesh's readers: OpenMesh 9 rounds coordinates in OBJ, OFF and ascii PLY to single precision, and
 /// reports success on broken files, with faces left out (index out of range) or made up (file cut short).
 TriangleMesh read_mesh(const std::string& path);
@@ -19,10 +20,19 @@ TriangleMesh parse_mesh(std::string_view bytes, const std::string& path);
 /// Binary little-endian PLY with double coordinates.
 std::string to_ply(const TriangleMesh& mesh);
 
-/// Refuses what this version cannot serve: several components, edges of three or more faces, vertices whose
-/// faces do not form one fan, inconsistent or non-orientable faces, faces that name a vertex twice, zero
-/// area, sizes outside 1e-50 to 1e50. The one line names the defect, how many there are and the first element
-/// (0-based). Throws InputError.
+// Refusals, as one line that names the defect, how many there are and the first element (0-based). Throw
+// InputError.
+
+/// No faces, faces with corners that are not finite, faces that name a vertex twice.
+void require_plain_faces(const TriangleMesh& mesh, const std::string& path);
+/// Zero area, sizes outside 1e-50 to 1e50. Corners must be finite.
+void require_size(const TriangleMesh& mesh, const std::string& path);
+/// All of these, edges of three or more faces, inconsistent or non-orientable faces, vertices whose faces do
+/// not form one fan.
+void require_sheets(const TriangleMesh& mesh, const std::string& path);
+/// Several components.
+void require_connected(const TriangleMesh& mesh, const std::string& path);
+/// All of these.
 void require_manifold(const TriangleMesh& mesh, const std::string& path);
 
 }  // namespace varimap

@@ -7,7 +7,7 @@
 namespace varimap {
 
 /// A mesh without thin faces, and where its parts come from.
-struct Repair {
+struct ThinFaceRemoval {
     TriangleMesh mesh;
     std::vector<int> vertex;  ///< per vertex before: its vertex now
     std::vector<int> origin;  ///< per face: the face before in whose place it is
@@ -24,6 +24,6 @@ double thinness(const TriangleMesh& mesh, int f);
 /// longest side, and no other face turns over. Vertices and faces keep their order. The mesh must be
 /// manifold, and stays so. A mesh without such faces comes back as it is; one where some cannot be removed
 /// keeps these.
-Repair remove_thin_faces(const TriangleMesh& mesh, double thinnest);
+ThinFaceRemoval remove_thin_faces(const TriangleMesh& mesh, double thinnest);
 
 }  // namespace varimap

@@ -1,4 +1,4 @@
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(Thinness, IsHeightOverLength) {
 
 TEST(RemoveThinFaces, LeavesGoodMeshesAsTheyAre) {
     const TriangleMesh mesh = shapes::figure(.15);
-    const Repair repair = remove_thin_faces(mesh, thinnest);
+    const ThinFaceRemoval repair = remove_thin_faces(mesh, thinnest);
     EXPECT_EQ(repair.mesh.vertices, mesh.vertices);
     EXPECT_EQ(repair.mesh.faces, mesh.faces);
     EXPECT_EQ(repair.collapsed + repair.turned, 0);
@@ -46,7 +46,7 @@ TEST(RemoveThinFaces, CollapsesTheShortSideOfNeedles) {
     for (const double distance : {0., 1e-9}) {
         const TriangleMesh mesh = with_short_edge(distance);
         ASSERT_EQ(thin_faces(mesh), 2);
-        const Repair repair = remove_thin_faces(mesh, thinnest);
+        const ThinFaceRemoval repair = remove_thin_faces(mesh, thinnest);
         EXPECT_EQ(repair.collapsed, 1);
         EXPECT_EQ(thin_faces(repair.mesh), 0);
         EXPECT_NO_THROW(require_manifold(repair.mesh, "repaired"));
@@ -64,7 +64,7 @@ TEST(RemoveThinFaces, TurnsTheLongSideOfCaps) {
         int cap;
         const TriangleMesh mesh = shapes::with_cap(shapes::ellipsoid(2), height, cap);
         ASSERT_EQ(thin_faces(mesh), 1);
-        const Repair repair = remove_thin_faces(mesh, thinnest);
+        const ThinFaceRemoval repair = remove_thin_faces(mesh, thinnest);
         EXPECT_EQ(repair.turned, 1);
         EXPECT_EQ(thin_faces(repair.mesh), 0);
         EXPECT_NO_THROW(require_manifold(repair.mesh, "repaired"));
@@ -81,7 +81,7 @@ TEST(RemoveThinFaces, KeepsWhatItCannotRemove) {
     // A tetrahedron all of whose corners are on one line cannot lose a face.
     const TriangleMesh flat = shapes::make_mesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
                                                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
-    const Repair repair = remove_thin_faces(flat, thinnest);
+    const ThinFaceRemoval repair = remove_thin_faces(flat, thinnest);
     EXPECT_EQ(repair.mesh.face_count(), 4);
     EXPECT_EQ(thin_faces(repair.mesh), 4);
 }

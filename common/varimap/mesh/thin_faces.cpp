@@ -1,4 +1,4 @@
-#include "varimap/mesh/repair.h"
+#include "varimap/mesh/thin_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ class Repairer {
   public:
     Repairer(const TriangleMesh& mesh, double thinnest);
     void run();
-    Repair result(const TriangleMesh& before) const;
+    ThinFaceRemoval result(const TriangleMesh& before) const;
 
   private:
     Vec3 point(OpenMesh::VertexHandle v) const { return varimap::point(mesh_, v); }
@@ -118,8 +118,8 @@ int Repairer::present_vertex(int v) const {
     return v;
 }
 
-Repair Repairer::result(const TriangleMesh& before) const {
-    Repair result;
+ThinFaceRemoval Repairer::result(const TriangleMesh& before) const {
+    ThinFaceRemoval result;
     result.collapsed = collapsed_;
     result.turned = turned_;
     std::vector<int> number(vertex_.size());
@@ -146,7 +146,7 @@ double thinness(const TriangleMesh& mesh, int f) {
                     mesh.vertex(mesh.faces(f, 2)));
 }
 
-Repair remove_thin_faces(const TriangleMesh& mesh, double thinnest) {
+ThinFaceRemoval remove_thin_faces(const TriangleMesh& mesh, double thinnest) {
     int thin = 0;
     for (int f = 0; f < mesh.face_count(); ++f) thin += thinness(mesh, f) < thinnest;
     if (thin > 0) {
@@ -154,7 +154,8 @@ Repair remove_thin_faces(const TriangleMesh& mesh, double thinnest) {
         repairer.run();
         return repairer.result(mesh);
     }
-    Repair unchanged{mesh, std::vector<int>(mesh.vertex_count()), std::vector<int>(mesh.face_count())};
+    ThinFaceRemoval unchanged{mesh, std::vector<int>(mesh.vertex_count()),
+                              std::vector<int>(mesh.face_count())};
     std::iota(unchanged.vertex.begin(), unchanged.vertex.end(), 0);
     std::iota(unchanged.origin.begin(), unchanged.origin.end(), 0);
     return unchanged;

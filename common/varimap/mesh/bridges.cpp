@@ -1,0 +1,142 @@
+#include "varimap/mesh/bridges.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/mass.h"
+#include "varimap/mesh/thin_faces.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+/// Faces of tubes that are thinner cost more than any others.
+constexpr double thin = 0.02;
+
+/// A tube between two faces: one goes round forward, the other backward, corner i facing corner shift - i.
+struct Tube {
+    int here = -1, there = -1, shift = 0;
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+Faces faces_of(const Tube& tube, const Faces& faces) {
+    Faces result(6, 3);
+    for (int i = 0; i < 3; ++i) {
+        const auto there = [&](int k) { return faces(tube.there, ((tube.shift - k) % 3 + 3) % 3); };
+        const int a = faces(tube.here, i), b = faces(tube.here, (i + 1) % 3);
+        result.row(2 * i) << a, b, there(i + 1);
+        result.row(2 * i + 1) << a, there(i + 1), there(i);
+    }
+    return result;
+}
+
+/// Its area, and more where it has thin faces.
+double cost_of(const Tube& tube, const TriangleMesh& mesh, double total_area) {
+    const TriangleMesh sides{mesh.vertices, faces_of(tube, mesh.faces)};
+    double cost = surface_area(sides);
+    for (int f = 0; f < sides.face_count(); ++f)
+        if (const double t = thinness(sides, f); t < thin) cost += total_area * (2 - t);
+    return cost;
+}
+
+/// Tubes up to this multiple of the least cost are as good.
+constexpr double as_good = 2;
+
+/// A lid touches its pot all around. A shape and its like should be joined at like places, so that of tubes
+/// that are as good the one farthest from the centre of all is chosen.
+Tube outermost_of_cheap(const std::vector<Tube>& tubes, const TriangleMesh& mesh) {
+    const auto by_cost = [](const Tube& a, const Tube& b) { return a.cost < b.cost; };
+    const double limit = as_good * std::min_element(tubes.begin(), tubes.end(), by_cost)->cost;
+    const Vec3 centre = area_centroid(mesh);
+    const auto distance = [&](const Tube& tube) {
+        return tube.cost > limit ? -1 : (position(mesh, {tube.here, Vec3::Constant(1. / 3)}) - centre).norm();
+    };
+    return *std::max_element(tubes.begin(), tubes.end(),
+                             [&](const Tube& a, const Tube& b) { return distance(a) < distance(b); });
+}
+
+/// The best tube from a component's faces to the nearest of the others.
+Tube best_tube(const TriangleMesh& mesh, const std::vector<int>& component, const std::vector<int>& others) {
+    const ClosestPoint closest({mesh.vertices, mesh.faces(others, Eigen::all)});
+    const double total_area = surface_area(mesh);
+    std::vector<Tube> tubes;
+    for (const int f : component) {
+        const Vec3 centroid = position(mesh, {f, Vec3::Constant(1. / 3)});
+        Tube best, tube{f, others[std::size_t(closest(centroid).point.face)]};
+        for (tube.shift = 0; tube.shift < 3; ++tube.shift) {
+            tube.cost = cost_of(tube, mesh, total_area);
+            if (tube.cost < best.cost) best = tube;
+        }
+        tubes.push_back(best);
+    }
+    return outermost_of_cheap(tubes, mesh);
+}
+
+void add(const Tube& tube, RepairedMesh& repaired) {
+    Faces& faces = repaired.mesh.faces;
+    const Faces sides = faces_of(tube, faces);
+    std::vector<int> left;
+    for (int f = 0; f < int(faces.rows()); ++f)
+        if (f != tube.here && f != tube.there) left.push_back(f);
+    Faces joined(Eigen::Index(left.size()) + sides.rows(), 3);
+    joined << faces(left, Eigen::all), sides;
+    faces = std::move(joined);
+    FileLink& link = repaired.link;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        link.face[i] = link.face[std::size_t(left[i])];
+        link.turned[i] = link.turned[std::size_t(left[i])];
+    }
+    link.face.resize(left.size());
+    link.face.resize(left.size() + std::size_t(sides.rows()), -1);
+    link.turned.resize(left.size());
+    link.turned.resize(link.face.size(), 0);
+    ++repaired.counts.bridges;
+}
+
+/// The link of a mesh that is as its file has it.
+FileLink link_to_itself(const TriangleMesh& mesh) {
+    FileLink link{mesh, std::vector<int>(std::size_t(mesh.vertex_count())), {}, {}, {}, {}};
+    std::iota(link.vertex.begin(), link.vertex.end(), 0);
+    link.origin = link.vertex;
+    link.fate.assign(link.vertex.size(), VertexFate::unused);
+    for (const int v : mesh.faces.reshaped()) link.fate[std::size_t(v)] = VertexFate::kept;
+    link.face.resize(std::size_t(mesh.face_count()));
+    std::iota(link.face.begin(), link.face.end(), 0);
+    link.turned.assign(link.face.size(), 0);
+    return link;
+}
+
+/// The faces of each component, by falling area; among equals the lowest first.
+std::vector<std::vector<int>> components_by_area(const TriangleMesh& mesh) {
+    const std::vector<int> component = vertex_components(mesh);
+    const auto count = std::size_t(1 + *std::max_element(component.begin(), component.end()));
+    std::vector<std::vector<int>> faces(count);
+    std::vector<double> area(count, 0);
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const auto c = std::size_t(component[std::size_t(mesh.faces(f, 0))]);
+        faces[c].push_back(f);
+        area[c] += face_normal(mesh, f).norm();
+    }
+    std::vector<int> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return area[std::size_t(a)] > area[std::size_t(b)]; });
+    std::vector<std::vector<int>> result;
+    for (const int c : order) result.push_back(std::move(faces[std::size_t(c)]));
+    return result;
+}
+
+}  // namespace
+
+RepairedMesh bridged(RepairedMesh repaired) {
+    for (auto parts = components_by_area(repaired.mesh); parts.size() > 1;
+         parts = components_by_area(repaired.mesh)) {
+        if (repaired.link.is_identity()) repaired.link = link_to_itself(repaired.mesh);
+        add(best_tube(repaired.mesh, parts[1], parts[0]), repaired);
+    }
+    return repaired;
+}
+
+}  // namespace varimap

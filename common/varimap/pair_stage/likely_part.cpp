@@ -1,0 +1,38 @@
+#include "varimap/pair_stage/likely_part.h"
+
+#include <cmath>
+
+#include "varimap/core/log.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+
+namespace {
+
+/// In units of sqrt(area). A person cut at the waist has .9, a head .8; holes of scans have less than .2.
+constexpr double long_loop = 0.4;
+/// Of that loop: where the other's longest is no longer, it has no such opening.
+constexpr double much_shorter = 0.5;
+
+double opening(const Surface& surface) {
+    return longest_boundary(surface.input) / std::sqrt(surface_area(surface.input));
+}
+
+void warn_of_part(double own, double other, const char* which, const char* whole) {
+    if (own < long_loop || other > much_shorter * own) return;
+    warn(
+        "the {} looks like a part of the {}: it ends at a loop of {:.2f} sqrt(area), where the {} has none "
+        "beyond {:.2f}; "
+        "a part is stretched over the whole, so cut the {} to the same part",
+        which, whole, own, whole, other, whole);
+}
+
+}  // namespace
+
+void warn_of_part(const Surface& A, const Surface& B) {
+    const double a = opening(A), b = opening(B);
+    warn_of_part(a, b, "source", "target");
+    warn_of_part(b, a, "target", "source");
+}
+
+}  // namespace varimap

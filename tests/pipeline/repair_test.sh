@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Meshes as they are: loose triangles, some turned, with duplicates, vertices that are not numbers and a small part of their
+# own. Every vertex of the file has its row, every tool takes the file, and the map is that of the clean mesh.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+figure a.off 15
+figure b.off 15 .7
+landmarks_of_figure a.off >tips.txt
+
+# spoil FILE: its triangles with vertices of their own, every fifth turned, the first twice; then a face with a vertex that is
+# not a number, one that names a vertex twice, and a tiny triangle apart.
+spoil() {
+    awk 'NR == 2 { n = $1; f = $2; print "OFF\n" 3 * f + 5, f + 4, 0 }
+        NR > 2 && NR <= n + 2 { at[NR - 3] = $0 }
+        NR > n + 2 && NR <= n + f + 2 {
+            for (c = 2; c <= 4; c++) print at[$c]
+            i = 3 * (NR - n - 3)
+            faces = faces "3 " i " " (NR % 5 ? i + 1 " " i + 2 : i + 2 " " i + 1) "\n"
+        }
+        END {
+            print "0 0 0\nnan 0 0\n9 9 9\n9.001 9 9\n9 9.001 9"
+            printf "%s3 0 1 2\n3 0 1 %d\n3 0 0 1\n3 %d %d %d\n", faces, 3 * f + 1, 3 * f + 2, 3 * f + 3, 3 * f + 4
+        }' "$1"
+}
+# places FILE: the vertices of the clean file that those of the spoiled one are.
+places() {
+    awk 'NR == 2 { n = $1; f = $2 } NR > n + 2 && NR <= n + f + 2 { for (c = 2; c <= 4; c++) print $c }' "$1"
+}
+spoil a.off >a-spoiled.off
+spoil b.off >b-spoiled.off
+places a.off >place.txt
+rows=$(($(wc -l <place.txt) + 5))
+awk 'NR == FNR { if (!($1 in first)) first[$1] = FNR - 1; next } { print first[$1], first[$2] }' place.txt tips.txt >tips-spoiled.txt
+
+expect_exit 3 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair none
+expect_exit 2 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair everything
+map a-spoiled.off b-spoiled.off -o out --landmarks tips-spoiled.txt
+grep -q 'warning  preprocess a-spoiled: repaired: .* welded, .* dropped, .* turned, 1 component left out' out.txt ||
+    fail "what was repaired is not said"
+jq -e '.stages["preprocess a-spoiled"] | .welded_vertices > 1000 and .not_finite_faces == 1 and .degenerate_faces == 1
+    and .duplicate_faces == 1 and .turned_faces > 300 and .dropped_components == 1' out/quality.json >/dev/null ||
+    fail "what was repaired is not counted"
+
+# Rows, and why there is none.
+for table in source_to_target target_to_source; do
+    awk -F, -v n="$rows" 'NR > 1 && ($1 != NR - 2 || ($2 < 0) != (NR - 1 > n - 5)) { bad = 1 } END { exit bad || NR != n + 1 }' \
+        out/$table.csv || fail "$table.csv: rows"
+done
+tail -n 5 out/source_vertices.csv | cut -d, -f2 | tr '\n' ' ' >fates.txt
+[[ $(<fates.txt) == "unused not_finite component_dropped component_dropped component_dropped " ]] ||
+    fail "fates: $(<fates.txt)"
+grep -q '^vertex,fate,twin$' out/source_vertices.csv || fail "no header"
+
+# Twins have the same image, and the map is as good as that of the clean meshes.
+map a.off b.off -o clean --landmarks tips.txt
+seq 0 $((rows - 6)) >all.txt
+error() {  # JSON of varimap-evaluate
+    "$VARIMAP_BIN/varimap-evaluate" "$@" --index-base 0 --json 2>log
+}
+sort -nu place.txt >used.txt
+error b.off clean/source_to_target.csv used.txt used.txt >clean.json
+error b-spoiled.off out/source_to_target.csv all.txt all.txt >spoiled.json
+jq -c '{mean, maximum}' clean.json spoiled.json
+jq -es '.[1].mean < .03 and .[1].mean < 1.2 * .[0].mean + .002' clean.json spoiled.json >/dev/null || fail "error"
+awk -F, 'NR == FNR { place[FNR - 1] = $1; next }
+    FNR > 1 && $1 in place { image = $2 " " $3 " " $4 " " $5
+        if (place[$1] in had && had[place[$1]] != image) bad++
+        had[place[$1]] = image } END { exit bad > 0 }' place.txt out/source_to_target.csv || fail "twins have different images"
+
+# The tools.
+"$VARIMAP_BIN/varimap-verify" a-spoiled.off b-spoiled.off out/source_to_target.csv --json >verify.json 2>log || fail "verify"
+jq -e '.reversed_area_percent < 1 and .degree > .99 and .degree < 1.01' verify.json >/dev/null || fail "verify finds a bad map"
+"$VARIMAP_BIN/varimap-render" a-spoiled.off b-spoiled.off out/{source_to_target,target_to_source}.csv picture.png --width 64 \
+    --samples 1 --distortion out/{source,target}_masses.csv 2>log || fail "render"
+"$VARIMAP_BIN/varimap-inspect" --check out/artifacts/*.{surface,coarse,map} 2>log || fail "inspect"
+"$VARIMAP_BIN/varimap-preprocess" out/source_on_target.ply exported.surface 2>log || fail "the exported mesh"
