@@ -33,7 +33,7 @@ void report_self_maps(const std::vector<Candidate>& self_maps) {
 
 Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::string& side,
                           const std::string& path, const TriangleMesh& input) {
-    auto self_maps = stage.read<Candidates>(side + ".selfmaps", path);
+    auto self_maps = stage.read<Candidates>("self-maps." + side, path);
     inputs.require_self_maps(self_maps.header, path, side);
     require_surfaces(self_maps.value, input, input);
     return std::move(self_maps.value);

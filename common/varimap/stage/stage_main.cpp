@@ -261,11 +261,13 @@ void Stage::require_origin(const std::string& role, const std::string& hash, con
                     known.path, path, role));
 }
 
-/// The surface of A.basis is A.surface; that of a plan has its side in its name already. What was coarsened twice
-/// was made from another of its own role.
+/// The surface of A.basis is A.surface; that of a plan has its side in its name already; files of one list
+/// are made from whatever they are. What was coarsened twice was made from another of its own role.
 void Stage::require_same_origin(const std::string& role, const Header& header, const std::string& path) {
     require_origin(role, header.payload_hash, path);
-    const std::string side = role.substr(0, role.find('.') + 1);
+    const bool is_listed =
+        role.find('.') != std::string::npos && !role.starts_with("A.") && !role.starts_with("B.");
+    const std::string side = is_listed ? role + "." : role.substr(0, role.find('.') + 1);
     for (const auto& input : header.inputs)
         if (side + input.role != role) require_origin(side + input.role, input.hash, path);
 }
