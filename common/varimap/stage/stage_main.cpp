@@ -159,6 +159,11 @@ const std::string& Stage::input(const std::string& role, const std::string& help
         .value;
 }
 
+const std::string& Stage::word(const std::string& role, const std::string& help) {
+    return state_->line.positionals.emplace_back(CommandLine::Text{role, help, CommandLine::Use::other, {}})
+        .value;
+}
+
 const std::vector<std::string>& Stage::input_list(const std::string& role, const std::string& help) {
     return state_->line.files
         .emplace(CommandLine::TextList{role, help, CommandLine::Use::input, 1, 1 << 20, {}})
@@ -261,8 +266,8 @@ void Stage::require_origin(const std::string& role, const std::string& hash, con
                     known.path, path, role));
 }
 
-/// The surface of A.basis is A.surface; that of a plan has its side in its name already. What was coarsened twice
-/// was made from another of its own role.
+/// The surface of A.basis is A.surface; that of a plan has its side in its name already. What was coarsened
+/// twice was made from another of its own role.
 void Stage::require_same_origin(const std::string& role, const Header& header, const std::string& path) {
     require_origin(role, header.payload_hash, path);
     const std::string side = role.substr(0, role.find('.') + 1);
