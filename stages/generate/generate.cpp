@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "stages/generate/families.h"
 #include "stages/generate/isometric.h"
@@ -41,20 +41,20 @@ int vertices_of(const GenerateParams& params, shapes::Random& random) {
     return params.vertices > 0 ? params.vertices : by_seed;
 }
 
-/// Source vertices and the target vertices at their true images; only the fifth of the source's vertices
-/// whose images are nearest to a vertex, so that the target's tessellation hardly counts as an error. Of many
-/// vertices, some thousands are asked. `image`: of a source vertex on the target, or none.
-std::vector<TruePair> true_pairs(const std::function<std::optional<Vec3>(int)>& image, int vertices,
+/// Pairs of these source vertices and the target vertices at their true images; only the fifth of them whose
+/// images are nearest to a vertex, so that the target's tessellation hardly counts as an error. Of many
+/// vertices, some thousands are asked.
+std::vector<TruePair> true_pairs(const std::vector<int>& vertices, const Points& images,
                                  const TriangleMesh& target) {
     std::vector<TruePair> rows;
-    const int step = std::max(1, vertices / 6000);
-    for (int v = 0; v < vertices; v += step) {
-        const std::optional<Vec3> place = image(v);
-        if (!place) continue;
+    const std::size_t step = std::max<std::size_t>(1, vertices.size() / 6000);
+    for (std::size_t i = 0; i < vertices.size(); i += step) {
         int nearest;
-        const double squared =
-            (target.vertices.rowwise() - place->transpose()).rowwise().squaredNorm().minCoeff(&nearest);
-        rows.push_back({squared, v, nearest});
+        const double squared = (target.vertices.rowwise() - images.row(Eigen::Index(i)))
+                                   .rowwise()
+                                   .squaredNorm()
+                                   .minCoeff(&nearest);
+        rows.push_back({squared, vertices[i], nearest});
     }
     std::sort(rows.begin(), rows.end(),
               [](const TruePair& a, const TruePair& b) { return a.squared_distance < b.squared_distance; });
@@ -85,8 +85,9 @@ GeneratedPair isometric_pair(unsigned seed, const GenerateParams& params) {
     const Shape source = draw(), target = draw();
     const Placement placed(random);
     GeneratedPair pair{kind, source.rest, shapes::shuffled(placed(target.posed()), seed), {}};
-    const TriangleMesh images = placed(source.posed());
-    pair.truth = true_pairs([&](int v) { return images.vertex(v); }, images.vertex_count(), pair.target);
+    std::vector<int> all(std::size_t(source.rest.vertex_count()));
+    std::iota(all.begin(), all.end(), 0);
+    pair.truth = true_pairs(all, placed(source.posed()).vertices, pair.target);
     return pair;
 }
 
@@ -106,21 +107,16 @@ GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& param
     const Placement placed(random);
     const std::string& name = shapes::family_names()[std::size_t(family)];
     GeneratedPair pair{name, source.posed(), shapes::shuffled(placed(target.posed()), seed), {}};
-    // Partners of vertices at rest, as a mesh of points that is posed and placed with the target.
     const shapes::Partner partner(source.body, target.body);
-    std::vector<int> row(std::size_t(source.rest.vertex_count()), -1);
-    std::vector<Vec3> partners;
+    std::vector<int> vertices;
+    std::vector<Vec3> partners;  // at rest
     for (int v = 0; v < source.rest.vertex_count(); ++v)
         if (const auto image = partner(source.rest.vertex(v))) {
-            row[std::size_t(v)] = int(partners.size());
+            vertices.push_back(v);
             partners.push_back(*image);
         }
-    const TriangleMesh images = placed(Shape{target.body, shapes::make_mesh(partners, {})}.posed());
-    const auto image = [&](int v) -> std::optional<Vec3> {
-        if (row[std::size_t(v)] < 0) return {};
-        return images.vertex(row[std::size_t(v)]);
-    };
-    pair.truth = true_pairs(image, source.rest.vertex_count(), pair.target);
+    const Shape images{target.body, shapes::make_mesh(partners, {})};
+    pair.truth = true_pairs(vertices, placed(images.posed()).vertices, pair.target);
     return pair;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include "stages/generate/generate.h"
 #include "varimap/core/printable.h"
@@ -32,7 +33,10 @@ int main(int argc, char** argv) {
                                     "that is there, for source.ply, target.ply, source.txt, target.txt "
                                     "and landmarks.txt");
     return stage.main(argc, argv, [&] {
-        const GeneratedPair pair = generate(family, seed_from(seed), params);
+        const unsigned number = seed_from(seed);
+        if (!std::filesystem::is_directory(folder))
+            throw IoError(fmt::format("cannot write into '{}': there is no such folder", folder));
+        const GeneratedPair pair = generate(family, number, params);
         write_pair(pair, folder);
         fmt::print("{}\n", pair.kind);
     });
