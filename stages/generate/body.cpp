@@ -84,7 +84,7 @@ TriangleMesh Body::mesh(int vertices, const Eigen::Matrix3d& turn) const {
 
 std::optional<TriangleMesh> Body::sphere_mesh(int vertices, const Eigen::Matrix3d& turn) const {
     const double finest = cell_for(*this, 2 * vertices, turn);
-    const TriangleMesh fine = grid_mesh(*this, std::min(finest, 0.6 * thinnest(*this)), turn);
+    const TriangleMesh fine = grid_mesh(*this, std::min(finest, 0.7 * thinnest(*this)), turn);
     if (!is_sphere(fine)) return std::nullopt;
     return coarsen(fine, vertices).mesh;
 }

@@ -17,10 +17,13 @@ int deciding_limb(const std::vector<Limb>& limbs, const Vec3& point) {
     return std::count_if(distance.begin(), distance.end(), near) == 1 ? int(nearest - distance.begin()) : -1;
 }
 
-/// Where the ray from inside leaves the surface.
-Vec3 way_out(const BodyDistance& distance, const Vec3& from, const Vec3& direction, double reach) {
-    double inside = 0, outside = reach;
-    for (int step = 0; step < 50; ++step) {
+/// Where the ray from inside first leaves the surface.
+Vec3 way_out(const BodyDistance& distance, const Vec3& from, const Vec3& direction) {
+    constexpr double step = 0.01;
+    double outside = step;
+    while (outside < 10 && distance(from + outside * direction) < 0) outside += step;
+    double inside = outside - step;
+    for (int halving = 0; halving < 50; ++halving) {
         const double middle = (inside + outside) / 2;
         (distance(from + middle * direction) < 0 ? inside : outside) = middle;
     }
@@ -41,8 +44,7 @@ std::optional<Vec3> Partner::operator()(const Vec3& point) const {
     const double t = std::clamp((point - limb.a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
     const Vec3 direction =
         Eigen::Quaterniond::FromTwoVectors(axis, other_axis) * (point - limb.a - t * axis).normalized();
-    const Vec3 image =
-        way_out(distance_, other.a + t * other_axis, direction, 3 * std::max(other.ra, other.rb) + 0.3);
+    const Vec3 image = way_out(distance_, other.a + t * other_axis, direction);
     if (deciding_limb(others_, image) != k) return {};
     return image;
 }
