@@ -42,12 +42,14 @@ require() {  # PROGRAM
     command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
 }
 
-require_shapes() {
-    [[ -x $VARIMAP_BIN/selftest-shapes ]] || fail 6 "no selftest-shapes in $VARIMAP_BIN; build the project with its tests"
+# generate_pair FAMILY SEED FOLDER OPTION...: makes FOLDER and lets varimap-generate write a pair there; prints its kind.
+generate_pair() {
+    mkdir -p -- "$3"
+    "$VARIMAP_BIN/varimap-generate" "$@" 2>"$3/log.txt" || fail $? "$(tail -n 1 "$3/log.txt")"
 }
 
-# map_shape FOLDER OUT OPTION...: maps the pair that selftest-shapes left in FOLDER, results in OUT; log.txt and errors.json
-# in FOLDER.
+# map_shape FOLDER OUT OPTION...: maps the pair that varimap-generate left in FOLDER, results in OUT; log.txt and
+# errors.json in FOLDER.
 map_shape() {
     "$varimap" map "$1/source.ply" "$1/target.ply" -o "$2" "${@:3}" >/dev/null 2>"$1/log.txt" || return
     "$VARIMAP_BIN/varimap-evaluate" "$1/target.ply" "$2/source_to_target.csv" "$1/source.txt" "$1/target.txt" \

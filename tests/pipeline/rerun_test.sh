@@ -8,10 +8,12 @@ figure c.off 8 -.5
 landmarks_of_figure a.off >tips.txt
 pair="diffuse refine relax remesh render"
 explored="diffuse explore refine relax remesh render"
-all="coarsen*2 diffuse eigen*2 explore hierarchy*2 preprocess*2 refine relax remesh render"
+# Every surface has a sketch, on which exploration runs: for its self-maps, and for the pair.
+all="coarsen*4 diffuse eigen*4 explore*3 hierarchy*4 preprocess*2 refine relax remesh render"
+one_surface="coarsen*2 diffuse eigen*2 explore*2 hierarchy*2 preprocess refine relax remesh render"
 
-solved="diffuse eigen*2 explore hierarchy*2 refine relax remesh render"
-coarser="coarsen*2 $solved"
+solved="diffuse eigen*4 explore*3 hierarchy*4 refine relax remesh render"
+coarser="coarsen*4 $solved"
 
 step() {  # STAGES ARGUMENTS: maps a onto b in out, and expects what ran
     local expected=$1
@@ -27,11 +29,11 @@ step "" -j 3
 step "relax remesh render" --set relax.relaxation_steps=3
 step "relax remesh render"
 
-step "diffuse eigen*2 explore hierarchy*2 refine relax remesh render" --set eigen.count=30
+step "$solved" --set eigen.count=30
 step "refine relax remesh render" --set eigen.count=30 --set refine.tolerance=0.01
 step "render" --set eigen.count=30 --set refine.tolerance=0.01 --set render.width=320
 step "" --set render.width=320 --set refine.tolerance=0.01 --set eigen.count=30
-step "diffuse eigen*2 explore hierarchy*2 refine relax remesh render"
+step "$solved"
 
 # Coarse meshes; and where nothing was coarsened, all vertices are the same.
 step "" --full-resolution
@@ -53,9 +55,9 @@ step ""
 touch -d 2001-01-01 c.off
 mv b.off kept.off
 cp -p c.off b.off
-step "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
+step "$one_surface"
 mv kept.off b.off
-step "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
+step "$one_surface"
 
 step "$pair" --area-bound 1.5
 step "" --set diffuse.area_bound=1.5 --set refine.area_bound=1.5
@@ -79,7 +81,7 @@ step "$pair"
 # Another pair in the same folder shares a; its exports take the place of the first's.
 cp out/source_to_target.csv to_b.csv
 map a.off c.off -o out
-expect_ran "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
+expect_ran "$one_surface"
 cmp -s out/source_to_target.csv to_b.csv && fail "the exports are still those of a and b"
 step "remesh render"
 same out/source_to_target.csv to_b.csv
@@ -90,9 +92,9 @@ expect_ran "remesh render"
 map c.off b.off -o other --artifacts out/artifacts
 expect_ran "$explored"
 map a.off a.off -o self
-expect_ran "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
+expect_ran "$one_surface"
 map a.off a.off -o self --mirror
-expect_ran "coarsen diffuse eigen explore hierarchy preprocess refine relax remesh render"
+expect_ran "$one_surface"
 
 # The tables are made without relaxing the map again, and quality.json without making the tables again. What is made
 # again with the same bytes makes nothing else run.
@@ -104,8 +106,9 @@ cp out/quality.json whole.json
 rm out/quality.json
 step ""
 same <(jq 'del(.stages)' out/quality.json) <(jq 'del(.stages)' whole.json)
-jq -e '.stages | keys == ["coarsen a", "coarsen b", "diffuse a--b", "eigen a", "eigen b", "explore a--b", "hierarchy a",
-    "hierarchy b", "preprocess a", "preprocess b", "refine a--b", "relax a--b", "remesh a--b"] and all(.wall_seconds > 0)' out/quality.json >/dev/null ||
+jq -e '.stages | keys == ["coarsen a", "coarsen a.sketch", "coarsen b", "coarsen b.sketch", "diffuse a--b", "eigen a", "eigen a.sketch", "eigen b",
+    "eigen b.sketch", "explore a--b", "explore a.sketch", "explore b.sketch", "hierarchy a", "hierarchy a.sketch", "hierarchy b",
+    "hierarchy b.sketch", "preprocess a", "preprocess b", "refine a--b", "relax a--b", "remesh a--b"] and all(.wall_seconds > 0)' out/quality.json >/dev/null ||
     fail "the stages in quality.json"
 # A stage without its side file was killed before its end.
 echo '{' >out/artifacts/a.basis.run.json

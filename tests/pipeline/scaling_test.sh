@@ -22,4 +22,4 @@ jq -e '.source.vertices > 6000' full/7000/map/quality.json >jq.txt || fail "--fu
 expect_exit 2 "$scaling" --sizes 100
 expect_exit 2 "$scaling" --sizes many
 expect_exit 2 "$scaling" --shape x
-expect_exit 2 "$VARIMAP_BIN/selftest-shapes" 3 out many
+expect_exit 2 "$VARIMAP_BIN/varimap-generate" isometric 3 out --vertices many

@@ -14,9 +14,13 @@ code=0
 ((code == 1)) || fail "exit $code for a wrong map"
 grep -Eq ' (wrong|mirrored)$' out.txt || fail "no row says that the map is wrong"
 expect_exit 2 "$selftest" --count x
-expect_exit 2 "$VARIMAP_BIN/selftest-shapes" two out
-expect_exit 2 "$VARIMAP_BIN/selftest-shapes" -1 out
-expect_exit 6 "$VARIMAP_BIN/selftest-shapes" 2 absent
+expect_exit 2 "$selftest" --family bird
+expect_exit 2 "$selftest" --variation 0.5  # copies have no proportions that differ
+
+# Members of a family.
+"$selftest" -o members --family bone --first 1 --count 1 --variation 0.3 "${small_picture[@]}" >out.txt 2>log ||
+    fail "--family bone (exit $?)"
+[[ $(awk -F, 'NR > 1 { print $1, $2, $7 }' members/selftest.csv) == '1 bone right' ]] || fail "members/selftest.csv"
 
 # Leading zeros do not make a number octal.
 "$selftest" -o zeros --first 08 --count 1 "${small_picture[@]}" >out.txt 2>log || (($? == 1)) || fail "--first 08"

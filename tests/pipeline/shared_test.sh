@@ -32,8 +32,16 @@ finish two $two
 same_results good one
 same_results good two
 cat one.log two.log >log
-for stage in preprocess eigen hierarchy; do [[ $(grep -c "^\[$stage\] done" log) == 2 ]] || fail "$stage did not run twice"; done
-for stage in explore diffuse refine; do [[ $(grep -c "^\[$stage\] done" log) == 1 ]] || fail "$stage did not run once"; done
+ran_times() {  # COUNT STAGE...
+    local stage
+    for stage in "${@:2}"; do
+        [[ $(grep -c "^\[$stage\] done" log) == "$1" ]] || fail "$stage did not run $1 times"
+    done
+}
+ran_times 1 diffuse refine
+ran_times 2 preprocess
+ran_times 3 explore          # for the pair, and for both surfaces' self-maps
+ran_times 4 eigen hierarchy  # of both surfaces and their sketches
 run p a.off b.off --artifacts q
 one=$!
 run q b.off a.off --artifacts p

@@ -159,6 +159,11 @@ const std::string& Stage::input(const std::string& role, const std::string& help
         .value;
 }
 
+const std::string& Stage::word(const std::string& role, const std::string& help) {
+    return state_->line.positionals.emplace_back(CommandLine::Text{role, help, CommandLine::Use::other, {}})
+        .value;
+}
+
 const std::vector<std::string>& Stage::input_list(const std::string& role, const std::string& help) {
     return state_->line.files
         .emplace(CommandLine::TextList{role, help, CommandLine::Use::input, 1, 1 << 20, {}})

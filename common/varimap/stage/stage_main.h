@@ -39,6 +39,8 @@ class Stage {
     void parameters(const std::function<void(ParameterList&)>& describe);
     /// A required positional file that is read.
     const std::string& input(const std::string& role, const std::string& help);
+    /// A required positional that names no file to read.
+    const std::string& word(const std::string& role, const std::string& help);
     /// One or more positional files behind the others.
     const std::vector<std::string>& input_list(const std::string& role, const std::string& help);
     /// The positional file that is written; at most one per stage. Schema 0: a file that is no artifact, such

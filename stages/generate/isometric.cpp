@@ -1,16 +1,16 @@
-#include "selftest/body.h"
+#include "stages/generate/isometric.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "stages/generate/random.h"
 
 namespace varimap::shapes {
 
 namespace {
 
 using std::numbers::pi;
-
-constexpr double blend = 0.06;  ///< width of the transition between parts
 
 /// Bends what lies beyond `start` from `a` towards `b`, within `length`.
 Bend bend_of(const Vec3& a, const Vec3& b, double start, double length, const Vec3& towards, double angle) {
@@ -24,10 +24,6 @@ Part bent_limb(const Limb& limb, double root, Random& random, std::vector<Limb> 
     more.insert(more.begin(), limb);
     const Vec3 towards = random.direction();
     return {more, bend_of(limb.a, limb.b, root, 0.7 * length, towards, random.between(0.4, 0.9))};
-}
-
-Part unbent(std::vector<Limb> limbs) {
-    return {std::move(limbs), {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 0, 1, 0}};
 }
 
 Vec3 reflected(const Vec3& p) {
@@ -154,51 +150,7 @@ Body person(const Cues& cues, Random& random) {
 
 }  // namespace
 
-Vec3 Random::direction() {
-    const double z = between(-1, 1), turn = between(0, 2 * pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(turn), r * std::sin(turn), z};
-}
-
-Eigen::Matrix3d Random::rotation() {
-    const Vec3 axis = direction();
-    return Eigen::AngleAxisd(between(0, pi), axis).toRotationMatrix();
-}
-
-std::vector<Limb> Body::limbs() const {
-    std::vector<Limb> all;
-    for (const Part& part : parts) all.insert(all.end(), part.limbs.begin(), part.limbs.end());
-    return all;
-}
-
-Vec3 Body::posed(const Vec3& p) const {
-    Vec3 moved = Vec3::Zero();
-    double sum = 0;
-    for (const Part& part : parts) {
-        const double weight = std::exp(-smooth_distance(part.limbs, p) / blend);
-        moved += weight * part.bend.forward(p);
-        sum += weight;
-    }
-    return bend.forward(moved / sum);
-}
-
-TriangleMesh Body::mesh(int vertices, const Eigen::Matrix3d& turn) const {
-    const std::vector<Limb> all = limbs();
-    Eigen::AlignedBox3d box;
-    for (const Limb& limb : all)
-        for (const auto& [end, radius] : {std::pair(limb.a, limb.ra), std::pair(limb.b, limb.rb)}) {
-            const Vec3 margin = Vec3::Constant(radius + 0.3);
-            box.extend(turn * end - margin).extend(turn * end + margin);
-        }
-    const auto distance = [&](const Vec3& p) { return smooth_distance(all, turn.transpose() * p); };
-    constexpr double coarse = 0.1;
-    const int coarse_vertices = level_set(distance, box.min(), box.max(), coarse).vertex_count();
-    TriangleMesh mesh =
-        level_set(distance, box.min(), box.max(), coarse * std::sqrt(double(coarse_vertices) / vertices));
-    mesh.vertices *= turn;  // rows: by the inverse
-    return mesh;
-}
-
-SelftestShape selftest_shape(unsigned seed) {
+IsometricShape isometric_shape(unsigned seed) {
     Random random(seed);
     const unsigned kind = seed % 5, variant = seed / 5 % 4;
     if (kind == 0) return {"blob", blob(random)};

@@ -1,0 +1,186 @@
+#include "stages/generate/generate.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "stages/generate/families.h"
+#include "stages/generate/isometric.h"
+#include "stages/generate/meshes.h"
+#include "stages/generate/partner.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/printable.h"
+#include "varimap/mesh/io/mesh_file.h"
+
+namespace varimap {
+
+namespace {
+
+using TruePair = GeneratedPair::TruePair;
+
+/// A shape and its mesh at rest.
+struct Shape {
+    shapes::Body body;
+    TriangleMesh rest;
+
+    TriangleMesh posed() const {
+        TriangleMesh mesh = rest;
+        for (int v = 0; v < mesh.vertex_count(); ++v)
+            mesh.vertices.row(v) = body.posed(mesh.vertex(v)).transpose();
+        return mesh;
+    }
+};
+
+/// `vertices`, or some number by the seed.
+int vertices_of(const GenerateParams& params, shapes::Random& random) {
+    const int by_seed = int(random.between(2000, 6000));
+    return params.vertices > 0 ? params.vertices : by_seed;
+}
+
+/// Pairs of these source vertices and the target vertices at their true images; only the fifth of them whose
+/// images are nearest to a vertex, so that the target's tessellation hardly counts as an error. Of many
+/// vertices, some thousands are asked.
+std::vector<TruePair> true_pairs(const std::vector<int>& vertices, const Points& images,
+                                 const TriangleMesh& target) {
+    std::vector<TruePair> rows;
+    const std::size_t step = std::max<std::size_t>(1, vertices.size() / 6000);
+    for (std::size_t i = 0; i < vertices.size(); i += step) {
+        int nearest;
+        const double squared = (target.vertices.rowwise() - images.row(Eigen::Index(i)))
+                                   .rowwise()
+                                   .squaredNorm()
+                                   .minCoeff(&nearest);
+        rows.push_back({squared, vertices[i], nearest});
+    }
+    std::sort(rows.begin(), rows.end(),
+              [](const TruePair& a, const TruePair& b) { return a.squared_distance < b.squared_distance; });
+    rows.resize(rows.size() / 5);
+    return rows;
+}
+
+/// Where the target is put in space.
+class Placement {
+  public:
+    explicit Placement(shapes::Random& random)
+        : scale_(random.between(0.1, 10)), angle_(random.between(0, 3)) {}
+    TriangleMesh operator()(TriangleMesh mesh) const {
+        return shapes::moved(std::move(mesh), scale_, angle_, {1, -2, 3});
+    }
+
+  private:
+    double scale_, angle_;
+};
+
+GeneratedPair isometric_pair(unsigned seed, const GenerateParams& params) {
+    const auto [kind, body] = shapes::isometric_shape(seed);
+    shapes::Random random(seed + 1000);
+    const auto draw = [&, &body = body] {
+        const int vertices = vertices_of(params, random);
+        return Shape{body, body.mesh(vertices, random.rotation())};
+    };
+    const Shape source = draw(), target = draw();
+    const Placement placed(random);
+    GeneratedPair pair{kind, source.rest, shapes::shuffled(placed(target.posed()), seed), {}};
+    std::vector<int> all(std::size_t(source.rest.vertex_count()));
+    std::iota(all.begin(), all.end(), 0);
+    pair.truth = true_pairs(all, placed(source.posed()).vertices, pair.target);
+    return pair;
+}
+
+/// A member with the surface of a ball. Where limbs touch that were drawn too close, another is drawn.
+Shape draw_member(int family, const GenerateParams& params, shapes::Random& random) {
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        shapes::Body body = shapes::family_member(family, params, random);
+        const int vertices = vertices_of(params, random);
+        if (auto mesh = body.sphere_mesh(vertices, random.rotation())) return {std::move(body), *mesh};
+    }
+    throw InputError("limbs touch in every member that was drawn: take less variation or relief");
+}
+
+GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& params) {
+    shapes::Random random(16 * seed + unsigned(family));
+    const Shape source = draw_member(family, params, random), target = draw_member(family, params, random);
+    const Placement placed(random);
+    const std::string& name = shapes::family_names()[std::size_t(family)];
+    GeneratedPair pair{name, source.posed(), shapes::shuffled(placed(target.posed()), seed), {}};
+    const shapes::Partner partner(source.body, target.body);
+    std::vector<int> vertices;
+    std::vector<Vec3> partners;  // at rest
+    for (int v = 0; v < source.rest.vertex_count(); ++v)
+        if (const auto image = partner(source.rest.vertex(v))) {
+            vertices.push_back(v);
+            partners.push_back(*image);
+        }
+    const Shape images{target.body, shapes::make_mesh(partners, {})};
+    pair.truth = true_pairs(vertices, placed(images.posed()).vertices, pair.target);
+    return pair;
+}
+
+void require_default(double value, double usual, const char* name) {
+    if (value != usual)
+        throw UsageError(fmt::format("--{} is for families; shapes of isometric are copies, bent", name));
+}
+
+/// Six pairs, each next one farthest from those before.
+std::string landmarks(const GeneratedPair& pair) {
+    const std::vector<TruePair>& rows = pair.truth;
+    std::vector<double> nearest(rows.size(), std::numeric_limits<double>::infinity());
+    std::string list;
+    std::size_t next = 0;
+    for (int i = 0; i < std::min(6, int(rows.size())); ++i) {
+        list += fmt::format("{} {}\n", rows[next].source, rows[next].target);
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            nearest[k] = std::min(
+                nearest[k],
+                (pair.source.vertex(rows[k].source) - pair.source.vertex(rows[next].source)).squaredNorm());
+        next = std::size_t(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
+    }
+    return list;
+}
+
+}  // namespace
+
+std::vector<std::string> generated_families() {
+    std::vector<std::string> names{"isometric"};
+    names.insert(names.end(), shapes::family_names().begin(), shapes::family_names().end());
+    return names;
+}
+
+GeneratedPair generate(const std::string& family, unsigned seed, const GenerateParams& params) {
+    if (params.vertices != 0 && params.vertices < 500)
+        throw UsageError(fmt::format("--vertices {}: give 500 or more, or 0", params.vertices));
+    if (family == "isometric") {
+        const GenerateParams usual;
+        require_default(params.variation, usual.variation, "variation");
+        require_default(params.bending, usual.bending, "bending");
+        require_default(params.asymmetry, usual.asymmetry, "asymmetry");
+        require_default(params.missing, usual.missing, "missing");
+        require_default(params.relief, usual.relief, "relief");
+        return isometric_pair(seed, params);
+    }
+    const auto& names = shapes::family_names();
+    const auto found = std::find(names.begin(), names.end(), family);
+    if (found == names.end())
+        throw UsageError(fmt::format("no family '{}'; there are {}", printable(family),
+                                     fmt::join(generated_families(), ", ")));
+    return family_pair(int(found - names.begin()), seed, params);
+}
+
+void write_pair(const GeneratedPair& pair, const std::string& folder) {
+    std::string source_list, target_list;
+    for (const TruePair& row : pair.truth) {
+        source_list += fmt::format("{}\n", row.source);
+        target_list += fmt::format("{}\n", row.target);
+    }
+    write_file_atomically(folder + "/source.txt", source_list);
+    write_file_atomically(folder + "/target.txt", target_list);
+    write_file_atomically(folder + "/landmarks.txt", landmarks(pair));
+    write_file_atomically(folder + "/source.ply", to_ply(pair.source));
+    write_file_atomically(folder + "/target.ply", to_ply(pair.target));
+}
+
+}  // namespace varimap

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stages/generate/params.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Two generated surfaces and what is known of the map between them.
+struct GeneratedPair {
+    std::string kind;
+    TriangleMesh source, target;
+    struct TruePair {
+        double squared_distance;  ///< of the target's vertex from the true image, in the target's units
+        int source, target;       ///< vertices
+    };
+    std::vector<TruePair> truth;  ///< those nearest to a vertex first
+};
+
+/// What `family` may be: "isometric" and shapes::family_names(), which see.
+std::vector<std::string> generated_families();
+
+/// A pair of that family; the target is scaled, turned, moved and renumbered. "isometric": a shape at rest
+/// and the same one bent, differently tessellated. Otherwise two members, each posed; both of genus 0.
+/// Deterministic. Throws UsageError for an unknown family, and for parameters that the family has not.
+GeneratedPair generate(const std::string& family, unsigned seed, const GenerateParams& params);
+
+/// Writes source.ply, target.ply, source.txt and target.txt (true pairs of vertices, row by row) and
+/// landmarks.txt (six of them, far from each other) into the folder, which must be there (IoError).
+void write_pair(const GeneratedPair& pair, const std::string& folder);
+
+}  // namespace varimap

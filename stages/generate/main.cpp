@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <filesystem>
+
+#include "stages/generate/generate.h"
+#include "varimap/core/printable.h"
+#include "varimap/stage/stage_main.h"
+
+namespace {
+
+using namespace varimap;
+
+unsigned seed_from(const std::string& text) {
+    unsigned number = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stop != end)
+        throw UsageError(fmt::format("seed '{}': give a whole number from 0 to 4294967295", printable(text)));
+    return number;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    GenerateParams params;
+    Stage stage("generate", "Two generated surfaces and the true map between them");
+    stage.parameters([&](ParameterList& list) { params.describe(list); });
+    const auto& family = stage.word("family", fmt::format("{}", fmt::join(generated_families(), ", ")));
+    const auto& seed = stage.word("seed", "a number: the same one gives the same pair");
+    const auto& folder = stage.word("folder",
+                                    "that is there, for source.ply, target.ply, source.txt, target.txt "
+                                    "and landmarks.txt");
+    return stage.main(argc, argv, [&] {
+        const unsigned number = seed_from(seed);
+        if (!std::filesystem::is_directory(folder))
+            throw IoError(fmt::format("cannot write into '{}': there is no such folder", folder));
+        const GeneratedPair pair = generate(family, number, params);
+        write_pair(pair, folder);
+        fmt::print("{}\n", pair.kind);
+    });
+}

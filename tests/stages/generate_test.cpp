@@ -1,0 +1,191 @@
+#include "stages/generate/generate.h"
+
+#include <gmock/gmock.h>
+
+#include "stages/generate/families.h"
+#include "stages/generate/partner.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+using shapes::Body;
+using ::testing::HasSubstr;
+
+GenerateParams small_meshes() {
+    GenerateParams params;
+    params.vertices = 1000;
+    return params;
+}
+
+GenerateParams all_variety() {
+    GenerateParams params = small_meshes();
+    params.variation = 1.2;
+    params.asymmetry = 1;
+    params.missing = 0.5;
+    params.relief = 0.01;
+    return params;
+}
+
+std::vector<std::pair<int, int>> pairs_of(const GeneratedPair& pair) {
+    std::vector<std::pair<int, int>> rows;
+    for (const auto& row : pair.truth) rows.emplace_back(row.source, row.target);
+    return rows;
+}
+
+void expect_sphere(const TriangleMesh& mesh) {
+    EXPECT_NO_THROW(require_manifold(mesh, "generated"));
+    EXPECT_TRUE(is_closed(mesh));
+    EXPECT_EQ(summarise_topology(mesh).genus, 0);
+    EXPECT_EQ(summarise_topology(mesh).used_vertices, mesh.vertex_count());
+    EXPECT_THAT(vertex_components(mesh), ::testing::Each(0));
+    EXPECT_GT(signed_volume(mesh), 0);
+    EXPECT_EQ(mesh.vertex_count(), 1000);
+}
+
+void expect_truth(const GeneratedPair& pair) {
+    EXPECT_GE(pair.truth.size(), 30u);
+    const double area = surface_area(pair.target);
+    for (const auto& row : pair.truth) {
+        EXPECT_LT(row.source, pair.source.vertex_count());
+        EXPECT_LT(row.target, pair.target.vertex_count());
+        EXPECT_LT(row.squared_distance, 1e-3 * area);
+    }
+}
+
+/// A member of that family and the vertices of its surface at rest.
+struct Member {
+    Member(int family, unsigned seed, const GenerateParams& params)
+        : Member(family, shapes::Random(seed), params) {}
+    Body body;
+    TriangleMesh rest;
+
+  private:
+    Member(int family, shapes::Random random, const GenerateParams& params)
+        : body(shapes::family_member(family, params, random)), rest(body.mesh(1000, random.rotation())) {}
+};
+
+int family_count() {
+    return int(shapes::family_names().size());
+}
+
+TEST(Generate, FamiliesAreClosedSurfacesOfGenusZeroHoweverTheyVary) {
+    for (const std::string& family : shapes::family_names())
+        for (const GenerateParams& params : {small_meshes(), all_variety()}) {
+            SCOPED_TRACE(family);
+            const GeneratedPair pair = generate(family, 3, params);
+            expect_sphere(pair.source);
+            expect_sphere(pair.target);
+            expect_truth(pair);
+        }
+}
+
+TEST(Generate, TheSeedDecidesAll) {
+    for (const char* family : {"isometric", "tool"}) {
+        SCOPED_TRACE(family);
+        const GeneratedPair pair = generate(family, 8, small_meshes()),
+                            again = generate(family, 8, small_meshes());
+        EXPECT_EQ(to_ply(pair.source), to_ply(again.source));
+        EXPECT_EQ(to_ply(pair.target), to_ply(again.target));
+        EXPECT_EQ(pairs_of(pair), pairs_of(again));
+        EXPECT_NE(to_ply(generate(family, 9, small_meshes()).source), to_ply(pair.source));
+    }
+}
+
+/// Without variation and relief two members are the same shape at rest, and unbent the same one.
+TEST(Generate, MembersOfNoVariationAreCongruentUpToTheirPlace) {
+    GenerateParams params = small_meshes();
+    params.variation = params.bending = params.relief = 0;
+    for (const std::string& family : shapes::family_names()) {
+        SCOPED_TRACE(family);
+        const GeneratedPair pair = generate(family, 1, params);
+        const double scale = std::sqrt(surface_area(pair.target) / surface_area(pair.source));
+        const auto& rows = pair.truth;
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            const double there =
+                (pair.source.vertex(rows[i].source) - pair.source.vertex(rows[0].source)).norm();
+            const double here =
+                (pair.target.vertex(rows[i].target) - pair.target.vertex(rows[0].target)).norm();
+            EXPECT_NEAR(here / scale, there, 0.1);
+        }
+    }
+}
+
+TEST(Partner, OfAMemberWithItselfIsThePointItself) {
+    for (int family = 0; family < family_count(); ++family) {
+        SCOPED_TRACE(family);
+        const Member a(family, 5, small_meshes());
+        const shapes::Partner partner(a.body, a.body);
+        int found = 0;
+        for (int v = 0; v < a.rest.vertex_count(); ++v)
+            if (const auto image = partner(a.rest.vertex(v))) {
+                ++found;
+                EXPECT_LT((*image - a.rest.vertex(v)).norm(), 1e-6);
+            }
+        EXPECT_GT(found, a.rest.vertex_count() / 8);
+    }
+}
+
+TEST(Partner, ThereAndBackReturns) {
+    for (int family = 0; family < family_count(); ++family) {
+        SCOPED_TRACE(family);
+        const Member a(family, 5, small_meshes()), b(family, 6, small_meshes());
+        const shapes::Partner there(a.body, b.body), back(b.body, a.body);
+        int found = 0;
+        for (int v = 0; v < a.rest.vertex_count(); ++v) {
+            const auto image = there(a.rest.vertex(v));
+            if (!image) continue;
+            const auto returned = back(*image);
+            ASSERT_TRUE(returned);
+            EXPECT_LT((*returned - a.rest.vertex(v)).norm(), 1e-6);
+            ++found;
+        }
+        EXPECT_GT(found, a.rest.vertex_count() / 10);
+    }
+}
+
+TEST(Partner, IsNoneOnAMissingPart) {
+    constexpr int quadruped = 1;
+    const Member whole(quadruped, 5, small_meshes());
+    Body docked = whole.body;
+    shapes::Limb& tail = docked.parts.back().limbs.front();
+    tail.missing = true;
+    const shapes::Partner onto_docked(whole.body, docked), onto_whole(docked, whole.body);
+    int on_tail = 0;
+    for (int v = 0; v < whole.rest.vertex_count(); ++v) {
+        const Vec3 p = whole.rest.vertex(v);
+        if (whole.body.parts.back().limbs.front().distance(p) > 0.02) continue;
+        ++on_tail;
+        EXPECT_FALSE(onto_docked(p));
+    }
+    EXPECT_GT(on_tail, 10);
+    const TriangleMesh rest = docked.mesh(1000, Eigen::Matrix3d::Identity());
+    for (int v = 0; v < rest.vertex_count(); ++v) {
+        const auto image = onto_whole(rest.vertex(v));
+        EXPECT_TRUE(!image || whole.body.parts.back().limbs.front().distance(*image) > 0.05);
+    }
+}
+
+std::string refusal(const std::string& family, const GenerateParams& params) {
+    try {
+        generate(family, 1, params);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Generate, SaysWhatFamiliesThereAre) {
+    EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, biped"));
+    GenerateParams varied;
+    varied.variation = 0.5;
+    EXPECT_THAT(refusal("isometric", varied), HasSubstr("--variation"));
+    GenerateParams few;
+    few.vertices = 20;
+    EXPECT_THAT(refusal("hand", few), HasSubstr("--vertices 20"));
+}
+
+}  // namespace
+}  // namespace varimap
