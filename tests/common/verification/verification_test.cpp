@@ -7,6 +7,7 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "stages/generate/level_set.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/verification/map_degree.h"
