@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "stages/view/page.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/stage/stage_main.h"
+
+namespace {
+
+using namespace varimap;
+
+constexpr std::size_t large_page = 15 << 20;  ///< bytes beyond which browsers take their time
+
+/// Landmarks that went into the map, with the names that picked points have.
+NamedLandmarks named_landmarks(const std::vector<std::string>& files, const Correspondence& map) {
+    NamedLandmarks result;
+    if (files.empty()) return result;
+    const Landmarks landmarks = read_landmarks(files, map.from, map.to);
+    result.points = landmarks.points;
+    if (result.points.empty())
+        for (const auto& [source, target] : landmarks.vertices)
+            result.points.emplace_back(point_at_vertex(map.from, source.index),
+                                       point_at_vertex(map.to, target.index));
+    for (std::size_t i = 0; i < result.points.size(); ++i) result.names.push_back(fmt::format("L{}", i + 1));
+    return result;
+}
+
+std::string read_report(const std::string& path) {
+    if (path.empty()) return "";
+    const std::string text = read_file(path);
+    if (!nlohmann::json::accept(text))
+        throw InputError(path + ": is not JSON; make it with pipelines/report.jq");
+    return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Stage stage("view", "A page that shows a map, for any browser, without network");
+    const auto& source = stage.input("source-mesh", "mesh the map starts from");
+    const auto& target = stage.input("target-mesh", "mesh the map leads to");
+    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
+    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    const auto& frame = stage.input("frame", "page without data, made by pipelines/view/build");
+    const auto& page = stage.output("page", 0, "HTML to write");
+    const auto& report = stage.input_option("report", "what pipelines/report.jq makes of quality.json");
+    const auto& landmarks = stage.input_list_option(
+        "landmarks", "what the map was made with: a file of pairs, or two lists", 1, 2);
+    const auto& mirror = stage.flag("mirror", "the map reverses orientation on purpose");
+    return stage.main(argc, argv, [&] {
+        const MapFiles files{source, target, there, back};
+        const Correspondence map = read_correspondence(files, false);
+        const std::string html = viewer_page(
+            {map, named_landmarks(landmarks, map), read_report(report), mirror}, read_file(frame));
+        if (html.size() > large_page)
+            warn("the page has {} MB and will take a while to open", html.size() >> 20);
+        stage.write_file(page, html);
+        fmt::print("{}\n", page);
+    });
+}
