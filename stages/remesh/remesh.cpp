@@ -4,6 +4,7 @@
 
 namespace varimap {
 
+<<<<<<< HEAD
 namespace {
 
 /// The target's file, its faces as the file has them.
@@ -40,6 +41,21 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
     Faces faces = faces_with_images(file.faces, map);
     if (source.mirrored != target.mirrored) faces.col(1).swap(faces.col(2));
     return {image_positions(map, plain_file(target), fallback_positions(file, source, target)), faces};
+=======
+TriangleMesh mesh_of_file(const Surface& surface) {
+    return surface.mirrored ? with_reversed_orientation(surface).input : surface.input;
+}
+
+TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target) {
+    Points fallback = source.input.vertices;
+    fallback.rowwise() -= source.centre.transpose();
+    fallback *= source.scale / target.scale;
+    fallback.rowwise() += target.centre.transpose();
+    const TriangleMesh in_file = mesh_of_file(target);
+    Faces faces = source.input.faces;
+    if (target.mirrored) faces.col(1).swap(faces.col(2));
+    return {image_positions(map, in_file, fallback), faces};
+>>>>>>> 69c4978 (Give the map as arrays; test what is carried, the page and the arrays; document them)
 }
 
 std::string masses_csv(const Surface& surface, const std::vector<int>& samples,

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "stages/transfer/values.h"
+#include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/io/number_type.h"
@@ -78,18 +79,6 @@ NpyHeader read_header(std::string_view bytes, const std::string& path) {
     return header;
 }
 
-std::string npy_header(const NpyHeader& header, Eigen::Index rows) {
-    std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},{}), }}",
-                                   header.type, rows, header.flat ? "" : fmt::format(" {}", header.columns));
-    // Ten bytes go before the text; together with it and a line break they fill a multiple of 64.
-    text.append(63 - (10 + text.size()) % 64, ' ');
-    text += '\n';
-    std::string bytes("\x93NUMPY\x01\x00", 8);
-    bytes += char(text.size() % 256);
-    bytes += char(text.size() / 256);
-    return bytes + text;
-}
-
 }  // namespace
 
 ValueFile parse_npy_values(std::string_view bytes, const std::string& path) {
@@ -107,7 +96,9 @@ ValueFile parse_npy_values(std::string_view bytes, const std::string& path) {
         }
     const auto write = [header](const std::vector<ValueTable>& tables, const TriangleMesh&) {
         const Eigen::MatrixXd& values = tables[0].values;
-        std::string out = npy_header(header, values.rows());
+        std::vector<long long> shape{values.rows()};
+        if (!header.flat) shape.push_back(values.cols());
+        std::string out = npy_header(header.type, shape);
         for (Eigen::Index row = 0; row < values.rows(); ++row)
             for (Eigen::Index column = 0; column < values.cols(); ++column)
                 types().find(header.type)->second.append(values(row, column), out);

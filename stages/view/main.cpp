@@ -14,7 +14,19 @@ using namespace varimap;
 
 constexpr std::size_t large_page = 15 << 20;  ///< bytes beyond which browsers take their time
 
-/// Landmarks that went into the map, with the names that picked points have.
+/// The names that the points of a file have, where it has as many; else numbers.
+std::vector<std::string> names_of(const std::string& file, std::size_t count) {
+    std::vector<std::string> names;
+    if (is_picked_points(file))
+        for (const PickedPoint& point : read_picked_points(file))
+            if (point.defined) names.push_back(point.name);
+    if (names.size() == count) return names;
+    names.clear();
+    for (std::size_t i = 0; i < count; ++i) names.push_back(fmt::format("L{}", i + 1));
+    return names;
+}
+
+/// Landmarks that went into the map, with their names.
 NamedLandmarks named_landmarks(const std::vector<std::string>& files, const Correspondence& map) {
     NamedLandmarks result;
     if (files.empty()) return result;
@@ -24,7 +36,7 @@ NamedLandmarks named_landmarks(const std::vector<std::string>& files, const Corr
         for (const auto& [source, target] : landmarks.vertices)
             result.points.emplace_back(point_at_vertex(map.from, source.index),
                                        point_at_vertex(map.to, target.index));
-    for (std::size_t i = 0; i < result.points.size(); ++i) result.names.push_back(fmt::format("L{}", i + 1));
+    result.names = names_of(files[0], result.points.size());
     return result;
 }
 

@@ -13,6 +13,7 @@
 #include "stages/transfer/seams.h"
 #include "stages/transfer/shape.h"
 #include "stages/transfer/values.h"
+#include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/ply_columns.h"
@@ -64,6 +65,14 @@ struct PosedPair {
     }
     double unit() const { return std::sqrt(surface_area(map.to)); }
 };
+
+/// Of the grid that meshes the figure: what two tessellations may differ by at sharp tips.
+constexpr double half_edge = .15 / 2;
+
+/// Largest y^2 + z^2, the squared gradient of y z.
+double truth_radius(const TriangleMesh& mesh) {
+    return mesh.vertices.rightCols<2>().rowwise().squaredNorm().maxCoeff();
+}
 
 /// Texture coordinates by angle and height about the z axis: one patch with a seam behind it, and the poles.
 ObjModel unwrapped(const TriangleMesh& mesh) {
@@ -140,7 +149,7 @@ TEST_F(Transfer, CarriesPointsOntoAnotherTessellationInAnotherPose) {
         sum += 3 * error, worst = std::max(worst, error);
     }
     EXPECT_LT(sum / pair.rest.face_count(), 1.5e-3);
-    EXPECT_LT(worst, 1.2e-2);
+    EXPECT_LT(worst, half_edge / pair.unit());
     RecordProperty("mean", std::to_string(sum / pair.rest.face_count()));
 }
 
@@ -206,7 +215,9 @@ TEST_F(Transfer, InterpolatesASmoothFunctionOntoAnotherTessellation) {
     const double extent = truth.maxCoeff() - truth.minCoeff();
     const Eigen::VectorXd error = (carried.values.col(0) - truth).cwiseAbs() / extent;
     EXPECT_LT(error.mean(), 2e-3);
-    EXPECT_LT(error.maxCoeff(), 3e-2);
+    const double steepest = std::sqrt(4 + truth_radius(pair.rest));
+    EXPECT_LT(error.maxCoeff(), half_edge * steepest / extent);
+    RecordProperty("mean", std::to_string(error.mean()));
 }
 
 TEST_F(Transfer, KeepsValuesOfTheIdentity) {
@@ -231,13 +242,17 @@ TEST_F(Transfer, LabelsAreNeverMixedAndKeepTheirWords) {
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line, "vertex,part");
-    int wrong = 0;
-    for (int v = 0; std::getline(lines, line); ++v) {
+    int seen = 0;
+    for (; std::getline(lines, line); ++seen) {
         const bool front = line.ends_with(",front");
         ASSERT_TRUE(front || line.ends_with(",back")) << line;
-        wrong += front != (pair.other.vertices(v, 0) > 0);
+        // The border runs along edges of the source.
+        const double x = pair.other.vertices(seen, 0);
+        if (std::abs(x) > 2 * half_edge) {
+            EXPECT_EQ(front, x > 0) << seen;
+        }
     }
-    EXPECT_LT(wrong, .01 * pair.other.vertex_count());
+    EXPECT_EQ(seen, pair.other.vertex_count());
 }
 
 TEST_F(Transfer, WeightsStaySumsOfOne) {
@@ -269,11 +284,7 @@ TEST_F(Transfer, WritesTheFormatItReads) {
     columns.face.push_back({"part", "int", std::vector<double>(std::size_t(ball_.face_count()), -3)});
     const std::string ply = to_ply(ball_, columns);
     EXPECT_EQ(round_trip(write("a.ply", ply)), ply);
-    std::string npy("\x93NUMPY\x01\x00", 8);
-    std::string head =
-        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({},), }}", ball_.vertex_count());
-    head.append(63 - (10 + head.size()) % 64, ' ');
-    npy += char(head.size() + 1), npy += '\0', npy += head + "\n";
+    std::string npy = npy_header("<f4", {ball_.vertex_count()});
     for (int v = 0; v < ball_.vertex_count(); ++v) {
         const float value = float(v) / 3;
         npy.append(reinterpret_cast<const char*>(&value), 4);
