@@ -15,9 +15,13 @@
 
 namespace varimap {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+static void to_json(Json& json, const ArrayPlace& array) {
+    json = {{"at", array.at}, {"count", array.count}, {"type", array.type}};
+}
+
+namespace {
 
 constexpr double steps = 65535;    ///< of positions and barycentric coordinates
 constexpr double per_octave = 32;  ///< steps of the logarithm of distortions

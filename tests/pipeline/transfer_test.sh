@@ -51,8 +51,9 @@ refuse 6 "its materials a.mtl are missing" good --texture a.obj
 printf 'newmtl skin\nmap_Kd skin.png\n' >a.mtl
 refuse 6 "the texture skin.png is missing" good --texture a.obj
 figure c.off 5
-cp -r good other && awk 'NR < 10' other/source_to_target.csv >short && mv short other/source_to_target.csv
-refuse 3 "this is a map of another mesh" other --values heat.txt
+cp -r good cut
+awk 'NR < 10' good/source_to_target.csv >cut/source_to_target.csv
+refuse 3 "this is a map of another mesh" cut --values heat.txt
 cp a.off kept.off && figure a.off 5
 refuse 4 "changed since the map was made" good --values heat.txt
 rm a.off

@@ -37,10 +37,10 @@ TEST(View, Base64IsThatOfTheStandard) {
 
 TEST(View, ArraysStartWhereTheirDescriptionSays) {
     PackedArrays arrays;
-    EXPECT_EQ(arrays.add(std::vector<std::uint8_t>{1, 2, 3}, "Uint8Array").at("at"), 0);
+    EXPECT_EQ(arrays.add(std::vector<std::uint8_t>{1, 2, 3}, "Uint8Array").at, 0u);
     const auto second = arrays.add(std::vector<std::int32_t>{7, 8}, "Int32Array");
-    EXPECT_EQ(second.at("at"), 4);
-    EXPECT_EQ(second.at("count"), 2);
+    EXPECT_EQ(second.at, 4u);
+    EXPECT_EQ(second.count, 2u);
 }
 
 TEST(View, PageHoldsBothMeshesAndEndsNoElementEarly) {

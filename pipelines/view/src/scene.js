@@ -16,6 +16,13 @@ function radiusOf({ positions, size }) {
   return Math.sqrt(most) / size;
 }
 
+// Surfaces are seen along their shortest axis. Of those seen along y or z the other one is upright; of those seen
+// along x the shorter one, as four-legged animals stand.
+function likelyUp([x, y, z]) {
+  if (x <= y && x <= z) return y <= z ? 'y' : 'z';
+  return y <= z ? 'z' : 'y';
+}
+
 export class View {
   constructor(canvas, data, onDraw) {
     this.canvas = canvas;
@@ -35,7 +42,7 @@ export class View {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = true;
     this.controls.addEventListener('change', () => this.draw());
-    this.setUp(extent[2] > extent[1] ? 'z' : 'y', extent);
+    this.setUp(likelyUp(extent), extent);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
