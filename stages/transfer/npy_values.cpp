@@ -28,6 +28,7 @@ const std::map<std::string, NumberType, std::less<>>& types() {
     return table;
 }
 
+/// Rows and columns, or a list, which is flat.
 struct NpyHeader {
     std::string type;
     bool column_major = false, flat = false;
@@ -52,12 +53,14 @@ Eigen::Index extent(std::string_view text, const std::string& path) {
     return Eigen::Index(value);
 }
 
+/// `12,` is a list; `12, 3` and `12, 3, ` are rows and columns.
 void read_shape(std::string_view shape, const std::string& path, NpyHeader& header) {
-    const std::size_t comma = shape.find(',');
+    const std::size_t comma = std::min(shape.find(','), shape.size());
     header.rows = extent(shape.substr(0, comma), path);
-    const std::string_view rest = comma == shape.npos ? "" : shape.substr(comma + 1);
-    header.flat = rest.find_first_not_of(" ,") == rest.npos;
-    if (!header.flat) header.columns = extent(rest, path);
+    std::string_view rest = shape.substr(comma);
+    rest = rest.substr(0, rest.find_last_not_of(" ,") + 1);
+    header.flat = rest.empty();
+    if (!header.flat) header.columns = extent(rest.substr(1), path);
 }
 
 NpyHeader read_header(std::string_view bytes, const std::string& path) {

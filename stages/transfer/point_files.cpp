@@ -15,8 +15,8 @@ namespace varimap {
 
 namespace {
 
-std::string slicer_json(const std::string& bytes, const std::vector<PickedPoint>& points) {
-    auto file = nlohmann::ordered_json::parse(without_byte_order_mark(bytes, ""));
+std::string slicer_json(std::string_view bytes, const std::vector<PickedPoint>& points) {
+    auto file = nlohmann::ordered_json::parse(bytes);
     auto point = points.begin();
     for (auto& markup : file.at("markups"))
         for (auto& control : markup.at("controlPoints")) {
@@ -65,18 +65,19 @@ void set_attribute(std::string& tag, char name, double value) {
     }
 }
 
-std::string meshlab(const std::string& bytes, const std::vector<PickedPoint>& points) {
+std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& points) {
     std::string text;
     std::size_t done = 0;
     for (const PickedPoint& point : points) {
-        const std::size_t begin = bytes.find("<point ", done), end = bytes.find('>', begin);
-        std::string tag = bytes.substr(begin, end - begin);
+        const std::size_t begin = bytes.find("<point ", done);
+        const std::size_t end = std::min(bytes.find('>', begin), bytes.find("<point ", begin + 1));
+        std::string tag(bytes.substr(begin, end - begin));
         for (int axis = 0; axis < 3 && point.defined; ++axis)
             set_attribute(tag, "xyz"[axis], point.position[axis]);
-        text += bytes.substr(done, begin - done) + tag;
+        text += std::string(bytes.substr(done, begin - done)) + tag;
         done = std::min(end, bytes.size());
     }
-    return text + bytes.substr(done);
+    return text + std::string(bytes.substr(done));
 }
 
 bool is_number(std::string_view word) {
@@ -86,8 +87,9 @@ bool is_number(std::string_view word) {
 
 }  // namespace
 
-std::string with_positions(const std::string& path, const std::string& bytes,
+std::string with_positions(const std::string& path, const std::string& file,
                            const std::vector<PickedPoint>& points) {
+    const std::string_view bytes = without_byte_order_mark(file, path);
     return path.ends_with(".pp")     ? meshlab(bytes, points)
            : path.ends_with(".json") ? slicer_json(bytes, points)
                                      : slicer_fcsv(bytes, points);

@@ -80,41 +80,57 @@ std::string shortest(double value) {
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-}  // namespace
-
-ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind) {
-    const TextRows text = split_rows(bytes, path);
-    const bool named = has_names(text, kind);
-    const std::size_t first = named ? 1 : 0, width = text.rows[0].words.size();
-    const bool numbered = named && width > 1 && is_index_name(text.rows[0].words[0]);
-    const std::size_t skipped = numbered ? 1 : 0;
+/// What a file looks like besides its values.
+struct Layout {
+    std::string names;  ///< the first line, if it names columns
+    bool numbered = false;
+    char separator = ' ';
+    ValueKind kind;
     Dictionary words;
-    ValueTable table{Place::vertex,
-                     Eigen::MatrixXd(Eigen::Index(text.rows.size() - first), Eigen::Index(width - skipped))};
+};
+
+std::string to_text(const Eigen::MatrixXd& values, const Layout& layout) {
+    std::string text = layout.names;
+    for (Eigen::Index row = 0; row < values.rows(); ++row) {
+        if (layout.numbered) text += fmt::format("{}{}", row, layout.separator);
+        for (Eigen::Index c = 0; c < values.cols(); ++c) {
+            if (c > 0) text += layout.separator;
+            text += layout.kind == ValueKind::label ? layout.words.word_of(values(row, c))
+                                                    : shortest(values(row, c));
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// The rows behind `first`, without the column that numbers them.
+Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::string& path, Layout& layout) {
+    const std::size_t width = text.rows[0].words.size(), skipped = layout.numbered ? 1 : 0;
+    Eigen::MatrixXd values(Eigen::Index(text.rows.size() - first), Eigen::Index(width - skipped));
     for (std::size_t i = first; i < text.rows.size(); ++i) {
         const TextRow& row = text.rows[i];
         if (row.words.size() != width)
             throw InputError(fmt::format("{}:{}: {} columns, but the first line has {}", path, row.line,
                                          row.words.size(), width));
-        if (numbered) require_number(row, i - first, path);
+        if (layout.numbered) require_number(row, i - first, path);
         for (std::size_t c = skipped; c < width; ++c)
-            table.values(Eigen::Index(i - first), Eigen::Index(c - skipped)) =
-                cell(row, c, kind, words, path);
+            values(Eigen::Index(i - first), Eigen::Index(c - skipped)) =
+                cell(row, c, layout.kind, layout.words, path);
     }
-    const std::string names = named ? join(text.rows[0].words, text.separator) + "\n" : "";
-    const auto write = [=, separator = text.separator](const std::vector<ValueTable>& tables,
-                                                       const TriangleMesh&) {
-        const Eigen::MatrixXd& values = tables[0].values;
-        std::string out = names;
-        for (Eigen::Index row = 0; row < values.rows(); ++row) {
-            if (numbered) out += fmt::format("{}{}", row, separator);
-            for (Eigen::Index c = 0; c < values.cols(); ++c) {
-                if (c > 0) out += separator;
-                out += kind == ValueKind::label ? words.word_of(values(row, c)) : shortest(values(row, c));
-            }
-            out += '\n';
-        }
-        return out;
+    return values;
+}
+
+}  // namespace
+
+ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind) {
+    const TextRows text = split_rows(bytes, path);
+    const auto& first = text.rows[0].words;
+    const bool named = has_names(text, kind);
+    Layout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
+    if (named) layout.names = join(first, text.separator) + "\n";
+    ValueTable table{Place::vertex, read_cells(text, named ? 1 : 0, path, layout)};
+    const auto write = [layout](const std::vector<ValueTable>& tables, const TriangleMesh&) {
+        return to_text(tables[0].values, layout);
     };
     return {{std::move(table)}, write};
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <sstream>
 
@@ -290,6 +291,9 @@ TEST_F(Transfer, WritesTheFormatItReads) {
         npy.append(reinterpret_cast<const char*>(&value), 4);
     }
     EXPECT_EQ(round_trip(write("a.npy", npy)), npy);
+    const std::vector<std::int8_t> bytes(2 * std::size_t(ball_.face_count()), -7);
+    const std::string table = to_npy("|i1", {ball_.face_count(), 2}, bytes);
+    EXPECT_EQ(round_trip(write("b.npy", table)), table);
 }
 
 TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
@@ -304,6 +308,8 @@ TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
     EXPECT_THAT(refusal(request, map), HasSubstr("a.csv:2: 'warm' is not a number; give words as --labels"));
     request.values = {write("a.npy", "nothing of the kind")};
     EXPECT_THAT(refusal(request, map), HasSubstr("a.npy: not an .npy file"));
+    request.values = {write("a.npy", to_npy("<f8", {162, 1, 1}, std::vector<double>(162)))};
+    EXPECT_THAT(refusal(request, map), HasSubstr("its shape is not one of rows and columns"));
     std::string two;
     for (int v = 0; v < ball_.vertex_count(); ++v) two += "0.5 0.6\n";
     request = {};
