@@ -26,10 +26,8 @@ std::vector<std::string> names_of(const std::string& file, std::size_t count) {
     return names;
 }
 
-/// Landmarks that went into the map, with their names.
-NamedLandmarks named_landmarks(const std::vector<std::string>& files, const Correspondence& map) {
+NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const Correspondence& map) {
     NamedLandmarks result;
-    if (files.empty()) return result;
     const Landmarks landmarks = read_landmarks(files, map.from, map.to);
     result.points = landmarks.points;
     if (result.points.empty())
@@ -38,6 +36,17 @@ NamedLandmarks named_landmarks(const std::vector<std::string>& files, const Corr
                                        point_at_vertex(map.to, target.index));
     result.names = names_of(files[0], result.points.size());
     return result;
+}
+
+/// Landmarks that went into the map, with their names; none where their files have changed beyond use.
+NamedLandmarks landmarks_of(const std::vector<std::string>& files, const Correspondence& map) {
+    if (files.empty()) return {};
+    try {
+        return read_named_landmarks(files, map);
+    } catch (const InputError& error) {
+        warn("{}; the page shows no landmarks", error.what());
+        return {};
+    }
 }
 
 std::string read_report(const std::string& path) {
@@ -65,8 +74,8 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         const MapFiles files{source, target, there, back};
         const Correspondence map = read_correspondence(files, false);
-        const std::string html = viewer_page(
-            {map, named_landmarks(landmarks, map), read_report(report), mirror}, read_file(frame));
+        const std::string html =
+            viewer_page({map, landmarks_of(landmarks, map), read_report(report), mirror}, read_file(frame));
         if (html.size() > large_page)
             warn("the page has {} MB and will take a while to open", html.size() >> 20);
         stage.write_file(page, html);

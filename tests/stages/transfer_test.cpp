@@ -256,6 +256,25 @@ TEST_F(Transfer, LabelsAreNeverMixedAndKeepTheirWords) {
     EXPECT_EQ(seen, pair.other.vertex_count());
 }
 
+TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
+    Correspondence map = identity(ball_);
+    map.back[5] = {};
+    std::string numbers;
+    for (int v = 0; v < ball_.vertex_count(); ++v) numbers += fmt::format("{}\n", v);
+    TransferRequest request;
+    request.values = {write("a.csv", numbers),
+                      write("a.npy", to_npy("<i4", {162}, std::vector<int>(162, 7)))};
+    const auto files = carry(request, map);
+    EXPECT_THAT(files.at("a.csv"), HasSubstr("\n4\nnan\n6\n"));
+    std::vector<int> truth(162, 7);
+    truth[5] = 0;
+    EXPECT_EQ(files.at("a.npy"), to_npy("<i4", {162}, truth));
+    request = {};
+    request.points = {write("v.txt", "5\n")};
+    map.there[5] = {};
+    EXPECT_THAT(refusal(request, map), HasSubstr("v.txt:1: vertex 5 has no image"));
+}
+
 TEST_F(Transfer, WeightsStaySumsOfOne) {
     const PosedPair pair;
     Eigen::MatrixXd weights = Eigen::MatrixXd::Random(pair.rest.vertex_count(), 6).cwiseAbs();
