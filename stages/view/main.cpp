@@ -12,8 +12,6 @@ namespace {
 
 using namespace varimap;
 
-constexpr std::size_t large_page = 15 << 20;  ///< bytes beyond which browsers take their time
-
 /// The names that the points of a file have, where it has as many; else numbers.
 std::vector<std::string> names_of(const std::string& file, std::size_t count) {
     std::vector<std::string> names;
@@ -74,11 +72,8 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         const MapFiles files{source, target, there, back};
         const Correspondence map = read_correspondence(files, false);
-        const std::string html =
-            viewer_page({map, landmarks_of(landmarks, map), read_report(report), mirror}, read_file(frame));
-        if (html.size() > large_page)
-            warn("the page has {} MB and will take a while to open", html.size() >> 20);
-        stage.write_file(page, html);
+        stage.write_file(page, viewer_page({map, landmarks_of(landmarks, map), read_report(report), mirror},
+                                           read_file(frame)));
         fmt::print("{}\n", page);
     });
 }

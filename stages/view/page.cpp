@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stages/view/packed_arrays.h"
+#include "stages/view/thinning.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/topology.h"
@@ -23,8 +24,9 @@ static void to_json(Json& json, const ArrayPlace& array) {
 
 namespace {
 
-constexpr double steps = 65535;    ///< of positions and barycentric coordinates
-constexpr double per_octave = 32;  ///< steps of the logarithm of distortions
+constexpr double steps = 65535;     ///< of positions and barycentric coordinates
+constexpr double per_octave = 32;   ///< steps of the logarithm of distortions
+constexpr int most_shown = 150000;  ///< vertices of a surface: pages stay below 15 MB
 constexpr const char* place = "<!--varimap-data-->";
 
 std::uint16_t step(double share) {
@@ -85,6 +87,7 @@ struct Side {
     const std::string& file;
     const TriangleMesh& mesh;
     const PointMap& map;
+    int vertices;  ///< of the file
 };
 
 Json add_side(const Side& side, const TriangleMesh& other, bool mirrored, PackedArrays& arrays) {
@@ -94,7 +97,8 @@ Json add_side(const Side& side, const TriangleMesh& other, bool mirrored, Packed
     const Vec3 low = (box.low + box.high) / 2 - Vec3::Constant(extent / 2);
     Json json{{"file", printable(side.file)},
               {"name", printable(std::filesystem::path(side.file).stem().string())},
-              {"vertices", side.mesh.vertex_count()},
+              {"vertices", side.vertices},
+              {"shown", side.mesh.vertex_count()},
               {"faces", side.mesh.face_count()},
               {"low", {low[0], low[1], low[2]}},
               {"extent", extent},
@@ -160,11 +164,13 @@ std::string inside_page(std::string json) {
 std::string viewer_page(const PageContent& content, const std::string& frame) {
     const std::size_t at = frame.find(place);
     if (at == frame.npos) throw InputError("the page's frame has no place for data; build it again");
-    const Correspondence& map = content.map;
+    const Correspondence map = thinned(content.map, most_shown);
+    const int in_source = content.map.from.vertex_count(), in_target = content.map.to.vertex_count();
     PackedArrays arrays;
     Json json;
-    json["source"] = add_side({map.from_file, map.from, map.there}, map.to, content.mirrored, arrays);
-    json["target"] = add_side({map.to_file, map.to, map.back}, map.from, content.mirrored, arrays);
+    json["source"] =
+        add_side({map.from_file, map.from, map.there, in_source}, map.to, content.mirrored, arrays);
+    json["target"] = add_side({map.to_file, map.to, map.back, in_target}, map.from, content.mirrored, arrays);
     json["turn"] = rows_of(target_to_source(map));
     json["landmarks"] = landmarks_json(content);
     json["report"] = content.report.empty() ? Json() : Json::parse(content.report);

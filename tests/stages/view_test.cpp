@@ -7,6 +7,7 @@
 #include "fixtures/shapes.h"
 #include "stages/view/packed_arrays.h"
 #include "stages/view/page.h"
+#include "stages/view/thinning.h"
 #include "varimap/core/error.h"
 
 namespace varimap {
@@ -72,6 +73,30 @@ TEST(View, TurnsTheTargetAsTheSourceStands) {
         for (int k = 0; k < 3; ++k) R(i, k) = turn[i][k].get<double>();
     const Vec3 edge = content.map.to.vertex(9) - content.map.to.vertex(4);
     EXPECT_LT((R * edge / 2 - (mesh.vertex(9) - mesh.vertex(4))).norm(), 1e-9);
+}
+
+TEST(View, ThinsLargeSurfacesForTheEye) {
+    const TriangleMesh fine = shapes::ellipsoid(4, {1, 2, 3});
+    PageContent content = content_of(fine);
+    const Correspondence shown = thinned(content.map, 500);
+    EXPECT_EQ(shown.from.vertex_count(), 500);
+    EXPECT_EQ(int(shown.there.size()), 500);
+    for (int v = 0; v < 500; ++v)  // both are thinned alike, so the identity stays
+        EXPECT_LT((position(shown.to, shown.there[std::size_t(v)]) - shown.from.vertex(v)).norm(), 1e-9);
+    const Correspondence same = thinned(content.map, fine.vertex_count());
+    EXPECT_EQ(same.from.faces, fine.faces);
+}
+
+TEST(View, LeavesOutVerticesThatNoFaceUsesWhenItThins) {
+    TriangleMesh fine = shapes::ellipsoid(3);
+    Points with_spare(fine.vertex_count() + 1, 3);
+    with_spare << Eigen::RowVector3d(9, 9, 9), fine.vertices;
+    fine.vertices = with_spare;
+    fine.faces.array() += 1;
+    PageContent content = content_of(fine);
+    const Correspondence shown = thinned(content.map, 100);
+    EXPECT_EQ(shown.to.vertex_count(), 100);
+    EXPECT_LT(shown.to.vertices.rowwise().norm().maxCoeff(), 1.1);
 }
 
 TEST(View, RefusesAFrameWithoutAPlace) {

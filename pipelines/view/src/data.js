@@ -13,7 +13,7 @@ async function inflated(text) {
 class Side {
   constructor(json, buffer) {
     const array = ({ at, count, type }) => new arrayTypes[type](buffer, at, count);
-    Object.assign(this, { file: json.file, name: json.name, axes: json.axes, size: json.size });
+    Object.assign(this, { file: json.file, name: json.name, axes: json.axes, size: json.size, inFile: json.vertices });
     this.middle = json.low.map((low) => low + json.extent / 2);
     this.positions = Float32Array.from(array(json.position), (step) => (step / steps - 0.5) * json.extent);
     this.corners = Uint32Array.from(array(json.corner));

@@ -36,9 +36,11 @@ class Page {
 
   describe() {
     for (const side of sides) {
-      const { name, vertexCount } = this.data[side];
+      const { name, vertexCount, inFile } = this.data[side];
       const caption = byId(`caption-${side}`);
-      caption.append(element('b', '', side), ` ${name}, ${vertexCount.toLocaleString('en')} vertices`);
+      const number = (count) => count.toLocaleString('en');
+      const shown = vertexCount < inFile ? `, ${number(vertexCount)} of them shown` : '';
+      caption.append(element('b', '', side), ` ${name}, ${number(inFile)} vertices${shown}`);
     }
     document.title = `${this.data.source.name} onto ${this.data.target.name} – varimap`;
     byId('title').textContent = `${this.data.source.name} → ${this.data.target.name}`;
