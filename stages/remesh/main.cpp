@@ -51,14 +51,9 @@ int main(int argc, char** argv) {
         stage.output("quality", ArtifactType<QualityNumbers>::schema, "artifact to write");
     const std::string& folder =
         stage.option("export",
-<<<<<<< HEAD
-                     "folder for source_to_target.csv, target_to_source.csv, source_on_target.ply, "
+                     "folder for source_to_target and target_to_source (.csv, .npz), source_on_target.ply, "
                      "target_on_source.ply, source_masses.csv, target_masses.csv, source_vertices.csv and "
                      "target_vertices.csv");
-=======
-                     "folder for source_to_target and target_to_source (.csv, .npz), source_on_target.ply, "
-                     "target_on_source.ply, source_masses.csv and target_masses.csv");
->>>>>>> 69c4978 (Give the map as arrays; test what is carried, the page and the arrays; document them)
     const std::string& json_file = stage.option("numbers", "JSON file for the quality numbers");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);

@@ -8,19 +8,13 @@
 
 namespace varimap {
 
-<<<<<<< HEAD
+/// The surface's mesh file, its faces as the file has them.
+TriangleMesh mesh_of_file(const Surface& surface);
+
 /// The source's file (faces reversed if one of the two is mirrored, so that they show their outside) with its
 /// vertices moved to their images, in the coordinates of the target's file. Vertices without an image keep
 /// their place relative to the source's centroid, scaled like the target; those that are not finite go to the
 /// target's centroid. Faces with corners that have no image are left out. `map`: between the files.
-=======
-/// The input as its mesh file has it: not mirrored.
-TriangleMesh mesh_of_file(const Surface& surface);
-
-/// The source's input mesh (faces reversed if one of the two is mirrored, so that they show their outside)
-/// with its vertices moved to their images, in the target's input coordinates. Vertices no face uses have no
-/// image: they keep their place relative to the source's centroid, scaled like the target.
->>>>>>> 69c4978 (Give the map as arrays; test what is carried, the page and the arrays; document them)
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target);
 
 /// `vertex,ratio`: transported mass by mass at the vertices of the file that are samples of the plan; with
