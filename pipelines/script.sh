@@ -80,6 +80,7 @@ parse_options() {
             return
             ;;
         -h) typed=--help ;;
+        -q) typed=--quiet ;;
         -o | -j) typed=${short[$typed]} ;;
         -o?* | -j?*) typed=${short[${typed::2}]}=${typed:2} ;;
         -?*) ;;

@@ -11,9 +11,11 @@ install(TARGETS ${libraries} EXPORT varimapTargets)
 install(DIRECTORY common/varimap pipelines/in_memory/varimap TYPE INCLUDE FILES_MATCHING PATTERN "*.h" PATTERN private EXCLUDE)
 install(PROGRAMS pipelines/varimap TYPE BIN)
 set(share ${CMAKE_INSTALL_DATADIR}/varimap)
-install(FILES pipelines/Makefile pipelines/quality.jq pipelines/script.sh DESTINATION ${share})
+install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/script.sh DESTINATION ${share})
 install(PROGRAMS pipelines/bench pipelines/scaling pipelines/selftest pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/help DESTINATION ${share})
+# The viewer's page, where it has been built: pipelines/view/build build/view/frame.html
+install(FILES ${PROJECT_BINARY_DIR}/view/frame.html DESTINATION ${share}/view OPTIONAL)
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/varimap)
@@ -32,6 +34,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # needs dpkg-shlibdeps of dpkg-dev
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "bash, make, jq, util-linux")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libtbb-dev, libfmt-dev, libspdlog-dev, libcereal-dev, \
-libopenmesh-dev, libembree-dev, libxxhash-dev, pkg-config")
+libopenmesh-dev, libembree-dev, libxxhash-dev, zlib1g-dev, pkg-config")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

@@ -2,26 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <iterator>
+
+#include "varimap/artifact/npy.h"
 
 namespace varimap {
 
-static_assert(std::endian::native == std::endian::little, "to_npy writes memory as it is");
-
 std::string to_npy(const ArrayView& array) {
     const bool real = std::holds_alternative<const double*>(array.data);
-    std::string shape;
-    for (const auto extent : array.shape) shape += fmt::format("{}, ", extent);
-    std::string text = fmt::format("{{'descr': '{}', 'fortran_order': {}, 'shape': ({}), }}",
-                                   real ? "<f8" : "<i4", array.column_major ? "True" : "False", shape);
-    // Ten bytes go before the text; together with it and a line break they fill a multiple of 64.
-    text.append(63 - (10 + text.size()) % 64, ' ');
-    text += '\n';
-    std::string bytes("\x93NUMPY\x01\x00", 8);
-    bytes += char(text.size() % 256);
-    bytes += char(text.size() / 256);
-    bytes += text;
+    std::string bytes =
+        npy_header(real ? "<f8" : "<i4", {array.shape.begin(), array.shape.end()}, array.column_major);
     std::visit(
         [&](const auto* data) {
             if (array.size() > 0)

@@ -25,6 +25,8 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
     stage.write_file(folder + "/source_to_target.csv", to_csv(map.A_to_B));
     stage.write_file(folder + "/target_to_source.csv", to_csv(map.B_to_A));
+    stage.write_file(folder + "/source_to_target.npz", to_npz(map.A_to_B, mesh_of_file(B)));
+    stage.write_file(folder + "/target_to_source.npz", to_npz(map.B_to_A, mesh_of_file(A)));
     stage.write_file(folder + "/source_masses.csv",
                      masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
     stage.write_file(folder + "/target_masses.csv",
@@ -49,7 +51,7 @@ int main(int argc, char** argv) {
         stage.output("quality", ArtifactType<QualityNumbers>::schema, "artifact to write");
     const std::string& folder =
         stage.option("export",
-                     "folder for source_to_target.csv, target_to_source.csv, source_on_target.ply, "
+                     "folder for source_to_target and target_to_source (.csv, .npz), source_on_target.ply, "
                      "target_on_source.ply, source_masses.csv, target_masses.csv, source_vertices.csv and "
                      "target_vertices.csv");
     const std::string& json_file = stage.option("numbers", "JSON file for the quality numbers");

@@ -4,13 +4,12 @@
 
 namespace varimap {
 
-namespace {
-
-/// The target's file, its faces as the file has them.
-TriangleMesh plain_file(const Surface& surface) {
+TriangleMesh mesh_of_file(const Surface& surface) {
     if (!surface.link.is_identity()) return surface.link.file;
     return surface.mirrored ? with_reversed_orientation(surface).input : surface.input;
 }
+
+namespace {
 
 /// Places for vertices without an image.
 Points fallback_positions(const TriangleMesh& file, const Surface& source, const Surface& target) {
@@ -36,10 +35,10 @@ Faces faces_with_images(const Faces& faces, const PointMap& map) {
 }  // namespace
 
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target) {
-    const TriangleMesh file = plain_file(source);
+    const TriangleMesh file = mesh_of_file(source);
     Faces faces = faces_with_images(file.faces, map);
     if (source.mirrored != target.mirrored) faces.col(1).swap(faces.col(2));
-    return {image_positions(map, plain_file(target), fallback_positions(file, source, target)), faces};
+    return {image_positions(map, mesh_of_file(target), fallback_positions(file, source, target)), faces};
 }
 
 std::string masses_csv(const Surface& surface, const std::vector<int>& samples,

@@ -155,8 +155,8 @@ void run_one(const Target& target, const std::string& bytes, const std::string& 
 
 std::vector<Target> all_targets() {
     std::vector<Target> all;
-    for (const auto& list :
-         {mesh_targets(), landmark_targets(), artifact_targets(), stage_targets(), config_targets()})
+    for (const auto& list : {mesh_targets(), landmark_targets(), artifact_targets(), stage_targets(),
+                             config_targets(), transfer_targets()})
         all.insert(all.end(), list.begin(), list.end());
     return all;
 }

@@ -30,5 +30,7 @@ std::vector<Target> artifact_targets();
 std::vector<Target> stage_targets();
 /// Config files and values of parameters.
 std::vector<Target> config_targets();
+/// Readers of what is carried through a map, and what becomes of it.
+std::vector<Target> transfer_targets();
 
 }  // namespace varimap::fuzz

@@ -56,6 +56,8 @@ check_front_end() {  # VARIMAP
     says "--check" "$1" inspect --help
     "$1" inspect --check out/artifacts/a.surface 2>log || fail "inspect through $1"
     says "degree" "$1" verify a.off b.off out/source_to_target.csv
+    says "verdict" "$1" report out
+    says "out/transfer/list.txt" "$1" transfer out --points list.txt
     says "varimap map SOURCE TARGET" "$1" --help
     says "varimap map SOURCE TARGET" "$1" help
     says "--landmark-weight W" "$1" help map
@@ -73,7 +75,7 @@ check_front_end "$varimap"
 # From an installed prefix, and through a link to it.
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
-cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,script.sh,bench,scaling,selftest,torus} prefix/share/varimap
+cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,script.sh,bench,scaling,selftest,torus} prefix/share/varimap
 cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap
 (

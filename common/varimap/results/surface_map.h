@@ -36,6 +36,11 @@ std::string to_csv(const PointMap& map);
 /// Throws InputError naming file and line.
 PointMap read_csv_map(const std::string& path);
 
+/// The same as an .npz: `face` (int32), `barycentric` (n x 3), `nearest_vertex` (int32; -1 as of faces), and
+/// `format`, `shape`, `data`, `indices`, `indptr` of the sparse matrix (CSR, as SciPy's load_npz reads it)
+/// that takes values of the vertices of `target` to the images; rows without an image are empty.
+std::string to_npz(const PointMap& map, const TriangleMesh& target);
+
 /// Positions on `target` of a map's images; rows without an image keep the given fallback row.
 Points image_positions(const PointMap& map, const TriangleMesh& target, const Points& fallback);
 

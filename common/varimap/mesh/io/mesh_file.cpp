@@ -9,6 +9,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/ply_columns.h"
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -61,11 +62,6 @@ TriangleMesh fan(const PolygonSoup& soup) {
     return mesh;
 }
 
-template <class T>
-void append(std::string& bytes, const T* values, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
-}
-
 }  // namespace
 
 Space stated_space(std::string_view comments) {
@@ -86,18 +82,7 @@ TriangleMesh parse_mesh(std::string_view bytes, const std::string& path) {
 }
 
 std::string to_ply(const TriangleMesh& mesh) {
-    std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\n"
-        "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        mesh.vertex_count(), mesh.face_count());
-    bytes.reserve(bytes.size() + 24 * std::size_t(mesh.vertex_count()) + 13 * std::size_t(mesh.face_count()));
-    append(bytes, mesh.vertices.data(), std::size_t(mesh.vertices.size()));
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        bytes.push_back(3);
-        append(bytes, mesh.faces.data() + 3 * f, 3);
-    }
-    return bytes;
+    return to_ply(mesh, {});
 }
 
 }  // namespace varimap

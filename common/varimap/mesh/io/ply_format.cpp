@@ -2,57 +2,30 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <functional>
-#include <map>
 
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
+#include "varimap/mesh/io/number_type.h"
+#include "varimap/mesh/io/ply_columns.h"
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary meshes are read in place");
-
-/// A scalar type of PLY: how many bytes, and how to read them.
-struct Type {
-    int bytes = 0;
-    double (*read)(const char*) = nullptr;
-};
-
-template <class T>
-Type type_of() {
-    return {int(sizeof(T)), [](const char* at) {
-                T value;
-                std::memcpy(&value, at, sizeof value);
-                return double(value);
-            }};
-}
-
-Type find_type(const TextScanner& scanner, std::string_view name) {
-    static const std::map<std::string, Type, std::less<>> types{
-        {"char", type_of<std::int8_t>()},     {"int8", type_of<std::int8_t>()},
-        {"uchar", type_of<std::uint8_t>()},   {"uint8", type_of<std::uint8_t>()},
-        {"short", type_of<std::int16_t>()},   {"int16", type_of<std::int16_t>()},
-        {"ushort", type_of<std::uint16_t>()}, {"uint16", type_of<std::uint16_t>()},
-        {"int", type_of<std::int32_t>()},     {"int32", type_of<std::int32_t>()},
-        {"uint", type_of<std::uint32_t>()},   {"uint32", type_of<std::uint32_t>()},
-        {"float", type_of<float>()},          {"float32", type_of<float>()},
-        {"double", type_of<double>()},        {"float64", type_of<double>()}};
-    const auto found = types.find(name);
-    if (found == types.end()) scanner.fail("a property has a type that PLY does not know");
-    return found->second;
+const NumberType& find_type(const TextScanner& scanner, std::string_view name) {
+    const NumberType* type = ply_type(name);
+    if (type == nullptr) scanner.fail("a property has a type that PLY does not know");
+    return *type;
 }
 
 struct Property {
     std::string name;
-    Type count;  ///< of a list's length; 0 bytes where the property is one value
-    Type value;
+    std::string type;  ///< of the value, as the file calls it
+    NumberType count;  ///< of a list's length; 0 bytes where the property is one value
+    NumberType value;
 };
 
 struct Element {
@@ -80,7 +53,8 @@ void read_property(const TextScanner& scanner, PlyHeader& header) {
     const bool is_list = words.size() > 1 && words[1] == "list";
     if (words.size() < (is_list ? 5u : 3u)) scanner.fail("a property is incomplete");
     if (is_list) property.count = find_type(scanner, words[2]);
-    property.value = find_type(scanner, words[is_list ? 3 : 1]);
+    property.type = words[is_list ? 3 : 1];
+    property.value = find_type(scanner, property.type);
     property.name = words[is_list ? 4 : 2];
     header.elements.back().properties.push_back(property);
 }
@@ -124,7 +98,7 @@ class Body {
     Body(std::string_view bytes, const std::string& format, const std::string& path)
         : bytes_(bytes), ascii_(format == "ascii"), swap_(format == "binary_big_endian"), path_(path) {}
 
-    double next(const Type& type) { return ascii_ ? next_word() : next_binary(type); }
+    double next(const NumberType& type) { return ascii_ ? next_word() : next_binary(type); }
     /// Refuses a list that cannot fit into the rest of the file.
     std::size_t next_count(const Property& property) {
         const double count = next(property.count);
@@ -147,7 +121,7 @@ class Body {
         at_ = end;
         return value;
     }
-    double next_binary(const Type& type) {
+    double next_binary(const NumberType& type) {
         if (left() < std::size_t(type.bytes)) fail("the file ends before its last element");
         char value[8] = {};
         for (int i = 0; i < type.bytes && i < 8; ++i)
@@ -251,7 +225,37 @@ void read_strips(Body& body, const Element& element, PolygonSoup& soup) {
         [] {});
 }
 
+/// The numbers of one element, a column for each property that is no list.
+std::vector<PlyColumn> read_columns(Body& body, const Element& element) {
+    std::vector<PlyColumn> columns;
+    std::vector<int> column_of;
+    for (const Property& property : element.properties) {
+        column_of.push_back(property.count.bytes > 0 ? -1 : int(columns.size()));
+        if (property.count.bytes == 0) columns.push_back({property.name, property.type, {}});
+    }
+    read_element(
+        body, element,
+        [&](std::size_t property, const std::vector<double>& values) {
+            if (column_of[property] >= 0)
+                columns[std::size_t(column_of[property])].values.push_back(values[0]);
+        },
+        [] {});
+    return columns;
+}
+
 }  // namespace
+
+PlyColumns parse_ply_columns(std::string_view bytes, const std::string& path) {
+    const PlyHeader header = read_header(bytes, path);
+    Body body(bytes.substr(header.bytes), header.format, path);
+    PlyColumns columns;
+    for (const Element& element : header.elements) {
+        std::vector<PlyColumn> found = read_columns(body, element);
+        if (element.name == "vertex") columns.vertex = std::move(found);
+        if (element.name == "face") columns.face = std::move(found);
+    }
+    return columns;
+}
 
 PolygonSoup parse_ply(std::string_view bytes, const std::string& path) {
     const PlyHeader header = read_header(bytes, path);

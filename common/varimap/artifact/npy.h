@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace varimap {
+
+/// What stands in front of the numbers of an .npy file (NumPy's format 1.0). `type` as NumPy says it: "<f8",
+/// "<i4"; a shape without extents is one value.
+std::string npy_header(const std::string& type, const std::vector<long long>& shape,
+                       bool column_major = false);
+
+/// An .npy file of a list of numbers, row by row.
+template <class T>
+std::string to_npy(const char* type, const std::vector<long long>& shape, const std::vector<T>& numbers) {
+    return npy_header(type, shape) +
+           std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T));
+}
+
+/// A zip archive of files (name, bytes), stored as they are, with the date 1980-01-01: the same bytes for the
+/// same files. An .npz is one of .npy files. Throws IoError beyond 4 GB.
+std::string to_zip(const std::vector<std::pair<std::string, std::string>>& files);
+
+}  // namespace varimap

@@ -1,0 +1,66 @@
+#include "varimap/results/correspondence.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/results/surface_map.h"
+
+namespace varimap {
+
+namespace {
+
+void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& from,
+                 const std::string& from_file, const TriangleMesh& to, const std::string& to_file) {
+    if (int(map.size()) != from.vertex_count())
+        throw InputError(fmt::format("{}: {} rows, but {} has {} vertices: this is a map of another mesh",
+                                     path, map.size(), from_file, from.vertex_count()));
+    for (std::size_t v = 0; v < map.size(); ++v)
+        if (map[v].face >= to.face_count())
+            throw InputError(fmt::format("{}:{}: face {}, but {} has {} faces: this is a map to another mesh",
+                                         path, v + 2, map[v].face, to_file, to.face_count()));
+}
+
+}  // namespace
+
+Correspondence read_correspondence(const MapFiles& files, bool reverse) {
+    Correspondence map{files.source,
+                       files.target,
+                       read_mesh(files.source),
+                       read_mesh(files.target),
+                       read_csv_map(files.source_to_target),
+                       read_csv_map(files.target_to_source)};
+    require_fit(map.there, files.source_to_target, map.from, files.source, map.to, files.target);
+    require_fit(map.back, files.target_to_source, map.to, files.target, map.from, files.source);
+    if (!reverse) return map;
+    return {map.to_file,         map.from_file,       std::move(map.to),
+            std::move(map.from), std::move(map.back), std::move(map.there)};
+}
+
+PointCarrier::PointCarrier(const TriangleMesh& from, const PointMap& map, const TriangleMesh& to)
+    : from_(from), map_(map), to_(to), closest_(to), normals_{vertex_normals(to), to.faces, to.space} {}
+
+SurfacePoint PointCarrier::operator()(const SurfacePoint& point) const {
+    if (point.face < 0) return {};
+    const auto corners = from_.faces.row(point.face);
+    Vec3 place = Vec3::Zero(), normal = Vec3::Zero(), on_one_face = Vec3::Zero();
+    bool one_face = true;
+    int first = -1;
+    for (int k = 0; k < 3; ++k) {
+        const double share = point.barycentric[k];
+        if (share == 0) continue;
+        const SurfacePoint& image = map_[std::size_t(corners[k])];
+        if (image.face < 0) return {};
+        if (first < 0) first = image.face;
+        one_face = one_face && image.face == first;
+        on_one_face += share * image.barycentric;
+        place += share * position(to_, image);
+        normal += share * position(normals_, image);
+    }
+    if (one_face) return {first, on_one_face};
+    return closest_(place, normal).point;
+}
+
+}  // namespace varimap

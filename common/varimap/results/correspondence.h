@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// A map between two meshes as files hold it, in the direction in which things are carried.
+struct Correspondence {
+    std::string from_file, to_file;
+    TriangleMesh from, to;
+    PointMap there;  ///< per vertex of `from`: where it lies on `to`
+    PointMap back;   ///< per vertex of `to`: where it lies on `from`
+};
+
+/// The files of a map, source first.
+struct MapFiles {
+    std::string source, target, source_to_target, target_to_source;
+};
+
+/// Reads a map from source to target, or, where `reverse`, from target to source. Throws InputError where a
+/// table is not one of these meshes, IoError.
+Correspondence read_correspondence(const MapFiles& files, bool reverse);
+
+/// Carries points of one surface to another through a map of its vertices: linearly in space between the
+/// images of a face's corners, then to the closest point that faces as these images do, so that the other
+/// side of a thin part does not attract. A vertex goes exactly to its image. Thread-safe; keeps references to
+/// the meshes and the map.
+class PointCarrier {
+  public:
+    PointCarrier(const TriangleMesh& from, const PointMap& map, const TriangleMesh& to);
+    /// Nowhere where the point is, or where a corner of its face has no image.
+    SurfacePoint operator()(const SurfacePoint& point) const;
+
+  private:
+    const TriangleMesh& from_;
+    const PointMap& map_;
+    const TriangleMesh& to_;
+    ClosestPoint closest_;
+    TriangleMesh normals_;  ///< normals of `to` at its vertices, in place of positions
+};
+
+}  // namespace varimap

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "varimap/artifact/npy.h"
+#include "varimap/results/surface_map.h"
+
+namespace varimap {
+
+namespace {
+
+/// Rows of values of vertices: which of them, and how much of each.
+struct Csr {
+    std::vector<double> data;
+    std::vector<std::int32_t> indices, indptr{0};
+
+    void add_row(const SurfacePoint& point, const TriangleMesh& target) {
+        std::array<int, 3> order{0, 1, 2};
+        if (point.face >= 0)
+            std::sort(order.begin(), order.end(), [&](int a, int b) {
+                return target.faces(point.face, a) < target.faces(point.face, b);
+            });
+        for (const int k : order) {
+            if (point.face < 0 || point.barycentric[k] == 0) continue;
+            data.push_back(point.barycentric[k]);
+            indices.push_back(target.faces(point.face, k));
+        }
+        indptr.push_back(std::int32_t(data.size()));
+    }
+};
+
+std::int32_t nearest_vertex(const SurfacePoint& point, const TriangleMesh& target) {
+    if (point.face < 0) return -1;
+    int corner;
+    point.barycentric.maxCoeff(&corner);
+    return target.faces(point.face, corner);
+}
+
+}  // namespace
+
+std::string to_npz(const PointMap& map, const TriangleMesh& target) {
+    const auto n = static_cast<long long>(map.size());
+    std::vector<std::int32_t> faces, nearest;
+    std::vector<double> barycentric;
+    Csr csr;
+    for (const SurfacePoint& point : map) {
+        faces.push_back(point.face);
+        nearest.push_back(nearest_vertex(point, target));
+        barycentric.insert(barycentric.end(), point.barycentric.begin(), point.barycentric.end());
+        csr.add_row(point, target);
+    }
+    const auto entries = static_cast<long long>(csr.data.size());
+    const std::vector<std::int64_t> shape{n, target.vertex_count()};
+    return to_zip({{"face.npy", to_npy("<i4", {n}, faces)},
+                   {"barycentric.npy", to_npy("<f8", {n, 3}, barycentric)},
+                   {"nearest_vertex.npy", to_npy("<i4", {n}, nearest)},
+                   {"format.npy", npy_header("|S3", {}) + "csr"},
+                   {"shape.npy", to_npy("<i8", {2}, shape)},
+                   {"data.npy", to_npy("<f8", {entries}, csr.data)},
+                   {"indices.npy", to_npy("<i4", {entries}, csr.indices)},
+                   {"indptr.npy", to_npy("<i4", {n + 1}, csr.indptr)}});
+}
+
+}  // namespace varimap

@@ -1,0 +1,128 @@
+#include "stages/transfer/bake.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "stages/transfer/seams.h"
+#include "varimap/core/error.h"
+#include "varimap/core/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr double square_tolerance = 1e-3;
+
+/// Colours of the source's faces by their materials.
+class Paint {
+  public:
+    Paint(const TriangleMesh& mesh, const Texture& texture) : atlas_(mesh, texture.model) {
+        for (const std::string& name : texture.model.materials) {
+            const Material* material = texture.materials.find(name);
+            paints_.push_back(material == nullptr ? Entry{} : entry_of(*material));
+        }
+    }
+    Rgba operator()(const SurfacePoint& point) const {
+        const int material = atlas_.material(point.face);
+        const Entry none, &entry = material < 0 ? none : paints_[std::size_t(material)];
+        return entry.image.width > 0 ? sample_image(entry.image, atlas_(point)) : entry.colour;
+    }
+
+  private:
+    struct Entry {
+        Rgba colour{204, 204, 204, 255};
+        TextureImage image;
+    };
+    static Entry entry_of(const Material& material) {
+        const Vec3 rgb = 255 * material.colour.cwiseMax(0).cwiseMin(1);
+        Entry entry{{rgb[0], rgb[1], rgb[2], 255}, {}};
+        if (!material.texture.empty()) entry.image = read_png(material.texture);
+        return entry;
+    }
+    Atlas atlas_;
+    std::vector<Entry> paints_;
+};
+
+/// What of the target lies on the centre of each pixel.
+std::vector<SurfacePoint> faces_on_pixels(const ObjModel& target, int n) {
+    std::vector<SurfacePoint> on(std::size_t(n) * std::size_t(n));
+    for (int f = 0; f < int(target.uv_of.rows()); ++f) {
+        Eigen::Matrix<double, 2, 3> corner;
+        for (int k = 0; k < 3; ++k) {
+            const Vec2& uv = target.uv[std::size_t(target.uv_of(f, k))];
+            corner.col(k) = Vec2(uv[0] * n - .5, (1 - uv[1]) * n - .5);
+        }
+        Eigen::Matrix2d sides;
+        sides << corner.col(1) - corner.col(0), corner.col(2) - corner.col(0);
+        if (!(std::abs(sides.determinant()) > 1e-12)) continue;
+        const Eigen::Matrix2d inverse = sides.inverse();
+        const Vec2 low = corner.rowwise().minCoeff(), high = corner.rowwise().maxCoeff();
+        const int left = std::max(0, int(std::ceil(low[0]))), right = std::min(n - 1, int(high[0]));
+        const int top = std::max(0, int(std::ceil(low[1]))), bottom = std::min(n - 1, int(high[1]));
+        for (int y = top; y <= bottom; ++y)
+            for (int x = left; x <= right; ++x) {
+                const Vec2 b = inverse * (Vec2(x, y) - corner.col(0));
+                SurfacePoint& point = on[std::size_t(y) * std::size_t(n) + std::size_t(x)];
+                if (b.minCoeff() >= 0 && b.sum() <= 1 && point.face < 0)
+                    point = {f, {1 - b.sum(), b[0], b[1]}};
+            }
+    }
+    return on;
+}
+
+/// Pixels beside coloured ones get their mean, in one round.
+void grow(TextureImage& image) {
+    const TextureImage before = image;
+    parallel_for_each_index(image.height, 16, [&](int y) {
+        for (int x = 0; x < image.width; ++x) {
+            if (before.pixel(x, y)[3] > 0) continue;
+            Rgba sum = Rgba::Zero();
+            int count = 0;
+            for (int j = std::max(0, y - 1); j <= std::min(image.height - 1, y + 1); ++j)
+                for (int i = std::max(0, x - 1); i <= std::min(image.width - 1, x + 1); ++i) {
+                    const unsigned char* at = before.pixel(i, j);
+                    if (at[3] == 0) continue;
+                    sum += Rgba(at[0], at[1], at[2], at[3]);
+                    ++count;
+                }
+            for (int k = 0; k < 4 && count > 0; ++k)
+                image.pixel(x, y)[k] = static_cast<unsigned char>(std::lround(sum[k] / count));
+        }
+    });
+}
+
+void require_square(const ObjModel& target, const std::string& path) {
+    for (const int uv : target.uv_of.reshaped()) {
+        const Vec2& at = target.uv[std::size_t(uv)];
+        if (at.minCoeff() < -square_tolerance || at.maxCoeff() > 1 + square_tolerance)
+            throw InputError(
+                fmt::format("{}: texture coordinates ({:.4g}, {:.4g}) lie outside the square "
+                            "from 0 to 1, which is all that can be baked",
+                            path, at[0], at[1]));
+    }
+}
+
+}  // namespace
+
+TextureImage bake(const Correspondence& map, const PointCarrier& back, const Texture& texture,
+                  const ObjModel& target, const BakeSize& size) {
+    require_square(target, map.to_file);
+    const Paint paint(map.from, texture);
+    const auto on = faces_on_pixels(target, size.pixels);
+    TextureImage image(size.pixels, size.pixels);
+    parallel_for_each_index(int(on.size()), 256, [&](int i) {
+        const SurfacePoint source = back(on[std::size_t(i)]);
+        if (source.face < 0) return;
+        const Rgba colour = paint(source);
+        for (int k = 0; k < 4; ++k)
+            image.rgba[4 * std::size_t(i) + std::size_t(k)] =
+                static_cast<unsigned char>(std::clamp(std::lround(colour[k]), k == 3 ? 1l : 0l, 255l));
+    });
+    for (int i = 0; i < size.padding; ++i) grow(image);
+    return image;
+}
+
+}  // namespace varimap

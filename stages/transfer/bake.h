@@ -1,0 +1,26 @@
+#pragma once
+
+#include "stages/transfer/image.h"
+#include "stages/transfer/obj_model.h"
+#include "varimap/results/correspondence.h"
+
+namespace varimap {
+
+/// A surface's texture: coordinates, and by material an image or a colour.
+struct Texture {
+    const ObjModel& model;
+    const Materials& materials;
+};
+
+struct BakeSize {
+    int pixels = 2048;  ///< width and height
+    int padding = 8;  ///< pixels beyond the rim of every patch, so that no background shows when it is shrunk
+};
+
+/// The texture of `map.from` drawn onto the texture coordinates that `map.to` has of its own; transparent
+/// where no face lies. Where faces overlap the first counts. Throws InputError where `target`'s coordinates
+/// leave the square from 0 to 1 or an image is no PNG; IoError.
+TextureImage bake(const Correspondence& map, const PointCarrier& back, const Texture& texture,
+                  const ObjModel& target, const BakeSize& size);
+
+}  // namespace varimap

@@ -1,0 +1,135 @@
+#include "stages/transfer/gltf.h"
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+
+namespace varimap {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int float_type = 5126, index_type = 5125;
+
+/// The parts of a file: a description, and the numbers and images that it points into.
+class Glb {
+  public:
+    Glb() { json_["asset"] = {{"version", "2.0"}, {"generator", "varimap"}}; }
+    Json& json() { return json_; }
+
+    template <class T>
+    int add_view(const std::vector<T>& values) {
+        return add_view({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    }
+    int add_view(std::string_view bytes) {
+        json_["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", bytes.size()}});
+        data_ += bytes;
+        data_.append((4 - data_.size() % 4) % 4, '\0');
+        return int(json_["bufferViews"].size()) - 1;
+    }
+    int add_accessor(int view, int component, std::size_t count, const char* type) {
+        json_["accessors"].push_back(
+            {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+        return int(json_["accessors"].size()) - 1;
+    }
+    std::string bytes() {
+        json_["buffers"] = Json::array({Json{{"byteLength", data_.size()}}});
+        std::string text = json_.dump();
+        text.append((4 - text.size() % 4) % 4, ' ');
+        std::string out = "glTF" + word(2) + word(12 + 8 + text.size() + 8 + data_.size());
+        out += word(text.size()) + "JSON" + text;
+        return out + word(data_.size()) + std::string("BIN\0", 4) + data_;
+    }
+
+  private:
+    static std::string word(std::size_t value) {
+        const auto number = std::uint32_t(value);
+        return {reinterpret_cast<const char*>(&number), sizeof number};
+    }
+    Json json_;
+    std::string data_;
+};
+
+std::string media_type(const std::string& image, const std::string& path) {
+    if (image.starts_with("\x89PNG")) return "image/png";
+    if (image.starts_with("\xff\xd8")) return "image/jpeg";
+    throw InputError(path + ": glTF takes PNG and JPEG images only; save the texture as one");
+}
+
+void add_material(Glb& glb, const std::string& name, const Material* material) {
+    Json surface{{"metallicFactor", 0}, {"roughnessFactor", .8}};
+    if (material != nullptr && !material->texture.empty()) {
+        const std::string image = read_file(material->texture);
+        const int view = glb.add_view(image);
+        glb.json()["images"].push_back(
+            {{"bufferView", view}, {"mimeType", media_type(image, material->texture)}});
+        glb.json()["textures"].push_back({{"source", glb.json()["images"].size() - 1}});
+        surface["baseColorTexture"] = {{"index", glb.json()["textures"].size() - 1}};
+    } else if (material != nullptr) {
+        const Vec3& c = material->colour;
+        surface["baseColorFactor"] = {c[0], c[1], c[2], 1};
+    }
+    glb.json()["materials"].push_back(
+        {{"name", name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
+}
+
+/// One primitive: the faces of one material, a vertex for each pair of position and texture coordinates.
+struct Primitive {
+    std::vector<float> positions, uv;
+    std::vector<std::uint32_t> corners;
+    std::map<std::pair<int, int>, std::uint32_t> known;
+
+    void add_corner(const TexturedMesh& textured, int f, int k) {
+        const int v = textured.mesh.faces(f, k), t = textured.model.uv_of(f, k);
+        const auto [entry, added] = known.try_emplace({v, t}, std::uint32_t(positions.size() / 3));
+        corners.push_back(entry->second);
+        if (!added) return;
+        for (int axis = 0; axis < 3; ++axis) positions.push_back(float(textured.mesh.vertices(v, axis)));
+        const Vec2 at = t < 0 ? Vec2(0, 1) : textured.model.uv[std::size_t(t)];
+        uv.push_back(float(at[0]));
+        uv.push_back(float(1 - at[1]));  // glTF counts v downwards
+    }
+};
+
+Json primitive_json(Glb& glb, const Primitive& primitive, int material) {
+    const std::size_t vertices = primitive.positions.size() / 3;
+    const int positions = glb.add_accessor(glb.add_view(primitive.positions), float_type, vertices, "VEC3");
+    const Eigen::Map<const Eigen::Matrix<float, 3, Eigen::Dynamic>> points(primitive.positions.data(), 3,
+                                                                           Eigen::Index(vertices));
+    const Eigen::Vector3f low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
+    Json& accessor = glb.json()["accessors"][std::size_t(positions)];
+    accessor["min"] = {low[0], low[1], low[2]};
+    accessor["max"] = {high[0], high[1], high[2]};
+    const int uv = glb.add_accessor(glb.add_view(primitive.uv), float_type, vertices, "VEC2");
+    const int corners =
+        glb.add_accessor(glb.add_view(primitive.corners), index_type, primitive.corners.size(), "SCALAR");
+    Json json{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}}}, {"indices", corners}};
+    if (material >= 0) json["material"] = material;
+    return json;
+}
+
+}  // namespace
+
+std::string to_glb(const TexturedMesh& textured, const Materials& materials) {
+    Glb glb;
+    glb.json()["scene"] = 0;
+    glb.json()["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
+    glb.json()["nodes"] = Json::array({Json{{"mesh", 0}}});
+    for (const std::string& name : textured.model.materials) add_material(glb, name, materials.find(name));
+    std::map<int, Primitive> primitives;
+    for (int f = 0; f < textured.mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k)
+            primitives[textured.model.material[std::size_t(f)]].add_corner(textured, f, k);
+    Json list = Json::array();
+    for (const auto& [material, primitive] : primitives)
+        list.push_back(primitive_json(glb, primitive, material));
+    glb.json()["meshes"] = Json::array({Json{{"primitives", list}}});
+    return glb.bytes();
+}
+
+}  // namespace varimap

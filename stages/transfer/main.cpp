@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "stages/transfer/transfer.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/stage/stage_main.h"
+
+namespace {
+
+using namespace varimap;
+namespace fs = std::filesystem;
+
+struct TransferParams {
+    int bake = 0;
+    int padding = 8;
+    int influences = 0;
+    LandmarkSpace space = LandmarkSpace::stated;
+
+    void describe(ParameterList& list) {
+        list.add("bake", bake,
+                 "texture: width and height, in pixels, of an image for the target's own texture "
+                 "coordinates; 0: the source's coordinates, cut at seams",
+                 0, 16384);
+        list.add("padding", padding, "baking: pixels coloured beyond the rim of every patch", 0, 256);
+        list.add("influences", influences, "weights: how many to keep in each row, the largest; 0: all", 0,
+                 1 << 20);
+        list.add("landmark_space", space, "points: their axes, as their file states them or others");
+    }
+};
+
+/// A mesh that changed since the map was made is another mesh. An empty hash is not asked about.
+void require_unchanged(const std::string& path, const std::string& hash) {
+    if (!hash.empty() && file_hash(path) != hash)
+        throw ArtifactError(path + ": changed since the map was made; run varimap map again");
+}
+
+void write_results(Stage& stage, const std::string& folder, const NamedFiles& files,
+                   const std::vector<std::string>& inputs) {
+    std::error_code failure;
+    for (const auto& [name, bytes] : files)
+        for (const std::string& input : inputs)
+            if (fs::equivalent(input, fs::path(folder) / name, failure))
+                throw UsageError(input + ": would be written over; give another folder");
+    fs::create_directories(folder, failure);
+    if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
+    for (const auto& [name, bytes] : files) {
+        const std::string path = (fs::path(folder) / name).string();
+        stage.write_file(path, bytes);
+        fmt::print("{}\n", path);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    TransferParams params;
+    TransferRequest request;
+    Stage stage("transfer", "Carries points, values, textures and shapes through a map");
+    stage.parameters([&](ParameterList& list) { params.describe(list); });
+    const auto& source = stage.input("source-mesh", "mesh the map starts from");
+    const auto& target = stage.input("target-mesh", "mesh the map leads to");
+    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
+    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    const auto& out = stage.option("out", "folder for the results, which keep the names of what is carried");
+    const auto& reverse = stage.flag("reverse", "carry from the target to the source");
+    const auto& points = stage.input_list_option(
+        "points", "points, landmarks or curves: .mrk.json, .fcsv, .pp, or lines of x y z or vertex numbers");
+    const auto& values = stage.input_list_option(
+        "values", "numbers of vertices or faces, to interpolate: .csv, .txt, .npy, .ply");
+    const auto& labels = stage.input_list_option("labels", "the same, never mixed; words, too");
+    const auto& weights = stage.input_list_option("weights", "skin weights: rows stay sums of one");
+    const auto& regions = stage.input_list_option("regions", "lists of faces, counted from 0");
+    const auto& shapes = stage.input_list_option(
+        "shape", "the source's mesh in other shapes, carried as displacements of the target");
+    const auto& texture =
+        stage.input_option("texture", "OBJ of the source with texture coordinates and materials");
+    const auto& onto =
+        stage.input_option("onto", "baking: OBJ of the target with texture coordinates (default: its mesh)");
+    const auto& mesh =
+        stage.input_option("mesh", "OBJ of the source whose polygons are to stand in the target's shape");
+    const auto& source_hash = stage.option("source-hash", "content hash that the source's mesh must have");
+    const auto& target_hash = stage.option("target-hash", "content hash that the target's mesh must have");
+    return stage.main(argc, argv, [&] {
+        if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
+        request = {points,
+                   values,
+                   labels,
+                   weights,
+                   regions,
+                   shapes,
+                   texture,
+                   onto,
+                   mesh,
+                   params.space,
+                   {params.bake, params.padding},
+                   params.influences};
+        if (request.empty())
+            throw UsageError(
+                "nothing to carry: give --points, --values, --labels, --weights, --regions, --shape, "
+                "--texture or --mesh");
+        require_unchanged(source, source_hash);
+        require_unchanged(target, target_hash);
+        const Correspondence map = read_correspondence({source, target, there, back}, reverse);
+        std::vector<std::string> inputs{source, target, there, back};
+        for (const auto* list : {&points, &values, &labels, &weights, &regions, &shapes})
+            inputs.insert(inputs.end(), list->begin(), list->end());
+        for (const auto* file : {&texture, &onto, &mesh})
+            if (!file->empty()) inputs.push_back(*file);
+        write_results(stage, out, transfer(request, map, reverse), inputs);
+    });
+}

@@ -1,0 +1,163 @@
+#include "stages/transfer/obj_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/text_scanner.h"
+
+namespace varimap {
+
+namespace {
+
+/// All words but the first, as they stand: names may hold blanks.
+std::string rest_of_line(const TextScanner& scanner) {
+    const auto& words = scanner.words();
+    if (words.size() < 2) return "";
+    return {words[1].data(), std::size_t(words.back().data() + words.back().size() - words[1].data())};
+}
+
+int number_of(const std::string& name, std::vector<std::string>& names) {
+    const auto number = std::find(names.begin(), names.end(), name) - names.begin();
+    if (number == std::ssize(names)) names.push_back(name);
+    return int(number);
+}
+
+/// The texture coordinates of a corner such as 7/2 or 7/2/1: 0-based; -1: none.
+int corner_uv(const TextScanner& scanner, std::string_view word, std::size_t count) {
+    const std::size_t slash = word.find('/');
+    if (slash == word.npos) return -1;
+    word.remove_prefix(slash + 1);
+    word = word.substr(0, word.find('/'));
+    if (word.empty()) return -1;
+    long long index;
+    const auto limit = static_cast<long long>(count);
+    if (!to_integer(word, index) || index == 0 || index > limit || index < -limit)
+        scanner.fail("a corner of a face names texture coordinates that are not there");
+    return int(index > 0 ? index - 1 : limit + index);
+}
+
+/// Fans the polygon from its first corner, as read_mesh does.
+void add_face(const TextScanner& scanner, int material, ObjModel& model, std::vector<int>& corners) {
+    const auto& words = scanner.words();
+    std::vector<int> uv;
+    for (std::size_t i = 1; i < words.size(); ++i)
+        uv.push_back(corner_uv(scanner, words[i], model.uv.size()));
+    for (std::size_t i = 1; i + 1 < uv.size(); ++i) {
+        corners.insert(corners.end(), {uv[0], uv[i], uv[i + 1]});
+        model.material.push_back(material);
+    }
+}
+
+std::string_view next_line(std::string_view& text) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    std::vector<std::string_view> words;
+    for (std::size_t at = line.find_first_not_of(" \t"); at != line.npos;) {
+        const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+        words.push_back(line.substr(at, end - at));
+        at = line.find_first_not_of(" \t", end);
+    }
+    return words;
+}
+
+/// 7/2/1 as 7/2, 7//1 as 7.
+std::string without_normal(std::string_view corner) {
+    const std::size_t first = corner.find('/');
+    if (first == corner.npos) return std::string(corner);
+    const std::size_t second = corner.find('/', first + 1);
+    return std::string(corner.substr(0, second == first + 1 ? first : second));
+}
+
+std::string vertex_line(const std::vector<std::string_view>& words, const Points& vertices, Eigen::Index v) {
+    std::string line = fmt::format("v {} {} {}", vertices(v, 0), vertices(v, 1), vertices(v, 2));
+    for (std::size_t i = 4; i < words.size(); ++i) line += fmt::format(" {}", words[i]);  // colours
+    return line + "\n";
+}
+
+std::string face_line(const std::vector<std::string_view>& words) {
+    std::string line = "f";
+    for (std::size_t i = 1; i < words.size(); ++i) line += fmt::format(" {}", without_normal(words[i]));
+    return line + "\n";
+}
+
+}  // namespace
+
+ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
+    ObjModel model;
+    std::vector<int> corners;
+    int material = -1;
+    TextScanner scanner(without_byte_order_mark(bytes, path), path);
+    while (scanner.next_line()) {
+        const std::string_view word = scanner.words()[0];
+        if (word == "vt")
+            model.uv.emplace_back(scanner.number(1, "u"),
+                                  scanner.words().size() > 2 ? scanner.number(2, "v") : 0);
+        else if (word == "f")
+            add_face(scanner, material, model, corners);
+        else if (word == "usemtl")
+            material = number_of(rest_of_line(scanner), model.materials);
+        else if (word == "mtllib")
+            number_of(rest_of_line(scanner), model.libraries);
+    }
+    model.uv_of = Eigen::Map<const Faces>(corners.data(), Eigen::Index(corners.size() / 3), 3);
+    return model;
+}
+
+std::string with_vertices(std::string_view obj, const Points& vertices, const std::string& library,
+                          const std::string& path) {
+    if (obj.find("\\\n") != obj.npos || obj.find("\\\r\n") != obj.npos)
+        throw InputError(path + ": has lines joined by a backslash; save it without");
+    std::string text = library.empty() ? "" : fmt::format("mtllib {}\n", library);
+    Eigen::Index v = 0;
+    while (!obj.empty()) {
+        const std::string_view line = next_line(obj);
+        const auto words = words_of(line.substr(0, line.find('#')));
+        const std::string_view word = words.empty() ? "" : words[0];
+        if (word == "v" && v < vertices.rows()) {
+            text += vertex_line(words, vertices, v);
+        } else if (word == "f") {
+            text += face_line(words);
+        } else if (word != "vn" && word != "mtllib" && word != "v") {
+            text += std::string(line) + "\n";
+        }
+        v += word == "v";
+    }
+    if (v != vertices.rows())
+        throw InputError(
+            fmt::format("{}: {} vertices, but the mesh of the map has {}", path, v, vertices.rows()));
+    return text;
+}
+
+std::string to_obj(const TexturedMesh& textured, const std::string& library) {
+    const auto& [mesh, model] = textured;
+    std::string text = library.empty() ? "" : fmt::format("mtllib {}\n", library);
+    for (const auto vertex : mesh.vertices.rowwise())
+        text += fmt::format("v {} {} {}\n", vertex[0], vertex[1], vertex[2]);
+    for (const Vec2& uv : model.uv) text += fmt::format("vt {} {}\n", uv[0], uv[1]);
+    int material = -1;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const int now = model.material[std::size_t(f)];
+        if (now != material && now >= 0)
+            text += fmt::format("usemtl {}\n", model.materials[std::size_t(now)]);
+        material = now;
+        text += "f";
+        for (int k = 0; k < 3; ++k) {
+            const int uv = model.uv_of(f, k);
+            text += uv < 0 ? fmt::format(" {}", mesh.faces(f, k) + 1)
+                           : fmt::format(" {}/{}", mesh.faces(f, k) + 1, uv + 1);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace varimap

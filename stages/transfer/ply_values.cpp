@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "stages/transfer/values.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/ply_columns.h"
+
+namespace varimap {
+
+namespace {
+
+/// Geometry, which the other mesh has of its own.
+bool is_geometry(const std::string& name) {
+    static const std::array names{"x", "y", "z", "nx", "ny", "nz"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+ValueTable to_table(const std::vector<PlyColumn>& columns) {
+    const Eigen::Index rows = Eigen::Index(columns[0].values.size());
+    ValueTable table{Place::vertex, Eigen::MatrixXd(rows, Eigen::Index(columns.size()))};
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        table.values.col(Eigen::Index(c)) = Eigen::Map<const Eigen::VectorXd>(columns[c].values.data(), rows);
+    return table;
+}
+
+std::vector<PlyColumn> to_columns(const std::vector<PlyColumn>& like, const ValueTable& table) {
+    std::vector<PlyColumn> columns = like;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const auto column = table.values.col(Eigen::Index(c));
+        columns[c].values.assign(column.begin(), column.end());
+    }
+    return columns;
+}
+
+}  // namespace
+
+ValueFile parse_ply_values(std::string_view bytes, const std::string& path) {
+    PlyColumns columns = parse_ply_columns(bytes, path);
+    std::erase_if(columns.vertex, [](const PlyColumn& column) { return is_geometry(column.name); });
+    ValueFile file;
+    for (const auto* of : {&columns.vertex, &columns.face})
+        if (!of->empty()) file.tables.push_back(to_table(*of));
+    if (file.tables.empty())
+        throw InputError(path + ": holds no properties besides positions, normals and faces");
+    file.write = [columns](const std::vector<ValueTable>& tables, const TriangleMesh& to) {
+        PlyColumns out;
+        auto next = tables.begin();
+        if (!columns.vertex.empty()) out.vertex = to_columns(columns.vertex, *next++);
+        if (!columns.face.empty()) out.face = to_columns(columns.face, *next);
+        return to_ply(to, out);
+    };
+    return file;
+}
+
+}  // namespace varimap

@@ -1,0 +1,130 @@
+#include "stages/transfer/point_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "varimap/core/error.h"
+#include "varimap/core/printable.h"
+#include "varimap/mesh/io/text_scanner.h"
+
+namespace varimap {
+
+namespace {
+
+std::string slicer_json(std::string_view bytes, const std::vector<PickedPoint>& points) {
+    auto file = nlohmann::ordered_json::parse(bytes);
+    auto point = points.begin();
+    for (auto& markup : file.at("markups"))
+        for (auto& control : markup.at("controlPoints")) {
+            if (point->defined)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    control["position"][axis] = point->position[Eigen::Index(axis)];
+            ++point;
+        }
+    return file.dump(4) + "\n";
+}
+
+/// The line with its fields 1, 2 and 3 (from 0) replaced.
+std::string fcsv_line(std::string_view line, const Vec3& position) {
+    std::string text(line.substr(0, line.find(',')));
+    for (int field = 0; field < 4; ++field) {
+        if (field > 0) text += fmt::format(",{}", position[field - 1]);
+        const std::size_t comma = line.find(',');
+        line.remove_prefix(comma == line.npos ? line.size() : comma + 1);
+    }
+    return line.empty() ? text : fmt::format("{},{}", text, line);
+}
+
+std::string slicer_fcsv(std::string_view bytes, const std::vector<PickedPoint>& points) {
+    std::string text;
+    auto point = points.begin();
+    while (!bytes.empty()) {
+        const std::size_t end = bytes.find('\n');
+        std::string_view line = bytes.substr(0, end);
+        bytes.remove_prefix(end == bytes.npos ? bytes.size() : end + 1);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        const bool holds_point = !line.empty() && !line.starts_with('#');
+        text += holds_point ? fcsv_line(line, (point++)->position) : std::string(line);
+        text += '\n';
+    }
+    return text;
+}
+
+/// Replaces the value of ` name="value"` in a tag.
+void set_attribute(std::string& tag, char name, double value) {
+    for (const char blank : {' ', '\n', '\t'}) {
+        const std::size_t at = tag.find(fmt::format("{}{}=\"", blank, name));
+        if (at == tag.npos) continue;
+        const std::size_t begin = at + 4;
+        tag.replace(begin, tag.find('"', begin) - begin, fmt::format("{}", value));
+        return;
+    }
+}
+
+std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& points) {
+    std::string text;
+    std::size_t done = 0;
+    for (const PickedPoint& point : points) {
+        const std::size_t begin = bytes.find("<point ", done);
+        const std::size_t end = std::min(bytes.find('>', begin), bytes.find("<point ", begin + 1));
+        std::string tag(bytes.substr(begin, end - begin));
+        for (int axis = 0; axis < 3 && point.defined; ++axis)
+            set_attribute(tag, "xyz"[axis], point.position[axis]);
+        text += std::string(bytes.substr(done, begin - done)) + tag;
+        done = std::min(end, bytes.size());
+    }
+    return text + std::string(bytes.substr(done));
+}
+
+bool is_number(std::string_view word) {
+    double value;
+    return to_number(word, value);
+}
+
+}  // namespace
+
+std::string with_positions(const std::string& path, const std::string& file,
+                           const std::vector<PickedPoint>& points) {
+    const std::string_view bytes = without_byte_order_mark(file, path);
+    return path.ends_with(".pp")     ? meshlab(bytes, points)
+           : path.ends_with(".json") ? slicer_json(bytes, points)
+                                     : slicer_fcsv(bytes, points);
+}
+
+std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const TextRows& rows,
+                                                                      const std::string& path) {
+    std::array<std::size_t, 3> columns{};
+    const auto& first = rows.rows[0].words;
+    std::size_t named = 0, numbers = 0;
+    for (std::size_t c = 0; c < first.size(); ++c)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (first[c].size() == 1 && (first[c][0] | 32) == "xyz"[axis]) columns[axis] = c, ++named;
+    if (named == 3 && rows.rows.size() > 1) return {columns, 1};
+    for (std::size_t c = 0; c < first.size(); ++c)
+        if (is_number(first[c]) && numbers++ < 3) columns[numbers - 1] = c;
+    if (numbers != 3)
+        throw InputError(
+            fmt::format("{}:{}: expected a vertex number, three coordinates, or a first line "
+                        "that names columns x, y and z",
+                        path, rows.rows[0].line));
+    return {columns, 0};
+}
+
+Vec3 coordinates(const TextRow& row, const std::array<std::size_t, 3>& columns, const std::string& path) {
+    Vec3 point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (columns[axis] >= row.words.size())
+            throw InputError(fmt::format("{}:{}: has no column {}", path, row.line, columns[axis] + 1));
+        const std::string& word = row.words[columns[axis]];
+        double& value = point[Eigen::Index(axis)];
+        if (!to_number(word, value) || !std::isfinite(value))
+            throw InputError(fmt::format("{}:{}: '{}' is not a coordinate", path, row.line, excerpt(word)));
+    }
+    return point;
+}
+
+}  // namespace varimap

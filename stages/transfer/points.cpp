@@ -1,0 +1,145 @@
+#include "stages/transfer/points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "stages/transfer/point_files.h"
+#include "stages/transfer/text_rows.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/core/printable.h"
+#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+
+namespace {
+
+/// Most positions far from the surface: they are not those of this mesh.
+void refuse_far(const Snapped& snapped, const std::vector<Vec3>& positions, const std::string& path,
+                const TriangleMesh& mesh) {
+    const auto far = std::count_if(snapped.distances.begin(), snapped.distances.end(),
+                                   [](double distance) { return distance > far_from_surface; });
+    if (2 * std::size_t(far) > positions.size())
+        throw InputError(
+            fmt::format("{}: {} of {} points lie farther than {} from the surface, in units of "
+                        "sqrt(area); {}",
+                        path, far, positions.size(), far_from_surface, likely_cause(positions, mesh)));
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        if (snapped.distances[i] > far_from_surface)
+            warn("{}: point {} (from 1) lies {:.3g} from the surface, in units of sqrt(area)", path, i + 1,
+                 snapped.distances[i]);
+}
+
+/// Positions in the axes of `from`, carried, in the axes of `to`; nothing where there is no image.
+std::vector<std::optional<Vec3>> carried(const std::vector<Vec3>& positions, const std::string& path,
+                                         const Correspondence& map, const PointCarrier& there) {
+    const Snapped snapped = snap(positions, map.from);
+    refuse_far(snapped, positions, path, map.from);
+    std::vector<std::optional<Vec3>> result;
+    for (const SurfacePoint& point : snapped.points) {
+        const SurfacePoint image = there(point);
+        result.push_back(image.face < 0 ? std::nullopt : std::optional(position(map.to, image)));
+    }
+    return result;
+}
+
+std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images, const std::string& path) {
+    std::vector<Vec3> positions;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        if (!images[i]) throw InputError(fmt::format("{}: point {} (from 1) has no image", path, i + 1));
+        positions.push_back(*images[i]);
+    }
+    return positions;
+}
+
+std::string carry_picked(const std::string& path, const std::string& bytes, LandmarkSpace space,
+                         const Correspondence& map, const PointCarrier& there) {
+    std::vector<PickedPoint> points = read_picked_points(path);
+    std::vector<Vec3> positions;
+    for (const PickedPoint& point : points)
+        if (point.defined) positions.push_back(in_axes_of(map.from, point, space));
+    if (positions.empty()) throw InputError(path + ": none of its points is defined");
+    auto next = carried(positions, path, map, there);
+    const std::vector<Vec3> images = require_images(next, path);
+    auto image = images.begin();
+    for (PickedPoint& point : points) {
+        if (!point.defined) continue;
+        point.position = *image++;
+        // Changing axes there and back is the same.
+        point.position = in_axes_of(map.to, point, space);
+    }
+    return with_positions(path, bytes, points);
+}
+
+int vertex_number(const TextRow& row, const std::string& path, int count, const char* what) {
+    long long number = -1;
+    if (!to_integer(row.words[0], number) || number < 0 || number >= count)
+        throw InputError(fmt::format("{}:{}: '{}' is not one of the mesh's {} {}, counted from 0", path,
+                                     row.line, excerpt(row.words[0]), count, what));
+    return int(number);
+}
+
+std::string carry_vertices(const TextRows& rows, const std::string& path, const Correspondence& map,
+                           const PointCarrier& there) {
+    std::string text;
+    for (const TextRow& row : rows.rows) {
+        const int v = vertex_number(row, path, map.from.vertex_count(), "vertices");
+        const SurfacePoint image = there(point_at_vertex(map.from, v));
+        if (image.face < 0) throw InputError(fmt::format("{}:{}: vertex {} has no image", path, row.line, v));
+        int corner;
+        image.barycentric.maxCoeff(&corner);
+        text += fmt::format("{}\n", map.to.faces(image.face, corner));
+    }
+    return text;
+}
+
+std::string carry_rows(TextRows rows, const std::string& path, const Correspondence& map,
+                       const PointCarrier& there) {
+    const auto [columns, first] = coordinate_columns(rows, path);
+    std::vector<Vec3> positions;
+    for (std::size_t i = first; i < rows.rows.size(); ++i)
+        positions.push_back(coordinates(rows.rows[i], columns, path));
+    const std::vector<Vec3> images = require_images(carried(positions, path, map, there), path);
+    std::string text;
+    for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3 && i >= first; ++axis)
+            rows.rows[i].words[columns[axis]] = fmt::format("{}", images[i - first][Eigen::Index(axis)]);
+        text += join(rows.rows[i].words, rows.separator) + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string carry_points(const std::string& path, LandmarkSpace space, const Correspondence& map,
+                         const PointCarrier& there) {
+    const std::string bytes = read_file(path);
+    if (is_picked_points(path)) return carry_picked(path, bytes, space, map, there);
+    TextRows rows = split_rows(bytes, path);
+    const bool vertices = std::all_of(rows.rows.begin(), rows.rows.end(),
+                                      [](const TextRow& row) { return row.words.size() == 1; });
+    return vertices ? carry_vertices(rows, path, map, there) : carry_rows(std::move(rows), path, map, there);
+}
+
+std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back) {
+    std::vector<bool> inside(std::size_t(map.from.face_count()), false);
+    for (const TextRow& row : split_rows(read_file(path), path).rows) {
+        if (row.words.size() != 1)
+            throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
+        inside[std::size_t(vertex_number(row, path, map.from.face_count(), "faces"))] = true;
+    }
+    std::string text;
+    for (int f = 0; f < map.to.face_count(); ++f) {
+        const SurfacePoint at = back({f, Vec3::Constant(1 / 3.)});
+        if (at.face >= 0 && inside[std::size_t(at.face)]) text += fmt::format("{}\n", f);
+    }
+    return text;
+}
+
+}  // namespace varimap

@@ -1,0 +1,197 @@
+#include "stages/transfer/transfer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "stages/transfer/gltf.h"
+#include "stages/transfer/points.h"
+#include "stages/transfer/seams.h"
+#include "stages/transfer/shape.h"
+#include "stages/transfer/values.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/io/ply_columns.h"
+
+namespace varimap {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double same_place = 1e-3;  ///< of vertices of one mesh in two files, relative to its extent
+
+std::string name_of(const std::string& path) {
+    return fs::path(path).filename().string();
+}
+std::string stem_of(const std::string& path) {
+    return fs::path(path).stem().string();
+}
+bool is_obj(const std::string& path) {
+    return path.ends_with(".obj") || path.ends_with(".OBJ");
+}
+
+bool same_faces(const TriangleMesh& a, const TriangleMesh& b) {
+    return a.vertex_count() == b.vertex_count() && a.face_count() == b.face_count() && a.faces == b.faces;
+}
+
+bool same_vertices(const TriangleMesh& a, const TriangleMesh& b) {
+    if (a.vertex_count() != b.vertex_count()) return false;
+    const Box box = bounding_box(a);
+    return (a.vertices - b.vertices).rowwise().norm().maxCoeff() <= same_place * (box.high - box.low).norm();
+}
+
+void require_same_mesh(bool same, const std::string& path, const TriangleMesh& found,
+                       const std::string& mesh_file, const TriangleMesh& mesh) {
+    if (same) return;
+    throw InputError(fmt::format(
+        "{}: is not the mesh {} of the map in the same order: {} vertices and {} triangles, there {} and {}",
+        path, mesh_file, found.vertex_count(), found.face_count(), mesh.vertex_count(), mesh.face_count()));
+}
+
+/// One run: what is asked for, between what, and what came of it so far.
+class Transfer {
+  public:
+    Transfer(const TransferRequest& request, const Correspondence& map, bool reverse)
+        : request_(request),
+          map_(map),
+          reverse_(reverse),
+          there_(map.from, map.there, map.to),
+          back_(map.to, map.back, map.from) {}
+
+    NamedFiles run() {
+        for (const auto& path : request_.points)
+            add(name_of(path), carry_points(path, request_.space, map_, there_));
+        for (const auto& path : request_.regions) add(name_of(path), carry_region(path, map_, back_));
+        for (const auto& path : request_.values) add_values(path, ValueKind::number);
+        for (const auto& path : request_.labels) add_values(path, ValueKind::label);
+        for (const auto& path : request_.weights) add_values(path, ValueKind::weight);
+        for (const auto& path : request_.shapes) add_shape(path);
+        if (!request_.mesh.empty()) add_mesh(request_.mesh);
+        if (!request_.texture.empty()) add_texture(request_.texture);
+        return std::move(files_);
+    }
+
+  private:
+    void add(const std::string& name, std::string bytes) {
+        if (!names_.insert(name).second)
+            throw UsageError("two results would be called " + name + "; carry one of them on its own");
+        files_.emplace_back(name, std::move(bytes));
+    }
+    void add_values(const std::string& path, ValueKind kind);
+    void add_shape(const std::string& path);
+    void add_mesh(const std::string& path);
+    void add_texture(const std::string& path);
+    void add_cut(const Texture& texture, const std::string& name);
+    void add_baked(const Texture& texture, const std::string& name);
+    void add_materials(const Materials& materials, const std::string& name);
+
+    const TransferRequest& request_;
+    const Correspondence& map_;
+    bool reverse_;
+    PointCarrier there_, back_;
+    NamedFiles files_;
+    std::set<std::string> names_;
+};
+
+void Transfer::add_values(const std::string& path, ValueKind kind) {
+    const ValueFile file = read_values(path, kind, map_.from, map_.from_file);
+    std::vector<ValueTable> carried;
+    for (const ValueTable& table : file.tables) {
+        carried.push_back(carry_values(table, kind, map_, back_));
+        if (kind == ValueKind::weight && request_.influences > 0)
+            keep_largest(carried.back().values, request_.influences);
+        const auto missing =
+            (carried.back().values.array() != carried.back().values.array()).rowwise().all().count();
+        if (missing > 0) warn("{}: {} rows have no image, and no values", path, missing);
+    }
+    add(name_of(path), file.write(carried, map_.to));
+}
+
+void Transfer::add_shape(const std::string& path) {
+    const TriangleMesh shape = read_mesh(path);
+    require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
+    const Points moved = carry_shape(map_, shape.vertices);
+    if (is_obj(map_.to_file))
+        add(stem_of(path) + ".obj", with_vertices(read_file(map_.to_file), moved, "", map_.to_file));
+    else
+        add(stem_of(path) + ".ply", to_ply({moved, map_.to.faces, map_.to.space}));
+}
+
+void Transfer::add_mesh(const std::string& path) {
+    if (!is_obj(path)) throw UsageError("--mesh " + path + ": give an OBJ file");
+    const TriangleMesh mesh = read_mesh(path);
+    require_same_mesh(same_faces(mesh, map_.from) || same_vertices(mesh, map_.from), path, mesh,
+                      map_.from_file, map_.from);
+    const std::string name = reverse_ ? "target_on_source" : "source_on_target";
+    const std::string bytes = read_file(path);
+    const ObjModel model = parse_obj_model(bytes, path);
+    const bool painted = !model.libraries.empty();
+    if (painted) add_materials(read_materials(model, path), name);
+    add(name + ".obj", with_vertices(bytes, carried_vertices(map_), painted ? name + ".mtl" : "", path));
+}
+
+void Transfer::add_texture(const std::string& path) {
+    if (!is_obj(path)) throw UsageError("--texture " + path + ": give an OBJ file");
+    const std::string bytes = read_file(path);
+    const TriangleMesh mesh = parse_mesh(bytes, path);
+    require_same_mesh(same_faces(mesh, map_.from), path, mesh, map_.from_file, map_.from);
+    const ObjModel model = parse_obj_model(bytes, path);
+    if (!model.has_uv()) throw InputError(path + ": has faces without texture coordinates (vt)");
+    const Materials materials = read_materials(model, path);
+    const std::string name = stem_of(map_.to_file) + "_textured";
+    if (request_.bake.pixels > 0)
+        add_baked({model, materials}, name);
+    else
+        add_cut({model, materials}, name);
+}
+
+void Transfer::add_materials(const Materials& materials, const std::string& name) {
+    add(name + ".mtl", materials.text);
+    for (const auto& [image, path] : materials.images)
+        if (!names_.contains(image)) add(image, read_file(path));
+}
+
+void Transfer::add_cut(const Texture& texture, const std::string& name) {
+    const TexturedMesh textured = cut_at_seams(map_, back_, texture.model);
+    log("texture: {} vertices and {} faces, of {} and {}: faces are cut at seams",
+        textured.mesh.vertex_count(), textured.mesh.face_count(), map_.to.vertex_count(),
+        map_.to.face_count());
+    add(name + ".obj", to_obj(textured, name + ".mtl"));
+    add(name + ".glb", to_glb(textured, texture.materials));
+    add_materials(texture.materials, name);
+}
+
+void Transfer::add_baked(const Texture& texture, const std::string& name) {
+    const std::string& onto = request_.onto.empty() ? map_.to_file : request_.onto;
+    if (!is_obj(onto))
+        throw UsageError(onto +
+                         ": has no texture coordinates to bake onto; leave out --bake to have the "
+                         "source's cut onto it, or give --onto an OBJ that has some");
+    const std::string bytes = read_file(onto);
+    const TriangleMesh mesh = parse_mesh(bytes, onto);
+    require_same_mesh(same_faces(mesh, map_.to), onto, mesh, map_.to_file, map_.to);
+    TexturedMesh target{map_.to, parse_obj_model(bytes, onto)};
+    if (!target.model.has_uv())
+        throw InputError(onto +
+                         ": has no texture coordinates to bake onto; leave out --bake to have the "
+                         "source's cut onto it");
+    const TextureImage image = bake(map_, back_, texture, target.model, request_.bake);
+    target.model.materials = {"baked"};
+    std::fill(target.model.material.begin(), target.model.material.end(), 0);
+    add(name + ".obj", to_obj(target, name + ".mtl"));
+    add(name + ".mtl", fmt::format("newmtl baked\nKd 1 1 1\nmap_Kd {}.png\n", name));
+    add(name + ".png", encode_png(image));
+}
+
+}  // namespace
+
+NamedFiles transfer(const TransferRequest& request, const Correspondence& map, bool reverse) {
+    return Transfer(request, map, reverse).run();
+}
+
+}  // namespace varimap

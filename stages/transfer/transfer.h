@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stages/transfer/bake.h"
+#include "varimap/landmarks/landmark_points.h"
+#include "varimap/results/correspondence.h"
+
+namespace varimap {
+
+/// What to carry; lists of files, empty where there is nothing of the kind.
+struct TransferRequest {
+    std::vector<std::string> points, values, labels, weights, regions, shapes;
+    std::string texture;  ///< OBJ of the source with texture coordinates
+    std::string onto;     ///< OBJ of the target with its own, to bake onto; empty: the target's mesh
+    std::string mesh;     ///< OBJ of the source whose polygons are wanted on the target
+    LandmarkSpace space = LandmarkSpace::stated;
+    BakeSize bake{0, 8};  ///< pixels 0: no baking, but coordinates cut at seams
+    int influences = 0;   ///< weights kept in each row; 0: all
+
+    bool empty() const {
+        return points.empty() && values.empty() && labels.empty() && weights.empty() && regions.empty() &&
+               shapes.empty() && texture.empty() && mesh.empty();
+    }
+};
+
+/// Names and bytes of files.
+using NamedFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// Carries everything, or nothing: throws InputError, IoError, UsageError (two results of one name) before
+/// anything is written.
+NamedFiles transfer(const TransferRequest& request, const Correspondence& map, bool reverse);
+
+}  // namespace varimap

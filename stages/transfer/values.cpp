@@ -1,0 +1,149 @@
+#include "stages/transfer/values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/parallel.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr double sum_tolerance = 1e-3;  ///< of weights; files may carry few digits
+constexpr int grain = 256;
+
+/// Rows of a table by how much each contributes.
+struct Share {
+    int row;
+    double weight;
+};
+using Shares = std::vector<Share>;
+
+/// The centroid and the middles of the six triangles around it: a seventh of the face each, nearly.
+const std::array<Vec3, 7> inner_points = [] {
+    std::array<Vec3, 7> points;
+    points[0] = Vec3::Constant(1 / 3.);
+    for (int k = 0; k < 3; ++k) {
+        points[std::size_t(1 + k)] = Vec3::Constant(1 / 6.) + .5 * Vec3::Unit(k);
+        points[std::size_t(4 + k)] = Vec3::Constant(5 / 12.) - .25 * Vec3::Unit(k);
+    }
+    return points;
+}();
+
+Shares shares_at(const SurfacePoint& point, Place place, const TriangleMesh& from) {
+    if (point.face < 0) return {};
+    if (place == Place::face) return {{point.face, 1}};
+    Shares shares;
+    for (int k = 0; k < 3; ++k)
+        if (point.barycentric[k] > 0) shares.push_back({from.faces(point.face, k), point.barycentric[k]});
+    return shares;
+}
+
+/// Rows that matter for row `row` of the other surface.
+Shares shares_of(int row, Place place, const Correspondence& map, const PointCarrier& back) {
+    if (place == Place::vertex) return shares_at(map.back[std::size_t(row)], place, map.from);
+    Shares shares;
+    for (const Vec3& inner : inner_points)
+        for (const Share& share : shares_at(back({row, inner}), place, map.from)) shares.push_back(share);
+    return shares;
+}
+
+Eigen::RowVectorXd mixed(const Shares& shares, const Eigen::MatrixXd& values) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(values.cols());
+    double total = 0;
+    for (const Share& share : shares) total += share.weight;
+    for (const Share& share : shares) row += share.weight / total * values.row(share.row);
+    return row;
+}
+
+/// The row whose equals have the largest share; among equal shares the first.
+int elected(const Shares& shares, const Eigen::MatrixXd& values) {
+    int best = -1;
+    double most = -1;
+    for (const Share& candidate : shares) {
+        double votes = 0;
+        for (const Share& share : shares)
+            if (values.row(share.row) == values.row(candidate.row)) votes += share.weight;
+        if (votes > most + 1e-12) most = votes, best = candidate.row;
+    }
+    return best;
+}
+
+void normalise_rows(Eigen::MatrixXd& weights) {
+    for (auto row : weights.rowwise()) {
+        const double sum = row.sum();
+        if (sum > 0) row /= sum;
+    }
+}
+
+void require_weights(const ValueTable& table, const std::string& path) {
+    for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
+        const auto weights = table.values.row(row);
+        if (!(std::abs(weights.sum() - 1) <= sum_tolerance) || !(weights.minCoeff() >= 0))
+            throw InputError(
+                fmt::format("{}: row {} (from 0) sums to {:.4g}; weights must be at least 0 and "
+                            "sum to 1; give other values as --values",
+                            path, row, weights.sum()));
+    }
+}
+
+/// Which of the two a table of that many rows belongs to.
+Place place_of(Eigen::Index rows, const TriangleMesh& mesh, const std::string& mesh_file,
+               const std::string& path) {
+    if (rows == mesh.vertex_count()) return Place::vertex;
+    if (rows == mesh.face_count()) return Place::face;
+    throw InputError(
+        fmt::format("{}: {} rows, but {} has {} vertices and {} triangles: these are values of another mesh",
+                    path, rows, mesh_file, mesh.vertex_count(), mesh.face_count()));
+}
+
+}  // namespace
+
+ValueTable carry_values(const ValueTable& table, ValueKind kind, const Correspondence& map,
+                        const PointCarrier& back) {
+    const int rows = table.place == Place::vertex ? map.to.vertex_count() : map.to.face_count();
+    ValueTable carried{table.place, Eigen::MatrixXd::Constant(rows, table.values.cols(),
+                                                              std::numeric_limits<double>::quiet_NaN())};
+    parallel_for_each_index(rows, grain, [&](int row) {
+        const Shares shares = shares_of(row, table.place, map, back);
+        if (shares.empty()) return;
+        carried.values.row(row) = kind == ValueKind::label
+                                      ? Eigen::RowVectorXd(table.values.row(elected(shares, table.values)))
+                                      : mixed(shares, table.values);
+    });
+    if (kind == ValueKind::weight) normalise_rows(carried.values);
+    return carried;
+}
+
+void keep_largest(Eigen::MatrixXd& weights, int count) {
+    if (count >= weights.cols()) return;
+    std::vector<int> order(std::size_t(weights.cols()));
+    for (auto row : weights.rowwise()) {
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return row[a] > row[b]; });
+        for (std::size_t k = std::size_t(count); k < order.size(); ++k) row[order[k]] = 0;
+    }
+    normalise_rows(weights);
+}
+
+ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMesh& mesh,
+                      const std::string& mesh_file) {
+    const std::string bytes = read_file(path);
+    ValueFile file = path.ends_with(".npy")   ? parse_npy_values(bytes, path)
+                     : path.ends_with(".ply") ? parse_ply_values(bytes, path)
+                                              : parse_text_values(bytes, path, kind);
+    for (ValueTable& table : file.tables) {
+        table.place = place_of(table.values.rows(), mesh, mesh_file, path);
+        if (kind == ValueKind::weight) require_weights(table, path);
+    }
+    return file;
+}
+
+}  // namespace varimap

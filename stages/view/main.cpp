@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "stages/view/page.h"
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/stage/stage_main.h"
+
+namespace {
+
+using namespace varimap;
+
+/// The names that the points of a file have, where it has as many; else numbers.
+std::vector<std::string> names_of(const std::string& file, std::size_t count) {
+    std::vector<std::string> names;
+    if (is_picked_points(file))
+        for (const PickedPoint& point : read_picked_points(file))
+            if (point.defined) names.push_back(point.name);
+    if (names.size() == count) return names;
+    names.clear();
+    for (std::size_t i = 0; i < count; ++i) names.push_back(fmt::format("L{}", i + 1));
+    return names;
+}
+
+NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const Correspondence& map) {
+    NamedLandmarks result;
+    const Landmarks landmarks = read_landmarks(files, map.from, map.to);
+    result.points = landmarks.points;
+    if (result.points.empty())
+        for (const auto& [source, target] : landmarks.vertices)
+            result.points.emplace_back(point_at_vertex(map.from, source.index),
+                                       point_at_vertex(map.to, target.index));
+    result.names = names_of(files[0], result.points.size());
+    return result;
+}
+
+/// Landmarks that went into the map, with their names; none where their files have changed beyond use.
+NamedLandmarks landmarks_of(const std::vector<std::string>& files, const Correspondence& map) {
+    if (files.empty()) return {};
+    try {
+        return read_named_landmarks(files, map);
+    } catch (const InputError& error) {
+        warn("{}; the page shows no landmarks", error.what());
+        return {};
+    }
+}
+
+std::string read_report(const std::string& path) {
+    if (path.empty()) return "";
+    const std::string text = read_file(path);
+    if (!nlohmann::json::accept(text))
+        throw InputError(path + ": is not JSON; make it with pipelines/report.jq");
+    return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Stage stage("view", "A page that shows a map, for any browser, without network");
+    const auto& source = stage.input("source-mesh", "mesh the map starts from");
+    const auto& target = stage.input("target-mesh", "mesh the map leads to");
+    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
+    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    const auto& frame = stage.input("frame", "page without data, made by pipelines/view/build");
+    const auto& page = stage.output("page", 0, "HTML to write");
+    const auto& report = stage.input_option("report", "what pipelines/report.jq makes of quality.json");
+    const auto& landmarks = stage.input_list_option(
+        "landmarks", "what the map was made with: a file of pairs, or two lists", 1, 2);
+    const auto& mirror = stage.flag("mirror", "the map reverses orientation on purpose");
+    return stage.main(argc, argv, [&] {
+        const MapFiles files{source, target, there, back};
+        const Correspondence map = read_correspondence(files, false);
+        stage.write_file(page, viewer_page({map, landmarks_of(landmarks, map), read_report(report), mirror},
+                                           read_file(frame)));
+        fmt::print("{}\n", page);
+    });
+}

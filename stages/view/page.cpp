@@ -1,0 +1,183 @@
+#include "stages/view/page.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "stages/view/packed_arrays.h"
+#include "stages/view/thinning.h"
+#include "varimap/core/error.h"
+#include "varimap/core/printable.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/quality/quality.h"
+
+namespace varimap {
+
+using Json = nlohmann::ordered_json;
+
+static void to_json(Json& json, const ArrayPlace& array) {
+    json = {{"at", array.at}, {"count", array.count}, {"type", array.type}};
+}
+
+namespace {
+
+constexpr double steps = 65535;     ///< of positions and barycentric coordinates
+constexpr double per_octave = 32;   ///< steps of the logarithm of distortions
+constexpr int most_shown = 150000;  ///< vertices of a surface: pages stay below 15 MB
+constexpr const char* place = "<!--varimap-data-->";
+
+std::uint16_t step(double share) {
+    return std::uint16_t(std::lround(std::clamp(share, 0., 1.) * steps));
+}
+
+/// log2 of a ratio: 128 is 1; 0: none.
+std::uint8_t octaves(double ratio) {
+    return std::uint8_t(std::clamp(std::lround(128 + per_octave * std::log2(ratio)), 1l, 255l));
+}
+
+std::vector<std::uint16_t> rounded_positions(const TriangleMesh& mesh, const Vec3& low, double extent) {
+    std::vector<std::uint16_t> rounded;
+    for (const auto vertex : mesh.vertices.rowwise())
+        for (int axis = 0; axis < 3; ++axis) rounded.push_back(step((vertex[axis] - low[axis]) / extent));
+    return rounded;
+}
+
+/// Faces as differences of their corners from those before, which deflate well.
+std::vector<std::int32_t> corner_differences(const Faces& faces) {
+    std::vector<std::int32_t> differences;
+    int before = 0;
+    for (const auto face : faces.rowwise())
+        for (int k = 0; k < 3; ++k) differences.push_back(face[k] - before), before = face[k];
+    return differences;
+}
+
+Json add_map(const PointMap& map, PackedArrays& arrays) {
+    std::vector<std::int32_t> faces;
+    std::vector<std::uint16_t> barycentric;
+    for (const SurfacePoint& point : map) {
+        faces.push_back(point.face);
+        barycentric.push_back(step(point.barycentric[0]));
+        barycentric.push_back(step(point.barycentric[1]));
+    }
+    return {{"face", arrays.add(faces, "Int32Array")},
+            {"barycentric", arrays.add(barycentric, "Uint16Array")}};
+}
+
+/// Per face: change of area and of angles, and whether it is flipped. What the map mirrors on purpose is
+/// measured on the mirrored surface.
+Json add_distortion(const PointMap& map, TriangleMesh from, const TriangleMesh& to, bool mirrored,
+                    PackedArrays& arrays) {
+    if (mirrored) from.faces.col(1).swap(from.faces.col(2));
+    std::vector<std::uint8_t> area, angle, flipped;
+    for (const TriangleDistortion& triangle : measure_triangles(map, from, to)) {
+        const bool known = triangle.area > 0;
+        area.push_back(known ? octaves(triangle.area_ratio) : 0);
+        angle.push_back(known ? octaves(triangle.conformal) : 0);
+        flipped.push_back(known && triangle.flipped);
+    }
+    return {{"area", arrays.add(area, "Uint8Array")},
+            {"angle", arrays.add(angle, "Uint8Array")},
+            {"flipped", arrays.add(flipped, "Uint8Array")}};
+}
+
+struct Side {
+    const std::string& file;
+    const TriangleMesh& mesh;
+    const PointMap& map;
+    int vertices;  ///< of the file
+};
+
+Json add_side(const Side& side, const TriangleMesh& other, bool mirrored, PackedArrays& arrays) {
+    // Vertices that no face uses may lie far off.
+    const Box box = bounding_box(side.mesh);
+    const double extent = (box.high - box.low).maxCoeff();
+    const Vec3 low = (box.low + box.high) / 2 - Vec3::Constant(extent / 2);
+    Json json{{"file", printable(side.file)},
+              {"name", printable(std::filesystem::path(side.file).stem().string())},
+              {"vertices", side.vertices},
+              {"shown", side.mesh.vertex_count()},
+              {"faces", side.mesh.face_count()},
+              {"low", {low[0], low[1], low[2]}},
+              {"extent", extent},
+              {"size", std::sqrt(surface_area(side.mesh))},
+              {"axes", side.mesh.space == Space::ras ? "RAS" : "LPS"}};
+    json["position"] = arrays.add(rounded_positions(side.mesh, low, extent), "Uint16Array");
+    json["corner"] = arrays.add(corner_differences(side.mesh.faces), "Int32Array");
+    json["map"] = add_map(side.map, arrays);
+    json["distortion"] = add_distortion(side.map, side.mesh, other, mirrored, arrays);
+    return json;
+}
+
+/// The rotation that turns the target as the source stands: images on vertices, each in its own unit.
+Eigen::Matrix3d target_to_source(const Correspondence& map) {
+    Vec3 from_mean = Vec3::Zero(), to_mean = Vec3::Zero();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    int count = 0;
+    for (int v = 0; v < map.from.vertex_count(); ++v) {
+        const SurfacePoint& image = map.there[std::size_t(v)];
+        if (image.face < 0) continue;
+        const Vec3 from = map.from.vertex(v), to = position(map.to, image);
+        from_mean += from, to_mean += to, ++count;
+        products += from * to.transpose();
+    }
+    if (count > 0) products -= from_mean * to_mean.transpose() / count;
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
+    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign(2, 2) = -1;
+    return svd.matrixU() * sign * svd.matrixV().transpose();
+}
+
+Json position_json(const TriangleMesh& mesh, const SurfacePoint& point) {
+    const Vec3 p = position(mesh, point);
+    return {p[0], p[1], p[2]};
+}
+
+Json landmarks_json(const PageContent& content) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < content.landmarks.points.size(); ++i) {
+        const auto& [source, target] = content.landmarks.points[i];
+        list.push_back({{"name", printable(content.landmarks.names[i])},
+                        {"source", position_json(content.map.from, source)},
+                        {"target", position_json(content.map.to, target)}});
+    }
+    return list;
+}
+
+Json rows_of(const Eigen::Matrix3d& matrix) {
+    Json rows = Json::array();
+    for (const auto row : matrix.rowwise()) rows.push_back({row[0], row[1], row[2]});
+    return rows;
+}
+
+/// Text that ends no element of a page.
+std::string inside_page(std::string json) {
+    for (std::size_t at = json.find("</"); at != json.npos; at = json.find("</", at + 3))
+        json.replace(at, 2, "<\\/");
+    return json;
+}
+
+}  // namespace
+
+std::string viewer_page(const PageContent& content, const std::string& frame) {
+    const std::size_t at = frame.find(place);
+    if (at == frame.npos) throw InputError("the page's frame has no place for data; build it again");
+    const Correspondence map = thinned(content.map, most_shown);
+    const int in_source = content.map.from.vertex_count(), in_target = content.map.to.vertex_count();
+    PackedArrays arrays;
+    Json json;
+    json["source"] =
+        add_side({map.from_file, map.from, map.there, in_source}, map.to, content.mirrored, arrays);
+    json["target"] = add_side({map.to_file, map.to, map.back, in_target}, map.from, content.mirrored, arrays);
+    json["turn"] = rows_of(target_to_source(map));
+    json["landmarks"] = landmarks_json(content);
+    json["report"] = content.report.empty() ? Json() : Json::parse(content.report);
+    const std::string data = "<script type=\"application/json\" id=\"data\">" + inside_page(json.dump()) +
+                             "</script>\n<script type=\"text/plain\" id=\"arrays\">" + arrays.text() +
+                             "</script>";
+    return frame.substr(0, at) + data + frame.substr(at + std::string(place).size());
+}
+
+}  // namespace varimap

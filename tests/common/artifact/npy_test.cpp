@@ -1,0 +1,41 @@
+#include "varimap/artifact/npy.h"
+
+#include <gmock/gmock.h>
+
+namespace varimap {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Npy, HeaderFillsBlocksOf64Bytes) {
+    for (const auto& shape : std::vector<std::vector<long long>>{{}, {7}, {123456789, 3}, {1, 2, 3, 4}}) {
+        const std::string header = npy_header("<f8", shape);
+        EXPECT_EQ(header.size() % 64, 0u);
+        EXPECT_EQ(header.back(), '\n');
+        EXPECT_TRUE(header.starts_with("\x93NUMPY"));
+    }
+    EXPECT_THAT(npy_header("<i4", {5, 3}),
+                HasSubstr("'descr': '<i4', 'fortran_order': False, 'shape': (5, 3, )"));
+    EXPECT_THAT(npy_header("|S3", {}), HasSubstr("'shape': ()"));
+    EXPECT_THAT(npy_header("<f8", {2}, true), HasSubstr("'fortran_order': True"));
+}
+
+TEST(Npy, ListFollowsItsHeader) {
+    const std::string bytes = to_npy("<i4", {2}, std::vector<int>{1, 256});
+    EXPECT_EQ(bytes.substr(npy_header("<i4", {2}).size()), std::string("\1\0\0\0\0\1\0\0", 8));
+}
+
+TEST(Zip, HoldsFilesAsTheyAreAndTheSumOfEach) {
+    const std::string zip = to_zip({{"a.txt", "123456789"}, {"b", ""}});
+    EXPECT_TRUE(zip.starts_with(std::string("PK\x03\x04", 4)));
+    EXPECT_THAT(zip, HasSubstr("a.txt123456789"));
+    // The check value of CRC-32, from lowest to highest byte.
+    EXPECT_EQ(zip.substr(14, 4), "\x26\x39\xf4\xcb");
+    const std::string end = zip.substr(zip.size() - 22);
+    EXPECT_TRUE(end.starts_with(std::string("PK\x05\x06", 4)));
+    EXPECT_EQ(end.substr(10, 2), std::string("\2\0", 2));
+    EXPECT_EQ(zip, to_zip({{"a.txt", "123456789"}, {"b", ""}}));
+}
+
+}  // namespace
+}  // namespace varimap

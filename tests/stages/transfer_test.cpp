@@ -1,0 +1,539 @@
+#include "stages/transfer/transfer.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <sstream>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "fixtures/temporary_folder.h"
+#include "stages/transfer/seams.h"
+#include "stages/transfer/shape.h"
+#include "stages/transfer/values.h"
+#include "varimap/artifact/npy.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/io/ply_columns.h"
+#include "varimap/results/surface_map.h"
+
+namespace varimap {
+namespace {
+
+using ::testing::HasSubstr;
+
+PointMap closest_points(const Points& positions, const TriangleMesh& mesh) {
+    const ClosestPoint closest(mesh);
+    PointMap map;
+    for (const auto position : positions.rowwise()) map.push_back(closest(Vec3(position.transpose())).point);
+    return map;
+}
+
+Correspondence identity(const TriangleMesh& mesh) {
+    return {"a.obj", "b.obj", mesh, mesh, shapes::at_vertices(mesh), shapes::at_vertices(mesh)};
+}
+
+/// A copy, scaled, turned and with its vertices and faces in another order, and its true map.
+Correspondence moved_copy(const TriangleMesh& mesh) {
+    const TriangleMesh copy = shapes::shuffled(shapes::moved(mesh, 3, 1.2, {1, -2, 3}), 7);
+    const Points in_place = shapes::moved(mesh, 3, 1.2, {1, -2, 3}).vertices;
+    std::vector<int> old_vertex;
+    shapes::shuffled(mesh, 7, &old_vertex);
+    Correspondence map{"a.obj", "b.obj", mesh, copy, closest_points(in_place, copy), {}};
+    const PointMap at = shapes::at_vertices(mesh);
+    for (const int v : old_vertex) map.back.push_back(at[std::size_t(v)]);
+    return map;
+}
+
+/// The figure and another tessellation of it in another pose; its true map, up to the tessellations.
+struct PosedPair {
+    shapes::Pose pose = shapes::figure_pose(1);
+    TriangleMesh rest = shapes::figure(.15), other = shapes::figure(.15, .5);
+    Correspondence map{"a.obj",
+                       "b.obj",
+                       rest,
+                       pose(other),
+                       closest_points(posed(rest.vertices), pose(other)),
+                       closest_points(other.vertices, rest)};
+
+    Points posed(const Points& points) const {
+        Points moved = points;
+        for (auto point : moved.rowwise()) point = pose.forward(point.transpose()).transpose();
+        return moved;
+    }
+    double unit() const { return std::sqrt(surface_area(map.to)); }
+};
+
+/// Of the grid that meshes the figure: what two tessellations may differ by at sharp tips.
+constexpr double half_edge = .15 / 2;
+
+/// Largest y^2 + z^2, the squared gradient of y z.
+double truth_radius(const TriangleMesh& mesh) {
+    return mesh.vertices.rightCols<2>().rowwise().squaredNorm().maxCoeff();
+}
+
+/// Texture coordinates by angle and height about the z axis: one patch with a seam behind it, and the poles.
+ObjModel unwrapped(const TriangleMesh& mesh) {
+    ObjModel model;
+    model.uv_of.resize(mesh.face_count(), 3);
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 centre = position(mesh, {f, Vec3::Constant(1 / 3.)});
+        const double middle = std::atan2(centre[1], centre[0]);
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 p = mesh.vertex(mesh.faces(f, k));
+            const double turn = std::remainder(std::atan2(p[1], p[0]) - middle, 2 * M_PI);
+            model.uv_of(f, k) = int(model.uv.size());
+            model.uv.emplace_back((middle + turn) / (2 * M_PI) + .5, p[2] / 4 + .5);
+        }
+    }
+    model.material.assign(std::size_t(mesh.face_count()), 0);
+    model.materials = {"skin"};
+    return model;
+}
+
+std::string obj_of(const TriangleMesh& mesh, const ObjModel& model, const std::string& library = "") {
+    return to_obj({mesh, model}, library);
+}
+
+class Transfer : public ::testing::Test {
+  protected:
+    std::string write(const std::string& name, const std::string& bytes) {
+        write_file_atomically(folder_ / name, bytes);
+        return folder_ / name;
+    }
+    std::map<std::string, std::string> carry(const TransferRequest& request, const Correspondence& map) {
+        const NamedFiles files = transfer(request, map, false);
+        return {files.begin(), files.end()};
+    }
+    std::string refusal(const TransferRequest& request, const Correspondence& map) {
+        try {
+            transfer(request, map, false);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "none";
+    }
+    TemporaryFolder folder_;
+    const TriangleMesh ball_ = shapes::ellipsoid(2, {1, .8, 1.3});
+};
+
+TEST_F(Transfer, CarriesPointsOfTheIdentityOntoThemselves) {
+    const Vec3 p = position(ball_, {7, {.2, .3, .5}});
+    TransferRequest request;
+    request.points = {write("p.txt", fmt::format("{} {} {}\n", p[0], p[1], p[2]))};
+    const auto files = carry(request, identity(ball_));
+    std::istringstream text(files.at("p.txt"));
+    Vec3 found;
+    text >> found[0] >> found[1] >> found[2];
+    EXPECT_LT((found - p).norm(), 1e-12);
+}
+
+TEST_F(Transfer, CarriesPointsToAMovedCopyExactly) {
+    const Correspondence map = moved_copy(ball_);
+    const SurfacePoint at{11, {.1, .6, .3}};
+    const PointCarrier there(map.from, map.there, map.to);
+    TriangleMesh moved = shapes::moved(ball_, 3, 1.2, {1, -2, 3});
+    EXPECT_LT((position(map.to, there(at)) - position(moved, at)).norm(), 1e-9);
+}
+
+TEST_F(Transfer, CarriesPointsOntoAnotherTessellationInAnotherPose) {
+    const PosedPair pair;
+    const PointCarrier there(pair.map.from, pair.map.there, pair.map.to);
+    double sum = 0, worst = 0;
+    for (int f = 0; f < pair.rest.face_count(); f += 3) {
+        const SurfacePoint at{f, {.2, .5, .3}};
+        const Vec3 truth = pair.pose.forward(position(pair.rest, at));
+        const double error = (position(pair.map.to, there(at)) - truth).norm() / pair.unit();
+        sum += 3 * error, worst = std::max(worst, error);
+    }
+    EXPECT_LT(sum / pair.rest.face_count(), 1.5e-3);
+    EXPECT_LT(worst, half_edge / pair.unit());
+    RecordProperty("mean", std::to_string(sum / pair.rest.face_count()));
+}
+
+TEST_F(Transfer, KeepsWhatPointFilesSayBesidesPositions) {
+    const Correspondence map = identity(ball_);
+    const Vec3 p = ball_.vertex(5);
+    TransferRequest request;
+    request.points = {
+        write("a.mrk.json",
+              fmt::format(R"({{"@schema": "s", "markups": [{{"type": "Fiducial", "coordinateSystem": "RAS",
+            "controlPoints": [{{"id": "1", "label": "nose", "position": [{}, {}, {}], "locked": true}},
+            {{"id": "2", "label": "lost", "positionStatus": "undefined", "position": []}}]}}]}})",
+                          -p[0], -p[1], p[2])),
+        write("a.fcsv",
+              fmt::format("# CoordinateSystem = LPS\nid7,{},{},{},0,0,0,1,1,1,0,ear,,\n", p[0], p[1], p[2])),
+        write("a.pp", fmt::format("<PickedPoints>\n <point x=\"{}\" y=\"{}\" z=\"{}\" name=\"tip\" "
+                                  "active=\"1\"/>\n</PickedPoints>\n",
+                                  p[0], p[1], p[2])),
+        write("a.csv", fmt::format("name;x;y;z\ntail;{};{};{}\n", p[0], p[1], p[2]))};
+    const auto files = carry(request, map);
+    for (const std::string name : {"a.mrk.json", "a.fcsv", "a.pp"}) {
+        const auto before = read_picked_points(folder_ / name);
+        const auto after = read_picked_points(write("after-" + name, files.at(name)));
+        ASSERT_EQ(after.size(), before.size());
+        EXPECT_EQ(after[0].name, before[0].name);
+        EXPECT_EQ(after[0].space, before[0].space);
+        EXPECT_LT((after[0].position - before[0].position).norm(), 1e-12) << name;
+    }
+    EXPECT_THAT(files.at("a.mrk.json"), HasSubstr("\"locked\": true"));
+    EXPECT_FALSE(read_picked_points(folder_ / "after-a.mrk.json")[1].defined);
+    EXPECT_THAT(files.at("a.csv"), HasSubstr("name;x;y;z\ntail;"));
+}
+
+TEST_F(Transfer, HonoursTheAxesOfBothMeshes) {
+    Correspondence map = identity(ball_);
+    map.to.space = Space::ras;
+    const Vec3 p = ball_.vertex(5);
+    TransferRequest request;
+    request.points = {
+        write("a.fcsv",
+              fmt::format("# CoordinateSystem = LPS\n1,{},{},{},0,0,0,1,1,1,0,ear,,\n", p[0], p[1], p[2]))};
+    const auto after = read_picked_points(write("b.fcsv", carry(request, map).at("a.fcsv")));
+    EXPECT_LT((after[0].position - Vec3(-p[0], -p[1], p[2])).norm(), 1e-12);
+}
+
+TEST_F(Transfer, RefusesPointsOfAnotherMesh) {
+    TransferRequest request;
+    request.points = {write("p.txt", "100 0 0\n0 100 0\n")};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("2 of 2 points lie farther than 0.02"));
+    request.points = {write("v.txt", "3\n162\n")};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("v.txt:2: '162' is not one of the mesh's 162"));
+}
+
+TEST_F(Transfer, InterpolatesASmoothFunctionOntoAnotherTessellation) {
+    const PosedPair pair;
+    const auto wave = [](const Points& p) {
+        return Eigen::VectorXd((2 * p.col(0).array()).sin() + p.col(1).array() * p.col(2).array());
+    };
+    const PointCarrier back(pair.map.to, pair.map.back, pair.map.from);
+    const ValueTable table{Place::vertex, wave(pair.rest.vertices)};
+    const ValueTable carried = carry_values(table, ValueKind::number, pair.map, back);
+    const Eigen::VectorXd truth = wave(pair.other.vertices);
+    const double extent = truth.maxCoeff() - truth.minCoeff();
+    const Eigen::VectorXd error = (carried.values.col(0) - truth).cwiseAbs() / extent;
+    EXPECT_LT(error.mean(), 2e-3);
+    const double steepest = std::sqrt(4 + truth_radius(pair.rest));
+    EXPECT_LT(error.maxCoeff(), half_edge * steepest / extent);
+    RecordProperty("mean", std::to_string(error.mean()));
+}
+
+TEST_F(Transfer, KeepsValuesOfTheIdentity) {
+    const Correspondence map = identity(ball_);
+    const PointCarrier back(map.to, map.back, map.from);
+    const ValueTable vertices{Place::vertex, Eigen::MatrixXd::Random(ball_.vertex_count(), 3)};
+    const ValueTable faces{Place::face, Eigen::MatrixXd::Random(ball_.face_count(), 2)};
+    for (const ValueKind kind : {ValueKind::number, ValueKind::label}) {
+        EXPECT_TRUE(carry_values(vertices, kind, map, back).values.isApprox(vertices.values, 1e-14));
+        EXPECT_TRUE(carry_values(faces, kind, map, back).values.isApprox(faces.values, 1e-14));
+    }
+}
+
+TEST_F(Transfer, LabelsAreNeverMixedAndKeepTheirWords) {
+    const PosedPair pair;
+    std::string csv = "vertex,part\n";
+    for (int v = 0; v < pair.rest.vertex_count(); ++v)
+        csv += fmt::format("{},{}\n", v, pair.rest.vertices(v, 0) > 0 ? "front" : "back");
+    TransferRequest request;
+    request.labels = {write("parts.csv", csv)};
+    std::istringstream lines(carry(request, pair.map).at("parts.csv"));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "vertex,part");
+    int seen = 0;
+    for (; std::getline(lines, line); ++seen) {
+        const bool front = line.ends_with(",front");
+        ASSERT_TRUE(front || line.ends_with(",back")) << line;
+        // The border runs along edges of the source.
+        const double x = pair.other.vertices(seen, 0);
+        if (std::abs(x) > 2 * half_edge) {
+            EXPECT_EQ(front, x > 0) << seen;
+        }
+    }
+    EXPECT_EQ(seen, pair.other.vertex_count());
+}
+
+TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
+    Correspondence map = identity(ball_);
+    map.back[5] = {};
+    std::string numbers;
+    for (int v = 0; v < ball_.vertex_count(); ++v) numbers += fmt::format("{}\n", v);
+    TransferRequest request;
+    request.values = {write("a.csv", numbers),
+                      write("a.npy", to_npy("<i4", {162}, std::vector<int>(162, 7)))};
+    const auto files = carry(request, map);
+    EXPECT_THAT(files.at("a.csv"), HasSubstr("\n4\nnan\n6\n"));
+    std::vector<int> truth(162, 7);
+    truth[5] = 0;
+    EXPECT_EQ(files.at("a.npy"), to_npy("<i4", {162}, truth));
+    request = {};
+    request.points = {write("v.txt", "5\n")};
+    map.there[5] = {};
+    EXPECT_THAT(refusal(request, map), HasSubstr("v.txt:1: vertex 5 has no image"));
+}
+
+TEST_F(Transfer, WeightsStaySumsOfOne) {
+    const PosedPair pair;
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Random(pair.rest.vertex_count(), 6).cwiseAbs();
+    for (auto row : weights.rowwise()) row /= row.sum();
+    const PointCarrier back(pair.map.to, pair.map.back, pair.map.from);
+    ValueTable carried = carry_values({Place::vertex, weights}, ValueKind::weight, pair.map, back);
+    EXPECT_LT((carried.values.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-15 * 8);
+    keep_largest(carried.values, 4);
+    EXPECT_LT((carried.values.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-15 * 8);
+    EXPECT_LE((carried.values.array() > 0).rowwise().count().maxCoeff(), 4);
+}
+
+TEST_F(Transfer, WritesTheFormatItReads) {
+    const Correspondence map = identity(ball_);
+    const auto round_trip = [&](const std::string& path) {
+        const ValueFile file = read_values(path, ValueKind::number, map.from, map.from_file);
+        return file.write(file.tables, map.to);
+    };
+    std::string csv = "index,heat,cold\n";
+    for (int v = 0; v < ball_.vertex_count(); ++v) csv += fmt::format("{},{},{}\n", v, .1 * v, -v);
+    EXPECT_EQ(round_trip(write("a.csv", csv)), csv);
+    std::string plain;
+    for (int f = 0; f < ball_.face_count(); ++f) plain += fmt::format("{} {}\n", f, 2 * f);
+    EXPECT_EQ(round_trip(write("a.txt", plain)), plain);
+    PlyColumns columns;
+    columns.vertex.push_back({"red", "uchar", std::vector<double>(std::size_t(ball_.vertex_count()), 200)});
+    columns.face.push_back({"part", "int", std::vector<double>(std::size_t(ball_.face_count()), -3)});
+    const std::string ply = to_ply(ball_, columns);
+    EXPECT_EQ(round_trip(write("a.ply", ply)), ply);
+    std::string npy = npy_header("<f4", {ball_.vertex_count()});
+    for (int v = 0; v < ball_.vertex_count(); ++v) {
+        const float value = float(v) / 3;
+        npy.append(reinterpret_cast<const char*>(&value), 4);
+    }
+    EXPECT_EQ(round_trip(write("a.npy", npy)), npy);
+    const std::vector<std::int8_t> bytes(2 * std::size_t(ball_.face_count()), -7);
+    const std::string table = to_npy("|i1", {ball_.face_count(), 2}, bytes);
+    EXPECT_EQ(round_trip(write("b.npy", table)), table);
+}
+
+TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
+    const Correspondence map = identity(ball_);
+    TransferRequest request;
+    request.values = {write("a.csv", "1\n2\n3\n")};
+    EXPECT_THAT(refusal(request, map),
+                HasSubstr("a.csv: 3 rows, but a.obj has 162 vertices and 320 triangles"));
+    request.values = {write("a.csv", "heat,cold\n1,2\n3\n")};
+    EXPECT_THAT(refusal(request, map), HasSubstr("a.csv:3: 1 columns, but the first line has 2"));
+    request.values = {write("a.csv", "1\nwarm\n")};
+    EXPECT_THAT(refusal(request, map), HasSubstr("a.csv:2: 'warm' is not a number; give words as --labels"));
+    request.values = {write("a.npy", "nothing of the kind")};
+    EXPECT_THAT(refusal(request, map), HasSubstr("a.npy: not an .npy file"));
+    request.values = {write("a.npy", to_npy("<f8", {162, 1, 1}, std::vector<double>(162)))};
+    EXPECT_THAT(refusal(request, map), HasSubstr("its shape is not one of rows and columns"));
+    std::string two;
+    for (int v = 0; v < ball_.vertex_count(); ++v) two += "0.5 0.6\n";
+    request = {};
+    request.weights = {write("w.txt", two)};
+    EXPECT_THAT(refusal(request, map), HasSubstr("w.txt: row 0 (from 0) sums to 1.1"));
+}
+
+TEST_F(Transfer, CarriesRegions) {
+    TransferRequest request;
+    request.regions = {write("r.txt", "3\n17\n200\n")};
+    EXPECT_EQ(carry(request, identity(ball_)).at("r.txt"), "3\n17\n200\n");
+    request.regions = {write("r.txt", "320\n")};
+    EXPECT_THAT(refusal(request, identity(ball_)),
+                HasSubstr("r.txt:1: '320' is not one of the mesh's 320 faces"));
+}
+
+/// The texture coordinates under points of a cut mesh, as the source has them there.
+double worst_uv_error(const TexturedMesh& cut, const Correspondence& map, const ObjModel& model) {
+    const Atlas source(map.from, model), target(cut.mesh, cut.model);
+    const ClosestPoint on_target(map.to);
+    const PointCarrier back(map.to, map.back, map.from);
+    double worst = 0;
+    for (int f = 0; f < cut.mesh.face_count(); ++f) {
+        if (!(face_normal(cut.mesh, f).norm() > 1e-6)) continue;
+        const SurfacePoint middle{f, Vec3::Constant(1 / 3.)};
+        const SurfacePoint at = back(on_target(position(cut.mesh, middle)).point);
+        Vec2 difference = target(middle) - source(at);
+        difference[0] -= std::round(difference[0]);  // the picture repeats
+        worst = std::max(worst, difference.norm());
+    }
+    return worst;
+}
+
+TEST_F(Transfer, TheIdentityKeepsTextureCoordinates) {
+    const ObjModel model = unwrapped(ball_);
+    const Correspondence map = identity(ball_);
+    const PointCarrier back(map.to, map.back, map.from);
+    const TexturedMesh cut = cut_at_seams(map, back, model);
+    EXPECT_EQ(cut.mesh.faces, ball_.faces);
+    for (int f = 0; f < ball_.face_count(); ++f)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_LT(
+                (cut.model.uv[std::size_t(cut.model.uv_of(f, k))] - model.uv[std::size_t(model.uv_of(f, k))])
+                    .norm(),
+                1e-9);
+}
+
+TEST_F(Transfer, NoFaceSpansASeam) {
+    TriangleMesh fine = shapes::ellipsoid(4, {1, .8, 1.3}), coarse = shapes::ellipsoid(3, {1, .8, 1.3});
+    coarse.vertices = shapes::moved(coarse, 1, .3, {0, 0, 0}).vertices;
+    for (const auto& [from, to] : {std::pair(fine, coarse), std::pair(coarse, fine)}) {
+        const ObjModel model = unwrapped(from);
+        // Balls about one centre: rays through it map them.
+        const auto project = [](const TriangleMesh& a, const TriangleMesh& b) {
+            return closest_points(a.vertices, b);
+        };
+        const Correspondence map{"a.obj", "b.obj", from, to, project(from, to), project(to, from)};
+        const PointCarrier back(map.to, map.back, map.from);
+        const TexturedMesh cut = cut_at_seams(map, back, model);
+        EXPECT_GT(cut.mesh.face_count(), to.face_count());
+        EXPECT_NEAR(surface_area(cut.mesh), surface_area(to), 1e-9);
+        double widest = 0;
+        for (int f = 0; f < cut.mesh.face_count(); ++f) {
+            const Vec3 p = position(cut.mesh, {f, Vec3::Constant(1 / 3.)});
+            if (p.head<2>().norm() < .35) continue;  // the poles, where the coordinates themselves end
+            for (int k = 0; k < 3; ++k)
+                widest =
+                    std::max(widest, std::abs(cut.model.uv[std::size_t(cut.model.uv_of(f, k))][0] -
+                                              cut.model.uv[std::size_t(cut.model.uv_of(f, (k + 1) % 3))][0]));
+        }
+        EXPECT_LT(widest, .15);
+    }
+}
+
+TEST_F(Transfer, TextureCoordinatesOfAMovedCopyAreThoseOfTheSource) {
+    const Correspondence map = moved_copy(ball_);
+    const ObjModel model = unwrapped(ball_);
+    const PointCarrier back(map.to, map.back, map.from);
+    const TexturedMesh cut = cut_at_seams(map, back, model);
+    EXPECT_EQ(cut.mesh.face_count(), ball_.face_count());
+    EXPECT_LT(worst_uv_error(cut, map, model), 1e-6);
+}
+
+TextureImage gradient(int n) {
+    TextureImage image(n, n);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            unsigned char* at = image.pixel(x, y);
+            at[0] = static_cast<unsigned char>(255 * x / (n - 1));
+            at[1] = static_cast<unsigned char>(255 * y / (n - 1));
+            at[2] = 128, at[3] = 255;
+        }
+    return image;
+}
+
+TEST_F(Transfer, BakesWhatTheIdentityShows) {
+    // A square with the coordinates of its own plane: the image comes out as it went in.
+    const TriangleMesh square = shapes::square(8);
+    ObjModel model;
+    for (const auto p : square.vertices.rowwise()) model.uv.emplace_back(p[0], p[1]);
+    model.uv_of = square.faces;
+    model.material.assign(std::size_t(square.face_count()), 0);
+    model.materials = {"skin"};
+    write("skin.png", encode_png(gradient(64)));
+    write("skin.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\n");
+    Correspondence map = identity(square);
+    map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
+    TransferRequest request;
+    request.texture = map.to_file;
+    request.bake = {64, 2};
+    const auto files = carry(request, map);
+    const TextureImage baked = read_png(write("baked.png", files.at("square_textured.png")));
+    ASSERT_EQ(baked.width, 64);
+    int worst = 0;
+    const TextureImage truth = gradient(64);
+    for (std::size_t i = 0; i < truth.rgba.size(); ++i)
+        worst = std::max(worst, std::abs(int(truth.rgba[i]) - int(baked.rgba[i])));
+    EXPECT_LE(worst, 1);
+    EXPECT_THAT(files.at("square_textured.mtl"), HasSubstr("map_Kd square_textured.png"));
+}
+
+TEST_F(Transfer, WritesTexturesAndGlb) {
+    write("skin.png", encode_png(gradient(8)));
+    write("skin.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    const auto files = carry(request, identity(ball_));
+    EXPECT_EQ(files.at("skin.png"), read_file(folder_ / "skin.png"));
+    EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("map_Kd skin.png"));
+    EXPECT_THAT(files.at("b_textured.obj"), HasSubstr("mtllib b_textured.mtl"));
+    const std::string& glb = files.at("b_textured.glb");
+    EXPECT_TRUE(glb.starts_with("glTF"));
+    EXPECT_EQ(glb.size() % 4, 0u);
+}
+
+TEST_F(Transfer, RefusesTexturesThatAreNotThere) {
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("its materials skin.mtl are missing"));
+    write("skin.mtl", "newmtl skin\nmap_Kd skin.png\n");
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("skin.mtl:2: the texture skin.png is missing"));
+    write("skin.png", "no picture");
+    request.bake = {16, 1};
+    Correspondence map = identity(ball_);
+    map.to_file = request.texture;
+    EXPECT_NE(refusal(request, map), "none");
+    request.texture = write("b.obj", obj_of(shapes::ellipsoid(1), unwrapped(shapes::ellipsoid(1))));
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("b.obj: is not the mesh a.obj of the map"));
+    ObjModel bare = unwrapped(ball_);
+    bare.uv_of.setConstant(-1);
+    request.texture = write("c.obj", obj_of(ball_, bare));
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("c.obj: has faces without texture coordinates"));
+}
+
+TEST_F(Transfer, CarriesAShapeExactlyToAMovedCopy) {
+    const Correspondence map = moved_copy(ball_);
+    TriangleMesh smile = ball_;
+    for (auto p : smile.vertices.rowwise())
+        p += .2 * std::exp(-4 * (p - smile.vertices.row(3)).squaredNorm()) * p;
+    const Points truth = shapes::shuffled(shapes::moved(smile, 3, 1.2, {1, -2, 3}), 7).vertices;
+    EXPECT_LT((carry_shape(map, smile.vertices) - truth).rowwise().norm().maxCoeff(), 2e-3 * .2 * 3);
+}
+
+TEST_F(Transfer, CarriesAShapeInTheFramesOfAnotherPose) {
+    // A swelling along normals stays one, wherever the limbs point.
+    const PosedPair pair;
+    Points swollen = pair.rest.vertices + .05 * vertex_normals(pair.rest);
+    const Points moved = carry_shape(pair.map, swollen);
+    const Points truth = .05 * vertex_normals(pair.map.to);
+    const Eigen::VectorXd error = (moved - pair.map.to.vertices - truth).rowwise().norm() / .05;
+    EXPECT_LT(error.mean(), .15);
+}
+
+TEST_F(Transfer, CarriesTheSourcesPolygons) {
+    std::string obj = "mtllib none.mtl\n";
+    for (const auto p : ball_.vertices.rowwise())
+        obj += fmt::format("v {} {} {} .5 .5 .5\n", p[0], p[1], p[2]);
+    obj += "vn 0 0 1\nvt 0 0\ng head\n";
+    for (const auto f : ball_.faces.rowwise())
+        obj += fmt::format("f {}/1/1 {}/1/1 {}//1\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    write("none.mtl", "newmtl a\n");
+    TransferRequest request;
+    request.mesh = write("quads.obj", obj);
+    const Correspondence map = moved_copy(ball_);
+    const auto files = carry(request, map);
+    const std::string& text = files.at("source_on_target.obj");
+    EXPECT_THAT(text, HasSubstr("g head"));
+    EXPECT_EQ(text.find("vn"), std::string::npos);
+    EXPECT_EQ(text.find("/1/1"), std::string::npos);
+    const TriangleMesh mesh = parse_mesh(text, "a.obj");
+    EXPECT_EQ(mesh.faces, ball_.faces);
+    const Points truth = shapes::moved(ball_, 3, 1.2, {1, -2, 3}).vertices;
+    EXPECT_LT((mesh.vertices - truth).rowwise().norm().maxCoeff(), 1e-9);
+}
+
+TEST_F(Transfer, ReadsMapsInBothDirections) {
+    const std::string a = write("a.ply", to_ply(ball_)), b = write("b.ply", to_ply(shapes::ellipsoid(1)));
+    const TriangleMesh small = shapes::ellipsoid(1);
+    const std::string there = write("there.csv", to_csv(closest_points(ball_.vertices, small)));
+    const std::string back = write("back.csv", to_csv(closest_points(small.vertices, ball_)));
+    const Correspondence reversed = read_correspondence({a, b, there, back}, true);
+    EXPECT_EQ(reversed.from.vertex_count(), small.vertex_count());
+    EXPECT_EQ(int(reversed.there.size()), small.vertex_count());
+    EXPECT_THROW(read_correspondence({b, a, there, back}, false), InputError);
+}
+
+}  // namespace
+}  // namespace varimap
