@@ -77,7 +77,9 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
     TracedDescent descent(context, params.alternation, params.ironing);
     std::optional<VertexCorrespondences> begun;
-    if (candidates) begun = at_vertices(chosen_map(*candidates, params.candidate), context.A().surface, context.B().surface);
+    if (candidates)
+        begun =
+            at_vertices(chosen_map(*candidates, params.candidate), context.A().surface, context.B().surface);
     const int first = begun ? std::min(first_level_for_a_map(context), levels - 1) : 0;
     Solution solution;
     for (int l = first; l < levels; ++l) {

@@ -91,11 +91,13 @@ std::string trace_csv(const Trace& trace) {
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
     std::string text =
-        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,score,reversed_mass,moved_mass,turn\n";
+        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,score,reversed_mass,moved_mass,"
+        "turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A, c.self_map_B,
-                            c.energy, c.dirichlet, c.relief, c.score, c.reversed_mass, c.moved_mass, c.turn);
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A, c.self_map_B,
+                        c.energy, c.dirichlet, c.relief, c.score, c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;
 }
@@ -106,10 +108,9 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
     for (std::size_t k = 0; k < candidates.size(); ++k)
         visitor.fact(fmt::format("candidate {}", k + 1),
                      fmt::format("{}; {}", origin(candidates[k]), relation(candidates[k])));
-    visitor.fact("confidence",
-                 fmt::format("{}: right with a probability of {:.2f}, margin {:.2f}%",
-                             confidence.confident ? "sure" : "not sure", confidence.probability,
-                             100 * confidence.margin));
+    visitor.fact("confidence", fmt::format("{}: right with a probability of {:.2f}, margin {:.2f}%",
+                                           confidence.confident ? "sure" : "not sure", confidence.probability,
+                                           100 * confidence.margin));
     visitor.text("candidates.csv", candidates_csv(candidates));
 }
 
