@@ -30,6 +30,7 @@ constexpr int most_shown = 150000;  ///< vertices of a surface: pages stay below
 constexpr const char* place = "<!--varimap-data-->";
 
 std::uint16_t step(double share) {
+    if (!std::isfinite(share)) return 0;  // of a vertex that no face uses
     return std::uint16_t(std::lround(std::clamp(share, 0., 1.) * steps));
 }
 

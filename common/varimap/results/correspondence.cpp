@@ -23,13 +23,26 @@ void require_fit(const PointMap& map, const std::string& path, const TriangleMes
                                          path, v + 2, map[v].face, to_file, to.face_count()));
 }
 
+/// Maps leave such faces out, but a surface with holes that no file tells of is none to carry things on.
+TriangleMesh read_finite_mesh(const std::string& path) {
+    TriangleMesh mesh = read_mesh(path);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (const int v : mesh.faces.row(f))
+            if (!mesh.vertex(v).allFinite())
+                throw InputError(
+                    fmt::format("{}: face {} (from 0) has a corner that is not finite; mend the "
+                                "file to carry things through its map",
+                                path, f));
+    return mesh;
+}
+
 }  // namespace
 
 Correspondence read_correspondence(const MapFiles& files, bool reverse) {
     Correspondence map{files.source,
                        files.target,
-                       read_mesh(files.source),
-                       read_mesh(files.target),
+                       read_finite_mesh(files.source),
+                       read_finite_mesh(files.target),
                        read_csv_map(files.source_to_target),
                        read_csv_map(files.target_to_source)};
     require_fit(map.there, files.source_to_target, map.from, files.source, map.to, files.target);

@@ -21,7 +21,7 @@ struct MapFiles {
 };
 
 /// Reads a map from source to target, or, where `reverse`, from target to source. Throws InputError where a
-/// table is not one of these meshes, IoError.
+/// table is not one of these meshes or a face has a corner that is not finite, IoError.
 Correspondence read_correspondence(const MapFiles& files, bool reverse);
 
 /// Carries points of one surface to another through a map of its vertices: linearly in space between the
