@@ -55,7 +55,7 @@ void Forger::real(double& value) {
 void Forger::integer(int& value, int near) {
     switch (below(4)) {
         case 0:
-            value += below(2) ? 1 : -1;
+            value = int(unsigned(value) + (below(2) ? 1u : ~0u));  // up or down, round the ends
             break;
         case 1:
             value = below(2) ? std::numeric_limits<int>::max() : -1;
