@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "stages/explore/pool.h"
 #include "varimap/quality/quality.h"
 #include "varimap/relaxation/relief_agreement.h"
 
@@ -78,7 +79,6 @@ void Appraisal::compare(const FinishedMap& best, const FinishedMap& other, Candi
     const Surface &A = context_.A().surface, &B = context_.B().surface;
     // Where the best map's inverse takes the other's images, linear on B's faces.
     Points moved(A.mesh.vertex_count(), 3);
-    candidate.moved_mass = 0;
     for (int v = 0; v < A.mesh.vertex_count(); ++v) {
         const SurfacePoint& image = other.maps.A_to_B[std::size_t(v)];
         Vec3 x = Vec3::Zero();
@@ -86,8 +86,8 @@ void Appraisal::compare(const FinishedMap& best, const FinishedMap& other, Candi
             x += image.barycentric[k] *
                  position(A.mesh, best.maps.B_to_A[std::size_t(B.mesh.faces(image.face, k))]);
         moved.row(v) = x.transpose();
-        if ((x - A.mesh.vertex(v)).norm() > elsewhere) candidate.moved_mass += A.mass[v];
     }
+    candidate.moved_mass = share_elsewhere(moved, A.mesh.vertices, A, elsewhere);
     candidate.turn = best_turn(A.mesh.vertices, moved, A.mass);
 }
 

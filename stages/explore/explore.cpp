@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "stages/explore/appraisal.h"
 #include "stages/explore/pool.h"
@@ -10,6 +9,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/input_locator.h"
+#include "varimap/results/read_out.h"
 
 namespace varimap {
 
@@ -38,13 +38,6 @@ PointPairs on_inputs(const PointMap& map, const Surface& from, const InputLocato
 Correspondences correspondences(const MapPair& maps, const Surface& A, const Surface& B) {
     const InputLocator on_A(A), on_B(B);
     return {on_inputs(maps.A_to_B, A, on_B), on_inputs(maps.B_to_A, B, on_A)};
-}
-
-PointMap at_vertices(const std::vector<int>& images, const TriangleMesh& target) {
-    const PointMap points = points_at_vertices(target);
-    PointMap map;
-    for (const int vertex : images) map.push_back(points[std::size_t(vertex)]);
-    return map;
 }
 
 /// Per vertex of the file of `from` its image on the file of `to`, linear on the mesh's faces.
@@ -165,7 +158,7 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
         if (difference(map.images, identity(surface), surface, surface) < another) continue;
         const FinishedMap rough{
             0,
-            {at_vertices(map.images.A_to_B, surface.mesh), at_vertices(map.images.B_to_A, surface.mesh)},
+            {images_at(map.images.A_to_B, surface.mesh), images_at(map.images.B_to_A, surface.mesh)},
             map.origin.energy};
         Candidate candidate = map.origin;
         candidate.score = std::log(map.origin.energy / pool.front().origin.energy);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/explore/pool.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/descent.h"
@@ -98,18 +99,18 @@ PinnedPair pinned(const PairContext& context) {
     return pinned;
 }
 
-double share_elsewhere(const PointMap& map, const PointMap& other, const Surface& from, const Surface& to) {
-    constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
-    double share = 0;
+Points places(const PointMap& map, const TriangleMesh& target) {
+    Points places(map.size(), 3);
     for (std::size_t v = 0; v < map.size(); ++v)
-        if ((position(to.mesh, map[v]) - position(to.mesh, other[v])).norm() > elsewhere)
-            share += from.mass[Eigen::Index(v)];
-    return share;
+        places.row(Eigen::Index(v)) = position(target, map[v]).transpose();
+    return places;
 }
 
 bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context, double distinct) {
     const Surface &A = context.A().surface, &B = context.B().surface;
-    return share_elsewhere(a.A_to_B, b.A_to_B, A, B) + share_elsewhere(a.B_to_A, b.B_to_A, B, A) <
+    constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
+    return share_elsewhere(places(a.A_to_B, B.mesh), places(b.A_to_B, B.mesh), A, elsewhere) +
+               share_elsewhere(places(a.B_to_A, A.mesh), places(b.B_to_A, A.mesh), B, elsewhere) <
            2 * distinct;
 }
 

@@ -28,20 +28,23 @@ std::vector<int> spread(const std::vector<std::pair<int, int>>& pairs, const Tri
     return images;
 }
 
-double share_elsewhere(const std::vector<int>& a, const std::vector<int>& b, const Surface& from,
-                       const Surface& to) {
-    constexpr double elsewhere = 0.15;  // units of sqrt(area); chosen by hand, not swept
+}  // namespace
+
+double share_elsewhere(const Points& a, const Points& b, const Surface& from, double elsewhere) {
     double share = 0;
-    for (std::size_t v = 0; v < a.size(); ++v)
-        if ((to.mesh.vertex(a[v]) - to.mesh.vertex(b[v])).norm() > elsewhere)
-            share += from.mass[Eigen::Index(v)];
+    for (Eigen::Index v = 0; v < a.rows(); ++v)
+        if ((a.row(v) - b.row(v)).norm() > elsewhere) share += from.mass[v];
     return share;
 }
 
-}  // namespace
-
 double difference(const VertexImages& a, const VertexImages& b, const Surface& A, const Surface& B) {
-    return (share_elsewhere(a.A_to_B, b.A_to_B, A, B) + share_elsewhere(a.B_to_A, b.B_to_A, B, A)) / 2;
+    constexpr double elsewhere = 0.15;  // units of sqrt(area); chosen by hand, not swept
+    const auto at = [](const Surface& to, const std::vector<int>& images) {
+        return Points(to.mesh.vertices(images, Eigen::all));
+    };
+    return (share_elsewhere(at(B, a.A_to_B), at(B, b.A_to_B), A, elsewhere) +
+            share_elsewhere(at(A, a.B_to_A), at(A, b.B_to_A), B, elsewhere)) /
+           2;
 }
 
 VertexImages identity(const Surface& surface) {

@@ -23,6 +23,9 @@ void add_if_new(std::vector<PooledMap>& pool, PooledMap map, const PairContext& 
 void compose(std::vector<PooledMap>& pool, int count, const std::vector<VertexImages>& self_maps_A,
              const std::vector<VertexImages>& self_maps_B, const PairContext& context);
 
+/// Share of a surface whose vertices two maps take to places farther apart than that.
+double share_elsewhere(const Points& a, const Points& b, const Surface& from, double elsewhere);
+
 /// Share of both surfaces on which two maps differ by more than 0.15 of sqrt(area).
 double difference(const VertexImages& a, const VertexImages& b, const Surface& A, const Surface& B);
 

@@ -182,13 +182,6 @@ void require_vertices(Eigen::Index count, const TriangleMesh& mesh) {
                             "; rerun varimap-diffuse and varimap-refine");
 }
 
-PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target) {
-    const PointMap points = points_at_vertices(target);
-    PointMap images;
-    for (const int vertex : vertices) images.push_back(points[std::size_t(vertex)]);
-    return images;
-}
-
 void pin_landmarks(VertexMaps& maps, const PairRecord& record, const Surface& A, const Surface& B) {
     if (!record.pins_landmarks() || !record.landmark_points.empty()) return;  // points lie between vertices
     for (const auto& [a, b] : record.landmarks) {
@@ -198,6 +191,13 @@ void pin_landmarks(VertexMaps& maps, const PairRecord& record, const Surface& A,
 }
 
 }  // namespace
+
+PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target) {
+    const PointMap points = points_at_vertices(target);
+    PointMap images;
+    for (const int vertex : vertices) images.push_back(points[std::size_t(vertex)]);
+    return images;
+}
 
 VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B) {
     require_vertices(plan.centre_A.rows(), A.mesh);

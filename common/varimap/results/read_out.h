@@ -21,4 +21,7 @@ VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B);
 /// The image vertices, and pinned landmarks. Throws as above.
 VertexMaps read_out(const Diffusion& diffusion, const Surface& A, const Surface& B);
 
+/// Vertices of a mesh as points of it.
+PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target);
+
 }  // namespace varimap
