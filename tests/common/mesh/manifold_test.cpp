@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/shapes.h"
+#include "fixtures/together.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 
 namespace varimap {
 namespace {
 
+using shapes::together;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -20,15 +22,6 @@ std::string complaint(const TriangleMesh& mesh) {
         EXPECT_THAT(error.what(), HasSubstr("m.off"));
         return error.what();
     }
-}
-
-TriangleMesh together(const TriangleMesh& a, const TriangleMesh& b) {
-    TriangleMesh both;
-    both.vertices.resize(a.vertex_count() + b.vertex_count(), 3);
-    both.vertices << a.vertices, b.vertices;
-    both.faces.resize(a.face_count() + b.face_count(), 3);
-    both.faces << a.faces, b.faces.array() + a.vertex_count();
-    return both;
 }
 
 TEST(Manifold, BoundariesGenusAndUnusedVerticesAreServed) {

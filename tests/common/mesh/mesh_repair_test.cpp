@@ -7,6 +7,7 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "fixtures/together.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/bridges.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -15,6 +16,7 @@
 namespace varimap {
 namespace {
 
+using shapes::together;
 using ::testing::Each;
 using ::testing::HasSubstr;
 
@@ -22,15 +24,6 @@ RepairedMesh repaired(const TriangleMesh& mesh, const RepairOptions& options = {
     RepairedMesh result = repaired(mesh, options, "m.off");
     require_sheets(result.mesh, "repaired");
     return result;
-}
-
-TriangleMesh together(const TriangleMesh& a, const TriangleMesh& b) {
-    TriangleMesh both;
-    both.vertices.resize(a.vertex_count() + b.vertex_count(), 3);
-    both.vertices << a.vertices, b.vertices;
-    both.faces.resize(a.face_count() + b.face_count(), 3);
-    both.faces << a.faces, b.faces.array() + a.vertex_count();
-    return both;
 }
 
 void add_face(TriangleMesh& mesh, int a, int b, int c) {
