@@ -1,7 +1,11 @@
 #include "varimap/mesh/triangle_strip.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
 
 namespace varimap {
 
@@ -98,7 +102,83 @@ std::optional<TriangleStrip> pass_other_side(const Edges& edges, const TriangleS
     return other;
 }
 
+Vec3 centre(const TriangleMesh& mesh, int f) {
+    return (mesh.vertex(mesh.faces(f, 0)) + mesh.vertex(mesh.faces(f, 1)) + mesh.vertex(mesh.faces(f, 2))) /
+           3;
+}
+
+/// A face that the search for a strip has reached.
+struct Reached {
+    double length;
+    int edge, before;  ///< the edge to it and the face on its other side; -1: where the search began
+    bool settled = false;
+};
+
+TriangleStrip strip_to(const std::unordered_map<int, Reached>& reached, int face) {
+    TriangleStrip strip;
+    for (; face >= 0; face = reached.at(face).before) {
+        strip.faces.push_back(face);
+        strip.edges.push_back(reached.at(face).edge);
+    }
+    strip.edges.pop_back();
+    std::reverse(strip.faces.begin(), strip.faces.end());
+    std::reverse(strip.edges.begin(), strip.edges.end());
+    return strip;
+}
+
 }  // namespace
+
+TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most) {
+    if (from == to) return {{from}, {}};
+    std::unordered_map<int, Reached> reached{{from, {0, -1, -1}}};
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    const Vec3 goal = centre(mesh, to);
+    open.emplace((centre(mesh, from) - goal).norm(), from);
+    for (int settled = 0; !open.empty() && settled < most;) {
+        const int f = open.top().second;
+        open.pop();
+        Reached& here = reached.at(f);
+        if (std::exchange(here.settled, true)) continue;
+        ++settled;
+        if (f == to) return strip_to(reached, to);
+        const double length = here.length;  // insertions move what `here` refers to
+        const Vec3 from_here = centre(mesh, f);
+        for (int side = 3 * f; side < 3 * f + 3; ++side)
+            for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]]) {
+                const int g = beyond / 3;
+                const Vec3 there = centre(mesh, g);
+                const double through = length + (there - from_here).norm();
+                const auto [entry, is_new] =
+                    reached.try_emplace(g, Reached{through, edges.of_side[std::size_t(side)], f});
+                if (!is_new && entry->second.length <= through) continue;
+                entry->second = {through, edges.of_side[std::size_t(side)], f};
+                open.emplace(through + (there - goal).norm(), g);
+            }
+    }
+    return {};
+}
+
+Vec3 heading(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip, const Vec3& start,
+             const Vec3& goal) {
+    if (strip.edges.empty()) return goal - start;
+    const Unfolded flat = unfold(mesh, edges, strip, start, goal);
+    const FunnelPath path = funnel(flat.start, flat.portals, flat.goal);
+    Vec2 towards = flat.goal - flat.start;
+    for (const auto& [portal, is_left] : path.bends) {
+        const Portal& ends = flat.portals[std::size_t(portal)];
+        towards = (is_left ? ends.first : ends.second) - flat.start;
+        if (towards.squaredNorm() > 0) break;
+    }
+    // The plane's axes in space: along the first edge, and from the first face across it.
+    const auto [l, r] = edges.vertices[std::size_t(strip.edges.front())];
+    const Vec3 along = (mesh.vertex(r) - mesh.vertex(l)).normalized();
+    int apex = mesh.faces(strip.faces.front(), 0);
+    for (int k = 1; apex == l || apex == r; ++k) apex = mesh.faces(strip.faces.front(), k);
+    const Vec3 back = mesh.vertex(apex) - mesh.vertex(l);
+    const Vec3 across = -(back - along.dot(back) * along).normalized();
+    return (towards.x() * along + towards.y() * across).normalized() * path.length;
+}
 
 FunnelPath funnel(const Vec2& start, const std::vector<Portal>& portals, const Vec2& goal) {
     const int n = int(portals.size());

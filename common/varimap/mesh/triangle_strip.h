@@ -21,6 +21,15 @@ struct TriangleStrip {
 double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
                   const Vec3& goal);
 
+/// The strip of least length by the faces' centres, from one face to another; empty if they are not connected
+/// or more than `most` faces have to be looked at (A*). No geodesic yet: `straighten` makes one of it.
+TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most);
+
+/// The direction in which the shortest path through the strip leaves `start`, in the plane of the first face,
+/// times the path's length: where `goal` lies as seen from `start` along the surface.
+Vec3 heading(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip, const Vec3& start,
+             const Vec3& goal);
+
 /// A segment of the plane, its ends to the left and to the right of the way that crosses it.
 using Portal = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
@@ -27,19 +28,11 @@ const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  
                                        Vec3(.15, .15, .7), Vec3(.08, .46, .46), Vec3(.46, .08, .46),
                                        Vec3(.46, .46, .08)};
 
-/// Sorted, each once.
-void make_set(std::vector<int>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 }  // namespace
 
 NormalAgreement::NormalAgreement(SlidingMap& map)
     : map_(map), closest_(map.target()), target_faces_(vertex_faces(map.target())) {}
 
-/// Whether the three images lie around one vertex of the target all of whose faces the image triangle, with
-/// that normal, agrees with: it needs no closest points then.
 bool NormalAgreement::lies_within_a_star(int f, const Vec3& normal) const {
     const TriangleMesh& target = map_.target();
     const auto c = map_.source().faces.row(f);
@@ -58,10 +51,19 @@ bool NormalAgreement::lies_within_a_star(int f, const Vec3& normal) const {
     return false;
 }
 
+Vec3 NormalAgreement::chord_normal(int f) const {
+    const auto c = map_.source().faces.row(f);
+    return (map_.image(c[1]) - map_.image(c[0])).cross(map_.image(c[2]) - map_.image(c[0]));
+}
+
+bool NormalAgreement::lies_within_a_star(int f) const {
+    return lies_within_a_star(f, chord_normal(f));
+}
+
 bool NormalAgreement::disagrees(int f) const {
     const auto c = map_.source().faces.row(f);
     const Vec3 &x = map_.image(c[0]), &y = map_.image(c[1]), &z = map_.image(c[2]);
-    const Vec3 normal = (y - x).cross(z - x);
+    const Vec3 normal = chord_normal(f);
     if (lies_within_a_star(f, normal)) return false;
     Vec3 below = Vec3::Zero();
     int face = -1;

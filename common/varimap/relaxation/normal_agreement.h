@@ -20,11 +20,16 @@ class NormalAgreement {
     std::vector<int> disagreeing_faces() const;
     /// Turns them; vertices with fixed[v] stay. Returns those that are left.
     std::vector<int> improve(std::vector<int> disagreeing, const VertexData<bool>& fixed);
+    /// Those of `faces`, in their order.
+    std::vector<int> disagreeing_among(const std::vector<int>& faces) const;
+    /// Whether the images of a face's corners lie around one vertex of the target with faces that the image
+    /// triangle all agrees with: nothing is in doubt then.
+    bool lies_within_a_star(int f) const;
 
   private:
-    std::vector<int> disagreeing_among(const std::vector<int>& faces) const;
     bool disagrees(int f) const;
     bool lies_within_a_star(int f, const Vec3& normal) const;
+    Vec3 chord_normal(int f) const;
     /// Of the faces around a vertex; some number above `limit` if that is exceeded.
     double cost(int v, double limit) const;
     bool search(int v);

@@ -6,7 +6,10 @@
 #include <array>
 #include <memory>
 
+#include "varimap/core/index_set.h"
+#include "varimap/core/log.h"
 #include "varimap/quality/quality.h"
+#include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
@@ -199,7 +202,17 @@ class Untangling {
         NormalAgreement agreement(sliding_);
         const std::vector<int> disagreeing = agreement.disagreeing_faces();
         report_.disagreeing_before = int(disagreeing.size());
-        report_.disagreeing_after = int(agreement.improve(disagreeing, held()).size());
+        const VertexData<bool> stays = held();
+        std::vector<int> left = agreement.improve(disagreeing, stays);
+        ChartRepair repair(sliding_, agreement);
+        const std::vector<int> touched = repair(stays);
+        left.insert(left.end(), touched.begin(), touched.end());
+        make_set(left);
+        report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
+        const auto& o = repair.report().outcomes;
+        log("repair in charts: {} parts mapped anew; tried in vain: {} for want of a disc, {} of a simple "
+            "rim, {} folded, {} not better",
+            o[0], o[1], o[2], o[3], o[4]);
     }
 
     PointMap& map_;

@@ -8,6 +8,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/verification/log_map.h"
 #include "varimap/verification/map_degree.h"
 
 namespace varimap {
@@ -18,7 +19,6 @@ const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.8, .1, .1),    
                                        Vec3(.1, .1, .8),   Vec3(.06, .47, .47), Vec3(.47, .06, .47),
                                        Vec3(.47, .47, .06)};
 
-using std::numbers::pi;
 using Corners = std::array<Vec3, 3>;
 
 Corners corners_of(const TriangleMesh& mesh, int f) {
@@ -40,32 +40,6 @@ Points images(const PointMap& map, const TriangleMesh& target) {
     return points;
 }
 
-double angle(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// Angle from a to b as seen along `axis` (a unit vector or 0), counter-clockwise positive.
-double seen_angle(const Vec3& a, const Vec3& b, const Vec3& axis) {
-    return std::atan2(axis.dot(a.cross(b)), a.dot(b) - a.dot(axis) * b.dot(axis));
-}
-
-/// Per vertex: sum of the angles of its faces.
-std::vector<double> angles_around_vertices(const TriangleMesh& mesh) {
-    std::vector<double> sums(std::size_t(mesh.vertex_count()), 0);
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const Corners p = corners_of(mesh, f);
-        for (std::size_t k = 0; k < 3; ++k)
-            sums[std::size_t(mesh.faces(f, int(k)))] += angle(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-    }
-    return sums;
-}
-
-/// The vertex a surface point coincides with; -1: none.
-int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point) {
-    int k = 0;
-    return point.face >= 0 && point.barycentric.maxCoeff(&k) > 1 - 1e-9 ? mesh.faces(point.face, k) : -1;
-}
-
 enum class Verdict : char { left_out, degenerate, reversed, upright };
 
 class Judge {
@@ -78,14 +52,24 @@ class Judge {
           closest_(target),
           source_area_(surface_area(source)),
           target_area_(surface_area(target)),
+          edges_(find_edges(source)),
+          seen_(look_around()),
           verdict_(std::size_t(source.face_count())),
-          side_(Points::Zero(source.face_count(), 3)) {
-        parallel_for_each_index(source.face_count(), 64, [&](int f) { verdict_[std::size_t(f)] = judge(f); });
+          cuts_(std::size_t(source.face_count()), 0) {
+        parallel_for_each_index(source.face_count(), 64, [&](int f) {
+            verdict_[std::size_t(f)] = judge(f);
+            cuts_[std::size_t(f)] = is_judged(f) && cuts_through(f);
+        });
     }
     Verification result() const;
 
   private:
-    Verdict judge(int f);
+    using Vec2 = LogMap::Vec2;
+    std::vector<std::pair<Vec2, Vec2>> look_around() const;
+    Vec2 seen(int f, int from, int to) const;
+    double turn(int f, int k) const;
+    Verdict judge(int f) const;
+    bool cuts_through(int f) const;
     bool has_images(int f) const;
     void add_areas(Verification& found) const;
     void find_branches(Verification& found) const;
@@ -97,8 +81,11 @@ class Judge {
     TriangleMesh image_;  ///< the image triangles
     ClosestPoint closest_;
     double source_area_, target_area_;
+    Edges edges_;  ///< of the source
+    std::vector<std::pair<Vec2, Vec2>>
+        seen_;  ///< per edge: higher vertex from the lower, lower from the higher
     std::vector<Verdict> verdict_;
-    Points side_;  ///< per face: sum of the target's normals below its image triangle; 0 where not judged
+    std::vector<char> cuts_;
 };
 
 bool Judge::has_images(int f) const {
@@ -107,11 +94,48 @@ bool Judge::has_images(int f) const {
     return true;
 }
 
-Verdict Judge::judge(int f) {
+std::vector<std::pair<LogMap::Vec2, LogMap::Vec2>> Judge::look_around() const {
+    const LogMap log_map(target_);
+    std::vector<std::pair<Vec2, Vec2>> seen(edges_.vertices.size(), {Vec2::Zero(), Vec2::Zero()});
+    parallel_for_each_index(edges_.size(), 64, [&](int e) {
+        const auto [low, high] = edges_.vertices[std::size_t(e)];
+        const SurfacePoint &a = map_[std::size_t(low)], &b = map_[std::size_t(high)];
+        if (a.face >= 0 && b.face >= 0) seen[std::size_t(e)] = log_map(a, b);
+    });
+    return seen;
+}
+
+/// The image of a face's corner as seen from that of another.
+LogMap::Vec2 Judge::seen(int f, int from, int to) const {
+    const int side = 3 * f + ((from + 1) % 3 == to ? from : to);
+    const auto& [of_higher, of_lower] = seen_[std::size_t(edges_.of_side[std::size_t(side)])];
+    return source_.faces(f, from) < source_.faces(f, to) ? of_higher : of_lower;
+}
+
+double cross(const LogMap::Vec2& a, const LogMap::Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Angle from the one neighbour's image to the other's, as seen from that of corner k.
+double Judge::turn(int f, int k) const {
+    const Vec2 right = seen(f, k, (k + 1) % 3), left = seen(f, k, (k + 2) % 3);
+    return std::atan2(cross(right, left), right.dot(left));
+}
+
+Verdict Judge::judge(int f) const {
     if (!has_images(f)) return Verdict::left_out;
     if (is_degenerate(corners_of(source_, f), source_area_)) return Verdict::degenerate;
+    double sum = 0, longest = 0;
+    for (int k = 0; k < 3; ++k) {
+        const Vec2 right = seen(f, k, (k + 1) % 3);
+        sum += cross(right, seen(f, k, (k + 2) % 3));
+        longest = std::max(longest, right.squaredNorm());
+    }
+    return sum > 1e-11 * longest + 1e-15 * target_area_ ? Verdict::upright : Verdict::reversed;
+}
+
+bool Judge::cuts_through(int f) const {
     const Corners p = corners_of(image_, f);
-    if (is_degenerate(p, target_area_)) return Verdict::reversed;
     Vec3 m = Vec3::Zero();
     int face = -1;
     for (const Vec3& b : inner_points) {
@@ -119,8 +143,7 @@ Verdict Judge::judge(int f) {
         const Corners q = corners_of(target_, face);
         m += (q[1] - q[0]).cross(q[2] - q[0]).stableNormalized();
     }
-    side_.row(f) = m.transpose();
-    return (p[1] - p[0]).cross(p[2] - p[0]).dot(m) > 0 ? Verdict::upright : Verdict::reversed;
+    return !((p[1] - p[0]).cross(p[2] - p[0]).dot(m) * sign(f) > 0);
 }
 
 void Judge::add_areas(Verification& found) const {
@@ -129,6 +152,7 @@ void Judge::add_areas(Verification& found) const {
     for (int f = 0; f < source_.face_count(); ++f) {
         found.left_out_count += verdict_[std::size_t(f)] == Verdict::left_out;
         if (!is_judged(f)) continue;
+        found.cutting_count += cuts_[std::size_t(f)];
         judged += area(corners_of(source_, f));
         signed_image += sign(f) * area(corners_of(image_, f));
         if (verdict_[std::size_t(f)] != Verdict::reversed) continue;
@@ -140,29 +164,13 @@ void Judge::add_areas(Verification& found) const {
 }
 
 void Judge::find_branches(Verification& found) const {
-    const auto count = std::size_t(source_.vertex_count());
-    Points axis = Points::Zero(source_.vertex_count(), 3);
-    for (int f = 0; f < source_.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) axis.row(source_.faces(f, k)) += side_.row(f);
-    axis.rowwise().normalize();
-    std::vector<double> unfolded(count, 0), seen(count, 0);
+    std::vector<double> turns(std::size_t(source_.vertex_count()), 0);
     for (int f = 0; f < source_.face_count(); ++f) {
         if (verdict_[std::size_t(f)] == Verdict::left_out) continue;
-        const Corners p = corners_of(image_, f);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int v = source_.faces(f, int(k));
-            const Vec3 right = p[(k + 1) % 3] - p[k], left = p[(k + 2) % 3] - p[k];
-            unfolded[std::size_t(v)] += sign(f) * angle(right, left);
-            seen[std::size_t(v)] += seen_angle(right, left, axis.row(v));
-        }
+        for (int k = 0; k < 3; ++k) turns[std::size_t(source_.faces(f, k))] += turn(f, k);
     }
-    const std::vector<double> full = angles_around_vertices(target_);
-    for (std::size_t v = 0; v < count; ++v) {
-        const int vertex = vertex_at(target_, map_[v]);
-        const double once = vertex >= 0 ? full[std::size_t(vertex)] : 2 * pi;
-        if (std::abs(seen[v]) >= 3 * pi && unfolded[v] * std::copysign(1., seen[v]) >= 1.25 * once)
-            found.branch_vertices.push_back(int(v));
-    }
+    for (std::size_t v = 0; v < turns.size(); ++v)
+        if (std::abs(turns[v]) >= 3 * std::numbers::pi) found.branch_vertices.push_back(int(v));
 }
 
 Verification Judge::result() const {

@@ -10,19 +10,25 @@ namespace varimap {
 /// What an independent look at a map finds (Sec. 4.4: flips). It shares nothing with the code that makes,
 /// untangles or measures maps, so that a mistake there cannot hide here.
 ///
-/// A source triangle is judged by its image triangle, whose corners are the images of its own. Left out are
-/// triangles with a corner without image, and source triangles without area.
+/// A source triangle is judged by its image triangle as laid out on the target: its corners are the images of
+/// its own, its sides shortest paths. Left out are triangles with a corner without image, and source
+/// triangles without area. Maps between closed surfaces of equal genus, of degree 1 and without reversed
+/// triangles, have no branch points (Riemann and Hurwitz).
 struct Verification {
-    /// Source triangles with n . m <= 0: n the normal of the image triangle, m the sum of the unit normals of
-    /// the target's FACES closest to seven of its inner points. Collapsed image triangles count. Ascending.
+    /// Source triangles whose image is reversed or collapsed: the products u x v, summed over the three
+    /// corners, are not positive, with u and v the others as seen from a corner along the surface
+    /// (log_map.h). Ascending.
     std::vector<int> reversed_faces;
     double reversed_area_percent = 0;  ///< their share of the area of the triangles that were judged
-    /// Source vertices around which the map winds twice or more, forwards or backwards: the images of the
-    /// neighbours, joined in their order, go round the vertex's image at least 1.5 times, seen along the mean
-    /// of the target's face normals there; and the image triangles' angles there, negative in reversed ones,
-    /// sum to at least 1.25 times a full turn (of the target's vertex, where the image is one), so that no
-    /// bend of the target is taken for a branch. The neighbours of a boundary vertex are not joined into a
-    /// loop: it is found once its fan overlaps itself by half a turn. Ascending.
+    /// Those not reversed that would seem so if drawn with straight sides, and reversed ones that would not:
+    /// n . m <= 0 with n the normal of that triangle and m the sum of the unit normals of the target's FACES
+    /// closest to seven of its inner points. They cut through thin parts of the target, or sheets of it lie
+    /// upon each other.
+    int cutting_count = 0;
+    /// Source vertices around which the map winds twice or more, forwards or backwards: the angles under
+    /// which the images of the neighbours, joined in their order, are seen from the vertex's image sum to at
+    /// least 1.5 turns. The neighbours of a boundary vertex are not joined into a loop: it is found once its
+    /// fan overlaps itself by half a turn. Ascending.
     std::vector<int> branch_vertices;
     /// Sum of the image triangles' areas, negative for reversed ones, by the area of the target. 1 for a good
     /// map of whole surfaces (a little less where image triangles cut across bends), the covered share for a

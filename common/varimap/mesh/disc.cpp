@@ -1,0 +1,189 @@
+#include "varimap/mesh/disc.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "varimap/core/index_set.h"
+#include "varimap/core/linear_algebra.h"
+
+namespace varimap {
+
+namespace {
+
+int index_in(const std::vector<int>& ascending, int value) {
+    const auto found = std::lower_bound(ascending.begin(), ascending.end(), value);
+    return found != ascending.end() && *found == value ? int(found - ascending.begin()) : -1;
+}
+
+/// Per boundary vertex the next one, with the face to the left; empty if a vertex has two.
+std::unordered_map<int, int> next_on_boundary(const TriangleMesh& mesh, const Edges& edges) {
+    std::unordered_map<int, int> next;
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() != 1) continue;
+        const int side = edges.sides[e][0], f = side / 3, k = side % 3;
+        if (!next.emplace(mesh.faces(f, k), mesh.faces(f, (k + 1) % 3)).second) return {};
+    }
+    return next;
+}
+
+}  // namespace
+
+SubMesh::SubMesh(const TriangleMesh& whole, std::vector<int> faces) : face(std::move(faces)) {
+    for (const int f : face)
+        for (int k = 0; k < 3; ++k) vertex.push_back(whole.faces(f, k));
+    make_set(vertex);
+    mesh.vertices.resize(Eigen::Index(vertex.size()), 3);
+    for (std::size_t v = 0; v < vertex.size(); ++v)
+        mesh.vertices.row(Eigen::Index(v)) = whole.vertices.row(vertex[v]);
+    mesh.faces.resize(Eigen::Index(face.size()), 3);
+    for (std::size_t f = 0; f < face.size(); ++f)
+        for (int k = 0; k < 3; ++k)
+            mesh.faces(Eigen::Index(f), k) = index_in(vertex, whole.faces(face[f], k));
+}
+
+SurfacePoint SubMesh::on_part(const SurfacePoint& point) const {
+    return {index_in(face, point.face), point.barycentric};
+}
+
+std::vector<int> disc_boundary(const TriangleMesh& mesh) {
+    const Edges edges = find_edges(mesh);
+    const std::unordered_map<int, int> next = next_on_boundary(mesh, edges);
+    // With one loop, no vertex of which is met twice, Euler's number 1 leaves neither handles nor other
+    // parts.
+    if (next.size() < 3 || mesh.vertex_count() - edges.size() + mesh.face_count() != 1) return {};
+    std::vector<int> loop;
+    int v = mesh.vertex_count();
+    for (const auto& [from, to] : next) v = std::min(v, from);
+    do {
+        const auto found = next.find(v);
+        if (found == next.end() || loop.size() == next.size()) return {};
+        loop.push_back(v);
+        v = found->second;
+    } while (v != loop.front());
+    if (loop.size() != next.size()) return {};
+    return loop;
+}
+
+Points tutte_embedding(const TriangleMesh& disc, const std::vector<int>& boundary, const Points& rim) {
+    VertexData<int> unknown(disc.vertex_count(), 0), place(disc.vertex_count(), -1);
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+        unknown[boundary[i]] = -1;
+        place[boundary[i]] = int(i);
+    }
+    int count = 0;
+    for (int& u : unknown)
+        if (u == 0) u = count++;
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 2);
+    const auto add = [&](int v, int w, double weight) {
+        if (unknown[v] < 0) return;
+        entries.emplace_back(unknown[v], unknown[v], weight);
+        if (unknown[w] >= 0)
+            entries.emplace_back(unknown[v], unknown[w], -weight);
+        else
+            right.row(unknown[v]) += weight * rim.row(place[w]).leftCols<2>();
+    };
+    for (int f = 0; f < disc.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const int v = disc.faces(f, k);
+            const Vec3 a = disc.vertex(disc.faces(f, (k + 1) % 3)) - disc.vertex(v);
+            const Vec3 b = disc.vertex(disc.faces(f, (k + 2) % 3)) - disc.vertex(v);
+            const double half = std::tan(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
+            for (const int l : {1, 2}) {
+                const int w = disc.faces(f, (k + l) % 3);
+                const double length = (l == 1 ? a : b).norm();
+                // Bounds keep needles from making the system singular.
+                const double weight = std::clamp(half, 1e-3, 1e3) / std::max(length, 1e-12);
+                add(v, w, weight);
+                add(w, v, weight);
+            }
+        }
+    Points result = Points::Zero(disc.vertex_count(), 3);
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+        result.row(boundary[i]).leftCols<2>() = rim.row(Eigen::Index(i)).leftCols<2>();
+    if (count == 0) return result;
+    Eigen::SparseMatrix<double> system(count, count);
+    system.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(system);
+    const Eigen::MatrixXd solution = solver.solve(right);
+    for (int v = 0; v < disc.vertex_count(); ++v)
+        if (unknown[v] >= 0) result.row(v).leftCols<2>() = solution.row(unknown[v]);
+    return result;
+}
+
+TriangleMesh circular_chart(const TriangleMesh& disc, const std::vector<int>& boundary) {
+    const std::size_t n = boundary.size();
+    std::vector<double> at(n + 1, 0);
+    for (std::size_t i = 0; i < n; ++i)
+        at[i + 1] = at[i] + (disc.vertex(boundary[(i + 1) % n]) - disc.vertex(boundary[i])).norm();
+    Points rim = Points::Zero(Eigen::Index(n), 3);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * at[i] / at[n];
+        rim.row(Eigen::Index(i)) << std::cos(angle), std::sin(angle), 0;
+    }
+    return {tutte_embedding(disc, boundary, rim), disc.faces};
+}
+
+std::vector<int> FaceSets::widened(std::vector<int> faces, int count) {
+    mark(faces, 1);
+    std::size_t begin = 0;
+    for (int ring = 0; ring < count; ++ring) {
+        const std::size_t end = faces.size();
+        for (std::size_t i = begin; i < end; ++i)
+            for (int k = 0; k < 3; ++k)
+                for (const int f : faces_[mesh_.faces(faces[i], k)])
+                    if (!marks_[f]) {
+                        marks_[f] = 1;
+                        faces.push_back(f);
+                    }
+        begin = end;
+    }
+    mark(faces, 0);
+    make_set(faces);
+    return faces;
+}
+
+std::vector<int> FaceSets::enclosed(std::vector<int> faces, const std::vector<int>& seeds, int most) {
+    constexpr char taken = 1, outside = 2, present = 3;
+    std::vector<int> all_outside;
+    mark(faces, taken);
+    for (const int seed : seeds) {
+        if (marks_[seed]) continue;
+        std::vector<int> part{seed};
+        marks_[seed] = present;
+        bool is_outside = false;
+        for (std::size_t i = 0; i < part.size() && !is_outside; ++i) {
+            neighbours(part[i], [&](int f) {
+                is_outside = is_outside || marks_[f] == outside;
+                if (marks_[f]) return;
+                marks_[f] = present;
+                part.push_back(f);
+            });
+            is_outside = is_outside || int(part.size()) > most;
+        }
+        mark(part, is_outside ? outside : taken);
+        std::vector<int>& to = is_outside ? all_outside : faces;
+        to.insert(to.end(), part.begin(), part.end());
+    }
+    mark(all_outside, 0);
+    mark(faces, 0);
+    make_set(faces);
+    return faces;
+}
+
+std::vector<int> FaceSets::filled(std::vector<int> faces, int most) {
+    std::vector<int> seeds;
+    mark(faces, 1);
+    for (const int f : faces)
+        neighbours(f, [&](int g) {
+            if (!marks_[g]) seeds.push_back(g);
+        });
+    mark(faces, 0);
+    make_set(seeds);
+    return enclosed(std::move(faces), seeds, most);
+}
+
+}  // namespace varimap

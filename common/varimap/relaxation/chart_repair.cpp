@@ -1,0 +1,204 @@
+#include "varimap/relaxation/chart_repair.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "varimap/core/index_set.h"
+#include "varimap/core/parallel.h"
+#include "varimap/core/timing.h"
+#include "varimap/mesh/triangle_strip.h"
+#include "varimap/relaxation/branch_points.h"
+#include "varimap/relaxation/local_relaxation.h"
+
+namespace varimap {
+
+namespace {
+
+// Chosen by hand on pairs of people, cats and four-legged animals.
+constexpr std::array<int, 8> ring_counts{2, 3, 4, 5, 6, 8, 10, 13};
+constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
+constexpr int least_part = 1000;      ///< faces that a disc may have in any case
+constexpr double most_tried = 3;      ///< faces in discs that are tried, by all: bounds the time
+constexpr int polishing = 15;         ///< sweeps
+constexpr int most_with_care = 200;   ///< vertices
+constexpr int patience = 3;           ///< attempts without gain after which defects are left as they are
+const FoldEnergy polish_energy{1, 0.03};
+constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
+
+int most_faces(const TriangleMesh& mesh) {
+    return std::max(least_part, int(largest_part * mesh.face_count()));
+}
+
+std::vector<int> vertices_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
+    std::vector<int> vertices;
+    for (const int f : faces)
+        for (int k = 0; k < 3; ++k) vertices.push_back(mesh.faces(f, k));
+    make_set(vertices);
+    return vertices;
+}
+
+}  // namespace
+
+ChartRepair::ChartRepair(SlidingMap& map, NormalAgreement& agreement)
+    : map_(map),
+      agreement_(agreement),
+      laid_out_(map.target()),
+      source_(map.source()),
+      target_(map.target()),
+      strikes_(map.source().face_count(), 0) {}
+
+bool ChartRepair::is_reversed(int f) const {
+    if (!map_.is_mapped(f) || agreement_.lies_within_a_star(f)) return false;
+    const auto c = map_.source().faces.row(f);
+    return !(laid_out_.sense({map_.point(c[0]), map_.point(c[1]), map_.point(c[2])}) > upright);
+}
+
+std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) const {
+    std::vector<char> marks(faces.size(), 0);
+    parallel_for_each_index(int(faces.size()), 64,
+                            [&](int i) { marks[std::size_t(i)] = is_reversed(faces[std::size_t(i)]); });
+    std::vector<int> defects;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (marks[i]) defects.push_back(faces[i]);
+    for (const int v : branch_points(map_, vertices_of(map_.source(), faces))) {
+        const auto star = map_.faces_of_vertex()[v];
+        defects.insert(defects.end(), star.begin(), star.end());
+    }
+    make_set(defects);
+    return defects;
+}
+
+double ChartRepair::badness(const std::vector<int>& faces) const {
+    // That a face cuts through the target is worth less than that it is reversed.
+    constexpr double reversed = 4, branch = 12;
+    double sum = double(agreement_.disagreeing_among(faces).size());
+    for (const int f : faces) sum += reversed * is_reversed(f);
+    return sum + branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
+}
+
+std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part) {
+    const std::vector<int> rim = disc_boundary(part.mesh);
+    const auto face = [&](std::size_t i) {
+        return map_.point(part.vertex[std::size_t(rim[i % rim.size()])]).face;
+    };
+    const int most = most_faces(map_.target());
+    std::vector<int> wall, inside;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        if (face(i) < 0 || face(i + 1) < 0) return {};
+        const auto way = find_strip(map_.target(), target_.edges(), face(i), face(i + 1), most).faces;
+        if (way.empty()) return {};
+        wall.insert(wall.end(), way.begin(), way.end());
+    }
+    make_set(wall);
+    for (const int v : part.vertex)
+        if (map_.has_image(v)) inside.push_back(map_.point(v).face);
+    make_set(inside);
+    std::vector<int> disc =
+        target_.filled(target_.widened(target_.enclosed(std::move(wall), inside, most), 1), most);
+    return int(disc.size()) > 2 * most ? std::vector<int>() : disc;
+}
+
+PointMap ChartRepair::points_of(const std::vector<int>& vertices) const {
+    PointMap points;
+    for (const int v : vertices) points.push_back(map_.point(v));
+    return points;
+}
+
+void ChartRepair::place(const std::vector<int>& vertices, const PointMap& points) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) map_.place(vertices[i], points[i]);
+}
+
+void ChartRepair::polish(std::vector<int> vertices) {
+    LocalRelaxation local(map_, 7);
+    for (int i = 0; i < polishing; ++i) local.sweep(vertices, polish_energy, false);
+}
+
+int ChartRepair::reversed_around(int v) const {
+    int count = 0;
+    for (const int f : map_.faces_of_vertex()[v]) count += is_reversed(f);
+    return count;
+}
+
+void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
+    LocalRelaxation local(map_, 7);
+    std::vector<int> one(1);
+    for (int i = 0; i < polishing; ++i)
+        for (const int v : vertices) {
+            const SurfacePoint point = map_.point(v);
+            const int before = reversed_around(v);
+            one[0] = v;
+            local.sweep(one, polish_energy, false);
+            if (reversed_around(v) > before) map_.place(v, point);
+        }
+}
+
+ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int rings,
+                                          const VertexData<bool>& fixed) {
+    const int most = most_faces(map_.source());
+    const std::vector<int> faces = source_.filled(source_.widened(cluster, rings), most);
+    if (int(faces.size()) > most) return Outcome::no_disc;
+    const ChartedPart part(map_, faces, enclosed_on_target(SubMesh(map_.source(), faces)));
+    if (!part.are_discs()) return Outcome::no_disc;
+    if (!part.has_simple_rim()) return Outcome::no_simple_rim;
+    const PointMap unfolded = part.unfolded(map_, fixed);
+    if (unfolded.empty()) return Outcome::folded;
+
+    const std::vector<int> around = source_.widened(part.faces(), 2);
+    const double before = badness(around);
+    const PointMap kept = points_of(part.vertices());
+    const std::vector<int> free = part.free_vertices(fixed);
+    place(part.vertices(), unfolded);
+    polish(free);
+    if (badness(around) < before) return Outcome::repaired;
+    VertexData<bool> held(map_.source().vertex_count(), true);
+    for (const int v : free) held[v] = false;
+    agreement_.improve(agreement_.disagreeing_among(part.faces()), held);
+    if (badness(around) < before) return Outcome::repaired;
+    if (int(free.size()) <= most_with_care) {
+        place(part.vertices(), unfolded);
+        polish_with_care(free);
+        if (badness(around) < before) return Outcome::repaired;
+    }
+    place(part.vertices(), kept);
+    return Outcome::no_gain;
+}
+
+std::vector<std::vector<int>> ChartRepair::clusters_of(const std::vector<int>& defects) {
+    std::vector<char> marks(std::size_t(map_.source().face_count()), 0);
+    for (const int f : source_.widened(defects, 1)) marks[std::size_t(f)] = 1;
+    std::vector<std::vector<int>> clusters = face_components(source_.edges(), std::move(marks));
+    std::erase_if(clusters, [&](const std::vector<int>& cluster) {
+        return std::any_of(cluster.begin(), cluster.end(), [&](int f) { return strikes_[f] >= patience; });
+    });
+    return clusters;
+}
+
+std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
+    const Timer timer("repair in charts");
+    std::vector<int> touched(std::size_t(map_.source().face_count()));
+    std::iota(touched.begin(), touched.end(), 0);
+    std::vector<int> defects = defects_among(touched), all_touched;
+    double budget = most_tried * map_.source().face_count();
+    for (const int rings : ring_counts) {
+        touched.clear();
+        for (const std::vector<int>& cluster : clusters_of(defects)) {
+            const std::vector<int> around = source_.widened(cluster, rings + 2);
+            budget -= double(around.size());
+            if (budget < 0) break;
+            touched.insert(touched.end(), around.begin(), around.end());
+            const Outcome outcome = attempt(cluster, rings, fixed);
+            ++report_.outcomes[std::size_t(outcome)];
+            if (outcome == Outcome::no_gain)
+                for (const int f : cluster) ++strikes_[f];
+        }
+        if (touched.empty()) break;
+        make_set(touched);
+        all_touched.insert(all_touched.end(), touched.begin(), touched.end());
+        defects = defects_among(touched);
+    }
+    make_set(all_touched);
+    return all_touched;
+}
+
+}  // namespace varimap

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "varimap/mesh/disc.h"
+#include "varimap/relaxation/charted_part.h"
+#include "varimap/relaxation/laid_out.h"
+#include "varimap/relaxation/normal_agreement.h"
+#include "varimap/relaxation/sliding_map.h"
+
+namespace varimap {
+
+/// Repairs what sliding cannot: folds around branch points, where the map covers the target twice, and
+/// vertices on the wrong side of a thin part. Defects are faces reversed along the target (laid_out.h) and
+/// branch points (branch_points.h); they are widened, ring by ring, to a disc that can be mapped anew in the
+/// plane (charted_part.h). What comes of it is relaxed on the target, no face of the chart turning over, and
+/// kept if there are fewer defects than before.
+class ChartRepair {
+  public:
+    enum class Outcome { repaired, no_disc, no_simple_rim, folded, no_gain };
+    struct Report {
+        std::array<int, 5> outcomes{};  ///< attempts by how they ended
+    };
+
+    /// Keeps references.
+    ChartRepair(SlidingMap& map, NormalAgreement& agreement);
+
+    /// Vertices with fixed[v] stay. Returns the faces that may have moved, ascending.
+    std::vector<int> operator()(const VertexData<bool>& fixed);
+    const Report& report() const { return report_; }
+
+  private:
+    bool is_reversed(int f) const;
+    /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
+    std::vector<int> defects_among(const std::vector<int>& faces) const;
+    double badness(const std::vector<int>& faces) const;
+    /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
+    /// too much.
+    std::vector<int> enclosed_on_target(const SubMesh& part);
+    /// Defects that hang together, with the faces around them, but for those that were tried in vain often
+    /// enough.
+    std::vector<std::vector<int>> clusters_of(const std::vector<int>& defects);
+    Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
+    void polish(std::vector<int> vertices);
+    void polish_with_care(const std::vector<int>& vertices);
+    int reversed_around(int v) const;
+    PointMap points_of(const std::vector<int>& vertices) const;
+    void place(const std::vector<int>& vertices, const PointMap& points);
+
+    SlidingMap& map_;
+    NormalAgreement& agreement_;
+    LaidOut laid_out_;  ///< on the target
+    FaceSets source_, target_;
+    FaceData<int> strikes_;  ///< attempts without gain
+    Report report_;
+};
+
+}  // namespace varimap

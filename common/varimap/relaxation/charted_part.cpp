@@ -1,0 +1,114 @@
+#include "varimap/relaxation/charted_part.h"
+
+#include <algorithm>
+
+#include "varimap/mesh/closest_point.h"
+#include "varimap/relaxation/fold_removal.h"
+
+namespace varimap {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    return cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;
+}
+
+bool is_upright(const SlidingMap& flat) {
+    for (int f = 0; f < flat.source().face_count(); ++f)
+        if (flat.rest(f).area > 0 && !(flat.image_triangle(f).D > 0)) return false;
+    return true;
+}
+
+}  // namespace
+
+ChartedPart::ChartedPart(const SlidingMap& map, std::vector<int> part, std::vector<int> goal)
+    : part_(map.source(), std::move(part)),
+      goal_(map.target(), std::move(goal)),
+      rim_(disc_boundary(part_.mesh)) {
+    const std::vector<int> boundary = disc_boundary(goal_.mesh);
+    if (rim_.empty() || boundary.empty()) return;
+    for (const int v : part_.vertex)
+        if (!map.has_image(v)) return;
+    chart_ = circular_chart(goal_.mesh, boundary);
+    Points corners(Eigen::Index(rim_.size()), 3);
+    for (std::size_t i = 0; i < rim_.size(); ++i) {
+        const SurfacePoint image = goal_.on_part(map.point(part_.vertex[std::size_t(rim_[i])]));
+        if (image.face < 0) return;
+        corners.row(Eigen::Index(i)) = position(chart_, image).transpose();
+    }
+    corners_ = std::move(corners);
+}
+
+bool ChartedPart::has_simple_rim() const {
+    const int n = int(corners_.rows());
+    const auto at = [&](int i) { return Vec2(corners_.row(i % n).leftCols<2>().transpose()); };
+    double area = 0;
+    for (int i = 0; i < n; ++i) {
+        area += cross(at(i), at(i + 1));
+        if (at(i) == at(i + 1)) return false;
+    }
+    if (!(area > 0)) return false;
+    for (int i = 0; i < n; ++i)
+        for (int j = i + 2; j < n; ++j)
+            if ((i > 0 || j < n - 1) && segments_meet(at(i), at(i + 1), at(j), at(j + 1))) return false;
+    return true;
+}
+
+std::vector<int> ChartedPart::free_vertices(const VertexData<bool>& fixed) const {
+    VertexData<bool> on_rim(part_.mesh.vertex_count());
+    for (const int v : rim_) on_rim[v] = true;
+    std::vector<int> free;
+    for (int v = 0; v < part_.mesh.vertex_count(); ++v)
+        if (const int u = part_.vertex[std::size_t(v)]; !on_rim[v] && !fixed[u]) free.push_back(u);
+    return free;
+}
+
+PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fixed) const {
+    VertexData<bool> held(part_.mesh.vertex_count(), true);
+    std::vector<int> free;
+    for (const int u : free_vertices(fixed)) {
+        const auto v = std::lower_bound(part_.vertex.begin(), part_.vertex.end(), u) - part_.vertex.begin();
+        free.push_back(int(v));
+        held[int(v)] = false;
+    }
+    PointMap present;
+    for (const int v : part_.vertex) present.push_back(goal_.on_part(map.point(v)));
+    // Two starts: where the images are, and where Tutte has them, which the polygon's corners may fold.
+    const TriangleMesh flat = circular_chart(part_.mesh, rim_);
+    const Points even = tutte_embedding(part_.mesh, rim_, corners_);
+    const ClosestPoint closest(chart_);
+    for (const bool anew : {false, true}) {
+        PointMap images = present;
+        for (const int v : free)
+            if (SurfacePoint& image = images[std::size_t(v)]; anew || image.face < 0)
+                image = closest(even.row(v).transpose()).point;
+        SlidingMap in_chart(images, flat, chart_);
+        FoldRemoval{anew ? 150 : 60, 1000, anew ? 4 : 2}(in_chart, held);
+        if (!is_upright(in_chart)) continue;
+        for (int v = 0; v < part_.mesh.vertex_count(); ++v)
+            images[std::size_t(v)] = goal_.on_whole(in_chart.point(v));
+        return images;
+    }
+    return {};
+}
+
+bool ChartedPart::is_upright_around(const SlidingMap& map, int v) const {
+    for (const int f : map.faces_of_vertex()[v]) {
+        Vec2 p[3];
+        for (int k = 0; k < 3; ++k) {
+            const SurfacePoint image = goal_.on_part(map.point(map.source().faces(f, k)));
+            if (image.face < 0) return false;
+            p[k] = position(chart_, image).head<2>();
+        }
+        if (!(cross(p[1] - p[0], p[2] - p[0]) > 0)) return false;
+    }
+    return true;
+}
+
+}  // namespace varimap

@@ -1,0 +1,113 @@
+#include "varimap/verification/log_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "varimap/mesh/triangle_strip.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr int farthest = 20'000;  ///< faces that the search for a path looks at
+
+double angle(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+int corner_of(const TriangleMesh& mesh, int f, int vertex) {
+    return mesh.faces(f, 0) == vertex ? 0 : mesh.faces(f, 1) == vertex ? 1 : 2;
+}
+
+double corner_angle(const TriangleMesh& mesh, int f, int k) {
+    const Vec3 p = mesh.vertex(mesh.faces(f, k));
+    return angle(mesh.vertex(mesh.faces(f, (k + 1) % 3)) - p, mesh.vertex(mesh.faces(f, (k + 2) % 3)) - p);
+}
+
+/// The faces around a vertex, counter-clockwise; from a boundary, if it has one, or from the lowest.
+std::vector<int> fan(const TriangleMesh& mesh, const Edges& edges, int vertex, int face) {
+    const auto beyond = [&](int f, int side_of_corner) {
+        const int side = 3 * f + (corner_of(mesh, f, vertex) + side_of_corner) % 3;
+        for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
+            if (other / 3 != f) return other / 3;
+        return -1;
+    };
+    std::vector<int> faces{face};
+    int next = beyond(face, 2);  // the side that enters the corner lies to the left
+    for (; next >= 0 && next != face; next = beyond(next, 2)) faces.push_back(next);
+    if (next == face) {
+        std::rotate(faces.begin(), std::min_element(faces.begin(), faces.end()), faces.end());
+        return faces;
+    }
+    for (next = beyond(face, 0); next >= 0; next = beyond(next, 0)) faces.insert(faces.begin(), next);
+    return faces;
+}
+
+bool touches(const Edges& edges, int edge, int vertex) {
+    const auto [a, b] = edges.vertices[std::size_t(edge)];
+    return a == vertex || b == vertex;
+}
+
+TriangleStrip reversed(TriangleStrip strip) {
+    std::reverse(strip.faces.begin(), strip.faces.end());
+    std::reverse(strip.edges.begin(), strip.edges.end());
+    return strip;
+}
+
+}  // namespace
+
+int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point) {
+    int k = 0;
+    return point.face >= 0 && point.barycentric.maxCoeff(&k) > 1 - 1e-9 ? mesh.faces(point.face, k) : -1;
+}
+
+LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3& to) const {
+    // The path leaves the star through the face from which on its edges are others.
+    std::ptrdiff_t skipped = 0;
+    while (skipped < std::ptrdiff_t(strip.edges.size()) &&
+           touches(edges_, strip.edges[std::size_t(skipped)], vertex))
+        ++skipped;
+    const TriangleStrip outside{{strip.faces.begin() + skipped, strip.faces.end()},
+                                {strip.edges.begin() + skipped, strip.edges.end()}};
+    const int face = outside.faces.front();
+    double at = 0, total = 0;
+    const std::vector<int> around = fan(mesh_, edges_, vertex, face);
+    for (const int f : around) {
+        const int k = corner_of(mesh_, f, vertex);
+        if (f == face) {
+            const Vec3 away = heading(mesh_, edges_, outside, mesh_.vertex(vertex), to);
+            at = total + angle(mesh_.vertex(mesh_.faces(f, (k + 1) % 3)) - mesh_.vertex(vertex), away);
+        }
+        total += corner_angle(mesh_, f, k);
+    }
+    TriangleStrip whole = strip;
+    const double length = straighten(mesh_, edges_, whole, mesh_.vertex(vertex), to);
+    const bool is_inside =
+        edges_
+            .sides[edges_.of_side[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))]]
+            .size() > 1;
+    if (is_inside) at *= 2 * std::numbers::pi / total;
+    return {length * std::cos(at), length * std::sin(at)};
+}
+
+LogMap::Vec2 LogMap::seen(const SurfacePoint& from, const TriangleStrip& strip, const Vec3& to) const {
+    if (const int vertex = vertex_at(mesh_, from); vertex >= 0) return seen_from_vertex(vertex, strip, to);
+    const Vec3 away = heading(mesh_, edges_, strip, position(mesh_, from), to);
+    const Vec3 p = mesh_.vertex(mesh_.faces(from.face, 0));
+    const Vec3 edge = mesh_.vertex(mesh_.faces(from.face, 1)) - p;
+    const Vec3 normal = edge.cross(mesh_.vertex(mesh_.faces(from.face, 2)) - p);
+    return {away.dot(edge.stableNormalized()),
+            away.dot(normal.stableNormalized().cross(edge.stableNormalized()))};
+}
+
+std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b) const {
+    TriangleStrip strip = find_strip(mesh_, edges_, a.face, b.face, farthest);
+    if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
+    const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
+    straighten(mesh_, edges_, strip, start, goal);
+    return {seen(a, strip, goal), seen(b, reversed(strip), start)};
+}
+
+}  // namespace varimap

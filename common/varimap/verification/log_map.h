@@ -1,0 +1,34 @@
+#pragma once
+
+#include <utility>
+
+#include "varimap/mesh/topology.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// The Riemannian logarithm of a surface: where a point lies as seen from another, as the direction in which
+/// the shortest path to it leaves, times its length. In a plane that belongs to the point one looks from:
+/// that of its face; at a vertex, the star unrolled, with angles scaled to a full turn (on a boundary as they
+/// are). Keeps a reference to the mesh. Thread-safe.
+class LogMap {
+  public:
+    using Vec2 = Eigen::Vector2d;
+    explicit LogMap(const TriangleMesh& mesh) : mesh_(mesh), edges_(find_edges(mesh)) {}
+
+    /// b as seen from a, and a as seen from b. Both must have a face. Where no path is found (other
+    /// components, or too far), both are 0.
+    std::pair<Vec2, Vec2> operator()(const SurfacePoint& a, const SurfacePoint& b) const;
+
+  private:
+    Vec2 seen(const SurfacePoint& from, const struct TriangleStrip& strip, const Vec3& to) const;
+    Vec2 seen_from_vertex(int vertex, const struct TriangleStrip& strip, const Vec3& to) const;
+
+    const TriangleMesh& mesh_;
+    Edges edges_;
+};
+
+/// The vertex a surface point coincides with; -1: none.
+int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point);
+
+}  // namespace varimap
