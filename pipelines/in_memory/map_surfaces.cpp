@@ -43,11 +43,14 @@ SurfaceData sketch(const Surface& surface) {
 /// `given`: landmarks on the inputs.
 std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const Landmarks& given,
                                            const MapOptions& options) {
-    if (!options.explore && !options.landmarks.empty()) return {};
-    const ExploreParams params;
+    ExploreParams params;
+    params.only_if_needed = !options.explore;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
-    const Candidates self_maps_A = find_self_maps({sketch_A, sketch_A, {}}, params),
-                     self_maps_B = find_self_maps({sketch_B, sketch_B, {}}, params);
+    Candidates self_maps_A, self_maps_B;
+    if (options.landmarks.empty()) {
+        self_maps_A = find_self_maps({sketch_A, sketch_A, {}}, params);
+        self_maps_B = find_self_maps({sketch_B, sketch_B, {}}, params);
+    }
     const auto landmarks = to_mesh_vertices(given.vertices, sketch_A.surface, sketch_B.surface);
     const PointPairs points = landmark_points(given, sketch_A.surface, sketch_B.surface);
     const PairContext context =

@@ -72,7 +72,14 @@ Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const Pa
 }  // namespace
 
 Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
-                  const std::optional<Candidates>& candidates) {
+                  const std::optional<Candidates>& found) {
+    // Exploration may have found that landmarks suffice.
+    const Candidates* candidates = found && !found->list.empty() ? &*found : nullptr;
+    if (found && !candidates && params.candidate > 1)
+        throw UsageError(
+            fmt::format("candidate {}: the landmarks lead to a good map, and no other was looked for; "
+                        "explore in any case (varimap map --explore)",
+                        params.candidate));
     const int all = context.diffusion_levels();
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
     TracedDescent descent(context, params.alternation, params.ironing);

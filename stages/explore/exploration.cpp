@@ -145,6 +145,16 @@ void Exploration::log_pool(int level) const {
         pair.B.level.samples.size(), pool_.size(), pool_.front().energy(), pool_.back().energy());
 }
 
+Trial Exploration::follow_landmarks() {
+    pool_.clear();
+    for (int l = 0; l < context_.diffusion_levels(); ++l) {
+        enter(l);
+        if (l == 0) try_all({zero_start(descent_.level())});
+        if (descent_.samples() >= options_.last_samples) break;
+    }
+    return std::move(pool_.front());
+}
+
 std::vector<Trial> Exploration::run() {
     const SwapRule* swap = std::begin(swap_rules);
     int started = 0;

@@ -39,6 +39,8 @@ class Exploration {
 
     /// Distinct maps at the last level, the one of least energy first, mirrored ones last.
     std::vector<Trial> run();
+    /// The map that landmarks lead to from the coarsest level on, as in varimap-diffuse.
+    Trial follow_landmarks();
     /// The level pair they live on.
     const LevelPair& last_level() const { return descent_.level(); }
     /// Images of all vertices.

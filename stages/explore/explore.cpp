@@ -63,7 +63,15 @@ struct SelfMaps {
     std::vector<VertexImages> A, B;
 };
 
-/// Maps that explorations found, composed with self-maps.
+/// The map that landmarks lead to; none without landmarks.
+std::vector<PooledMap> led_by_landmarks(const PairContext& context, const ExploreParams& params) {
+    if (context.landmarks().empty()) return {};
+    Exploration exploration(context, params.exploration, params.alternation, params.ironing);
+    const Trial trial = exploration.follow_landmarks();
+    return {{exploration.images(trial), {.explored = 0, .energy = trial.energy()}}};
+}
+
+/// That map and those that explorations found, composed with self-maps.
 std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
                               int composed, const ExploreParams& params, const SelfMaps& self_maps) {
     std::vector<PooledMap> pool;
@@ -75,6 +83,7 @@ std::vector<PooledMap> pooled(const PairContext& context, const std::vector<Expl
         }
     }
     compose(pool, composed, self_maps.A, self_maps.B, context);
+    for (PooledMap& map : led_by_landmarks(context, params)) add_if_new(pool, std::move(map), context);
     return pool;
 }
 
@@ -89,9 +98,14 @@ std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::v
     std::vector<Appraised> list;
     for (FinishedMap& map : finished) list.push_back({std::move(map), pool[std::size_t(map.start)].origin});
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
-    std::stable_sort(list.begin(), list.end(), [](const Appraised& a, const Appraised& b) {
-        return std::pair(is_mirrored(a.candidate), a.candidate.score) <
-               std::pair(is_mirrored(b.candidate), b.candidate.score);
+    // Where landmarks lead is given up for what is clearly better only. Chosen by hand on half of the known
+    // pairs.
+    constexpr double preference = 0.03;
+    const auto rank = [](const Candidate& c) {
+        return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0));
+    };
+    std::stable_sort(list.begin(), list.end(), [&](const Appraised& a, const Appraised& b) {
+        return rank(a.candidate) < rank(b.candidate);
     });
     for (std::size_t k = 1; k < list.size(); ++k)
         appraisal.compare(list.front().map, list[k].map, list[k].candidate);
@@ -106,16 +120,35 @@ std::vector<Appraised> finished(const std::vector<PooledMap>& pool, const PairCo
     return appraised(finish(context, starts, options), pool, context);
 }
 
-/// What most pairs need: one exploration, and maps finished just well enough to be told apart.
-std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
-                                     const SelfMaps& self_maps) {
+FinishingOptions quick_finishing(const ExploreParams& params) {
     FinishingOptions finishing = params.finishing;
     finishing.alternation = for_comparison(params.alternation, params.alternation.area_bound);
     // Chosen by hand on half of the known pairs: most energies move by a hundredth.
     finishing.alternation.tolerance = std::max(finishing.alternation.tolerance, 1e-2);
     finishing.alternation.sinkhorn_iterations = std::min(finishing.alternation.sinkhorn_iterations, 20);
+    return finishing;
+}
+
+/// What most pairs need: one exploration, and maps finished just well enough to be told apart.
+std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
+                                     const SelfMaps& self_maps) {
     return finished(pooled(context, {params.exploration}, params.composed, params, self_maps), context,
-                    finishing);
+                    quick_finishing(params));
+}
+
+/// Whether the map that landmarks lead to is so good that nothing else is looked for.
+bool landmarks_suffice(const PairContext& context, const ExploreParams& params) {
+    constexpr double good = 0.985;  // chosen by hand on half of the known pairs
+    if (int(context.landmarks().size()) > params.few_landmarks) {
+        log("{} landmarks: nothing else is looked for", context.landmarks().size());
+        return true;
+    }
+    const auto led = finished(led_by_landmarks(context, params), context, quick_finishing(params));
+    const Candidate& map = led.front().candidate;
+    const double found = is_mirrored(map) ? 0 : plausibility(map);
+    log("the landmarks lead to a map that is plausible by {:.3f} (Dirichlet energy {:.3f}, relief {:.3f})",
+        found, map.dirichlet, map.relief);
+    return found >= good;
 }
 
 /// For shapes that differ much: explorations with looser and with exact areas, more compositions, and maps
@@ -171,11 +204,15 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A,
                    const Candidates& self_maps_B) {
-    constexpr double plausible = 0.9;  // chosen by hand
+    // Chosen by hand on half of the known pairs. With landmarks, fewer maps are wrong.
+    constexpr double plausible = 0.9, plausible_with_landmarks = 0.75;
+    const bool if_needed = params.only_if_needed && !context.landmarks().empty();
+    if (if_needed && landmarks_suffice(context, params)) return {};
     const Surface &A = context.A().surface, &B = context.B().surface;
     const SelfMaps self_maps{images_of(self_maps_A, A), images_of(self_maps_B, B)};
     std::vector<Appraised> list = quickly_found(context, params, self_maps);
-    if (const double found = plausibility(list.front().candidate); found < plausible) {
+    if (const double found = plausibility(list.front().candidate);
+        found < (if_needed ? plausible_with_landmarks : plausible)) {
         log("the best of these maps is not good (plausible by {:.2f}): looking further", found);
         list = thoroughly_found(context, params, self_maps);
     }

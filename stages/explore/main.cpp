@@ -70,6 +70,8 @@ int main(int argc, char** argv) {
                                             : explore(context, params, self_maps_A, self_maps_B);
         if (params.self_maps)
             report_self_maps(found.list);
+        else if (found.list.empty())
+            log("the landmarks lead to a good map");
         else
             report(found.list);
         found.sketched_A = inputs.sketched("A");

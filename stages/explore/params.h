@@ -12,7 +12,9 @@ struct ExploreParams {
     ExplorationOptions exploration;
     FinishingOptions finishing;
     bool self_maps = false;
-    int composed = 2;  ///< maps that self-maps are composed with
+    bool only_if_needed = false;  ///< with landmarks: unless the map that they lead to is a good one
+    int few_landmarks = 10;       ///< with more, they are taken to decide
+    int composed = 2;             ///< maps that self-maps are composed with
     LandmarkSpace landmark_space = LandmarkSpace::stated;
     double landmark_weight = 1;  ///< W of pull_landmarks (cost.h); 1: pinned
 
@@ -30,6 +32,11 @@ struct ExploreParams {
         list.add("area_bound", exploration.area_bound, "of the maps that are explored, as in varimap-diffuse",
                  1.0, 1e6);
         list.add("onto_itself", self_maps, "looks for maps of one surface, given twice, onto itself");
+        list.add("only_if_needed", only_if_needed,
+                 "with landmarks: looks for maps only where that which they lead to is doubtful; writes none "
+                 "where it is not");
+        list.add("few_landmarks", few_landmarks, "with more landmarks than these, nothing is needed", 0,
+                 1000000);
         list.add("composed", composed, "of how many maps compositions with self-maps are tried", 0, 100);
         list.add("finished", finishing.most, "maps that are finished and compared at most", 1, 100);
         list.add("shape_weight", finishing.shape_weight,

@@ -65,7 +65,7 @@ std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& 
 }
 
 void add_if_new(std::vector<PooledMap>& pool, PooledMap map, const PairContext& context) {
-    constexpr double close = 0.08;  // share of the surfaces; chosen by hand, not swept
+    constexpr double close = 0.05;  // share of the surfaces; chosen by hand, not swept
     for (const PooledMap& other : pool)
         if (difference(map.images, other.images, context.A().surface, context.B().surface) < close) return;
     pool.push_back(std::move(map));

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<int, 8> ring_counts{2, 3, 4, 5, 6, 8, 10, 13};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
-constexpr double most_tried = 3;      ///< faces in discs that are tried, by all: bounds the time
+constexpr double most_tried = 1.5;      ///< faces in discs that are tried, by all: bounds the time
 constexpr int polishing = 15;         ///< sweeps
 constexpr int most_with_care = 200;   ///< vertices
 constexpr int patience = 3;           ///< attempts without gain after which defects are left as they are
@@ -189,7 +189,7 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
             touched.insert(touched.end(), around.begin(), around.end());
             const Outcome outcome = attempt(cluster, rings, fixed);
             ++report_.outcomes[std::size_t(outcome)];
-            if (outcome == Outcome::no_gain)
+            if (outcome == Outcome::no_gain || outcome == Outcome::folded)
                 for (const int f : cluster) ++strikes_[f];
         }
         if (touched.empty()) break;

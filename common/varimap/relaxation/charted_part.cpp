@@ -25,6 +25,19 @@ bool is_upright(const SlidingMap& flat) {
     return true;
 }
 
+/// Walks in a chart, whose faces may be almost without area, may end a little outside a face; false where
+/// that makes no sense.
+bool clean(PointMap& images) {
+    for (SurfacePoint& image : images) {
+        if (!image.barycentric.allFinite()) return false;
+        image.barycentric = image.barycentric.cwiseMax(0).cwiseMin(1);
+        const double sum = image.barycentric.sum();
+        if (!(sum > 0.5)) return false;
+        image.barycentric /= sum;
+    }
+    return true;
+}
+
 }  // namespace
 
 ChartedPart::ChartedPart(const SlidingMap& map, std::vector<int> part, std::vector<int> goal)
@@ -93,7 +106,7 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
         if (!is_upright(in_chart)) continue;
         for (int v = 0; v < part_.mesh.vertex_count(); ++v)
             images[std::size_t(v)] = goal_.on_whole(in_chart.point(v));
-        return images;
+        if (clean(images)) return images;
     }
     return {};
 }

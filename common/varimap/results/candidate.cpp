@@ -75,7 +75,8 @@ std::string relation(const Candidate& candidate) {
 }
 
 std::string origin(const Candidate& candidate) {
-    std::string text = fmt::format("map {}", candidate.explored);
+    std::string text =
+        candidate.explored == 0 ? "where the landmarks lead" : fmt::format("map {}", candidate.explored);
     if (candidate.self_map_A > 0)
         text += fmt::format(" after self-map {} of the source", candidate.self_map_A);
     if (candidate.self_map_B > 0)

@@ -7,7 +7,7 @@ namespace varimap {
 
 /// What exploration says of one map, which it has finished at low resolution.
 struct Candidate {
-    int explored = 0;          ///< which of the maps found, from 1
+    int explored = 0;          ///< which of the maps found, from 1; 0: that which landmarks lead to
     int self_map_A = 0;        ///< the self-map of A that goes before it (from 1), or 0
     int self_map_B = 0;        ///< the self-map of B that follows it, or 0
     double energy = 0;         ///< Eq. (3) of the plan on all vertices

@@ -10,7 +10,7 @@ namespace varimap {
 struct MapOptions {
     VertexPairs<InputVertex> landmarks;  ///< without any, the map is looked for (varimap-explore)
     double landmark_weight = 1;          ///< how firmly landmarks hold, in (0, 1]; 1: mapped exactly
-    bool explore = false;                ///< looks for the map even with (few) landmarks
+    bool explore = false;                ///< with landmarks, too; else only where they lead to a doubtful map
     int candidate = 1;                   ///< which of the maps that were found is continued; 1: the best
     bool full_resolution = false;        ///< solves on all vertices of large meshes, not on coarse ones
     bool mirror = false;                 ///< the surfaces are of opposite handedness
