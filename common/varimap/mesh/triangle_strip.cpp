@@ -130,6 +130,9 @@ TriangleStrip strip_to(const std::unordered_map<int, Reached>& reached, int face
 
 TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most) {
     if (from == to) return {{from}, {}};
+    for (int side = 3 * from; side < 3 * from + 3; ++side)  // most ways are that short
+        for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]])
+            if (beyond / 3 == to) return {{from, to}, {edges.of_side[std::size_t(side)]}};
     std::unordered_map<int, Reached> reached{{from, {0, -1, -1}}};
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <unordered_map>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
@@ -19,10 +20,11 @@ namespace {
 constexpr std::array<int, 8> ring_counts{2, 3, 4, 5, 6, 8, 10, 13};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
-constexpr double most_tried = 1.5;      ///< faces in discs that are tried, by all: bounds the time
+constexpr double most_tried = 1.5;    ///< faces in discs that are tried, by all: bounds the time
 constexpr int polishing = 15;         ///< sweeps
-constexpr int most_with_care = 200;   ///< vertices
-constexpr int patience = 3;           ///< attempts without gain after which defects are left as they are
+constexpr int careful_polishing = 6;
+constexpr int most_with_care = 200;  ///< vertices
+constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
 const FoldEnergy polish_energy{1, 0.03};
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
@@ -114,22 +116,31 @@ void ChartRepair::polish(std::vector<int> vertices) {
     for (int i = 0; i < polishing; ++i) local.sweep(vertices, polish_energy, false);
 }
 
-int ChartRepair::reversed_around(int v) const {
-    int count = 0;
-    for (const int f : map_.faces_of_vertex()[v]) count += is_reversed(f);
-    return count;
-}
-
 void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
     LocalRelaxation local(map_, 7);
+    std::unordered_map<int, bool> reversed;
+    for (const int v : vertices)
+        for (const int f : map_.faces_of_vertex()[v])
+            if (const auto [entry, is_new] = reversed.try_emplace(f, false); is_new)
+                entry->second = is_reversed(f);
     std::vector<int> one(1);
-    for (int i = 0; i < polishing; ++i)
+    for (int i = 0; i < careful_polishing; ++i)
         for (const int v : vertices) {
             const SurfacePoint point = map_.point(v);
-            const int before = reversed_around(v);
             one[0] = v;
             local.sweep(one, polish_energy, false);
-            if (reversed_around(v) > before) map_.place(v, point);
+            if (map_.point(v).face == point.face && map_.point(v).barycentric == point.barycentric) continue;
+            const auto faces = map_.faces_of_vertex()[v];
+            std::vector<bool> now;
+            int more = 0;
+            for (const int f : faces) {
+                now.push_back(is_reversed(f));
+                more += int(now.back()) - int(reversed[f]);
+            }
+            if (more > 0)
+                map_.place(v, point);
+            else
+                for (std::size_t n = 0; n < faces.size(); ++n) reversed[faces[n]] = now[n];
         }
 }
 

@@ -43,8 +43,8 @@ class ChartRepair {
     std::vector<std::vector<int>> clusters_of(const std::vector<int>& defects);
     Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
     void polish(std::vector<int> vertices);
+    /// No vertex moves where more faces would be reversed.
     void polish_with_care(const std::vector<int>& vertices);
-    int reversed_around(int v) const;
     PointMap points_of(const std::vector<int>& vertices) const;
     void place(const std::vector<int>& vertices, const PointMap& points);
 
