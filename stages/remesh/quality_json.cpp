@@ -20,6 +20,7 @@ Json to_json(const Quantiles& q) {
 Json to_json(const Verification& found) {
     Json json = {{"reversed_count", found.reversed_faces.size()},
                  {"reversed_area_percent", found.reversed_area_percent},
+                 {"cutting_count", found.cutting_count},
                  {"branch_points", found.branch_vertices.size()},
                  {"signed_area_ratio", found.signed_area_ratio}};
     if (found.degree) json["degree"] = *found.degree;
@@ -42,12 +43,14 @@ Json to_json(const UntanglingReport& report) {
             {"disagreeing_after", report.disagreeing_after}};
 }
 
-Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
+               double area_bound) {
     const Distortion distortion = measure_distortion(map, source, target);
     return {{"flipped_count", distortion.flipped_count},
             {"flipped_area_percent", distortion.flipped_area_percent},
             {"collapsed_count", distortion.collapsed_count},
             {"area_ratio", to_json(distortion.area_ratio)},
+            {"within_area_bound", share_within_area_bound(map, source, target, area_bound)},
             {"conformal_distortion", to_json(distortion.conformal_distortion)},
             {"dirichlet_energy", distortion.dirichlet_energy},
             {"coverage", measure_coverage(map, source, target)},
@@ -160,8 +163,8 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
     if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
     if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);
-    quality["source_to_target"] = direction(A_to_B, without_added_faces(A), B.input);
-    quality["target_to_source"] = direction(B_to_A, without_added_faces(B), A.input);
+    quality["source_to_target"] = direction(A_to_B, without_added_faces(A), B.input, plan.area_bound);
+    quality["target_to_source"] = direction(B_to_A, without_added_faces(B), A.input, plan.area_bound);
     quality["source_to_target"]["untangling"] = to_json(map.untangling.A_to_B);
     quality["target_to_source"]["untangling"] = to_json(map.untangling.B_to_A);
     warn_of_tears(quality["source_to_target"], "source to target");

@@ -53,6 +53,7 @@ std::string as_text(const Verification& found) {
     };
     row("reversed triangles", fmt::format("{}", found.reversed_faces.size()));
     row("reversed area", fmt::format("{:.4f} %", found.reversed_area_percent));
+    row("cutting triangles", fmt::format("{}", found.cutting_count));
     row("branch points", fmt::format("{}", found.branch_vertices.size()));
     row("signed area ratio", fmt::format("{:.4f}", found.signed_area_ratio));
     row("degree", found.degree ? fmt::format("{:.4f}", *found.degree) : "none");
@@ -64,6 +65,7 @@ std::string as_json(const Verification& found) {
     nlohmann::ordered_json json;
     json["reversed_count"] = found.reversed_faces.size();
     json["reversed_area_percent"] = found.reversed_area_percent;
+    json["cutting_count"] = found.cutting_count;
     json["branch_points"] = found.branch_vertices.size();
     json["signed_area_ratio"] = found.signed_area_ratio;
     if (found.degree) json["degree"] = *found.degree;

@@ -100,12 +100,13 @@ TEST_F(Verify, JsonHoldsEveryNumber) {
     Verification found;
     found.reversed_faces = {3, 8};
     found.reversed_area_percent = 0.25;
+    found.cutting_count = 6;
     found.branch_vertices = {5};
     found.signed_area_ratio = 0.5;
     found.degree = 2;
     found.left_out_count = 4;
     EXPECT_EQ(Json::parse(as_json(found)), Json::parse(R"({"reversed_count": 2, "reversed_area_percent": 0.25,
-        "branch_points": 1, "signed_area_ratio": 0.5, "degree": 2.0, "left_out_count": 4,
+        "cutting_count": 6, "branch_points": 1, "signed_area_ratio": 0.5, "degree": 2.0, "left_out_count": 4,
         "reversed_faces": [3, 8], "branch_vertices": [5]})"));
     found.degree.reset();
     EXPECT_FALSE(Json::parse(as_json(found)).contains("degree"));
@@ -118,6 +119,7 @@ TEST_F(Verify, TextHoldsOneNumberPerLine) {
     EXPECT_EQ(as_text(found),
               "reversed triangles           2\n"
               "reversed area         0.0000 %\n"
+              "cutting triangles            0\n"
               "branch points                0\n"
               "signed area ratio       0.9877\n"
               "degree                    none\n");

@@ -116,6 +116,25 @@ Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, c
     return summarise(measure_triangles(map, source, target));
 }
 
+double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
+                               double bound) {
+    const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
+    VertexData<double> area(source.vertex_count(), 0), image(source.vertex_count(), 0);
+    for (int f = 0; f < source.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            area[source.faces(f, k)] += triangles[f].area;
+            image[source.faces(f, k)] += triangles[f].area * triangles[f].area_ratio;
+        }
+    constexpr double rounding = 1 + 1e-9;
+    double within = 0, all = 0;
+    for (int v = 0; v < source.vertex_count(); ++v) {
+        all += area[v];
+        if (image[v] <= area[v] * bound * rounding && image[v] * bound * rounding >= area[v])
+            within += area[v];
+    }
+    return all > 0 ? within / all : 0;
+}
+
 RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,
                              const TriangleMesh& B) {
     const TriangleMesh unit = unit_area(A);

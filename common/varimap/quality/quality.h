@@ -51,6 +51,11 @@ struct Distortion {
 };
 Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
 
+/// Share of the source's area around vertices whose faces together have an image of 1/bound to `bound` times
+/// their area, both surfaces of unit area: how far a map keeps the bound of Sec. 3.4 where it is finished.
+double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
+                               double bound);
+
 /// Share of the target's area that is hit. A target face is hit if its centroid c lies in front of or behind
 /// the image of the source: with p the closest point to c on the image triangles that face the way c does,
 /// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or 0.05 of the face's

@@ -26,7 +26,8 @@ class ChartRepair {
     /// Keeps references.
     ChartRepair(SlidingMap& map, NormalAgreement& agreement);
 
-    /// Vertices with fixed[v] stay. Returns the faces that may have moved, ascending.
+    /// Vertices with fixed[v] stay, and those on the source's boundary. Returns the faces that may have
+    /// moved, ascending.
     std::vector<int> operator()(const VertexData<bool>& fixed);
     const Report& report() const { return report_; }
 

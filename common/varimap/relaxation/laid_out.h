@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <utility>
 
-#include "varimap/mesh/topology.h"
-#include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh/log_map.h"
 
 namespace varimap {
 
@@ -12,7 +10,7 @@ namespace varimap {
 /// cut through: their sides are shortest paths. Keeps a reference to the mesh. Thread-safe.
 class LaidOut {
   public:
-    explicit LaidOut(const TriangleMesh& mesh) : mesh_(mesh), edges_(find_edges(mesh)) {}
+    explicit LaidOut(const TriangleMesh& mesh) : log_map_(mesh) {}
 
     /// Which way round the triangle goes: the sum of its signed areas as laid out from each corner, by the
     /// sum of their sizes. 1 where all are counter-clockwise from outside, -1 where clockwise, between where
@@ -20,14 +18,8 @@ class LaidOut {
     /// area.
     double sense(const std::array<SurfacePoint, 3>& corners) const;
 
-    const Edges& edges() const { return edges_; }
-
   private:
-    /// Where the shortest paths between two points leave for the other, times their length.
-    std::pair<Vec3, Vec3> headings(const SurfacePoint& a, const SurfacePoint& b) const;
-
-    const TriangleMesh& mesh_;
-    Edges edges_;
+    LogMap log_map_;
 };
 
 }  // namespace varimap

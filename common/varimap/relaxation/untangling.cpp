@@ -117,6 +117,16 @@ VertexData<bool> stay(const SlidingMap& map, const VertexData<bool>& pinned, con
     return fixed;
 }
 
+void log_repair(const ChartRepair::Report& report) {
+    const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
+    using enum ChartRepair::Outcome;
+    if (std::all_of(report.outcomes.begin(), report.outcomes.end(), [](int n) { return n == 0; })) return;
+    log("repair in charts: {} parts mapped anew; in vain: {} for want of a disc, {} of a simple rim, {} "
+        "folded, {} not "
+        "better",
+        count(repaired), count(no_disc), count(no_simple_rim), count(folded), count(no_gain));
+}
+
 /// One direction of a map while it is untangled.
 class Untangling {
   public:
@@ -209,10 +219,7 @@ class Untangling {
         left.insert(left.end(), touched.begin(), touched.end());
         make_set(left);
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
-        const auto& o = repair.report().outcomes;
-        log("repair in charts: {} parts mapped anew; tried in vain: {} for want of a disc, {} of a simple "
-            "rim, {} folded, {} not better",
-            o[0], o[1], o[2], o[3], o[4]);
+        log_repair(repair.report());
     }
 
     PointMap& map_;

@@ -50,6 +50,20 @@ TEST(WeightedQuantile, CountsWeights) {
     EXPECT_EQ(weighted_quantile({}, {}, 0.5), 0);
 }
 
+TEST(Quality, StarsKeepAnAreaBoundOrNot) {
+    const TriangleMesh mesh = rectangle(10, 1, 1);
+    // The left half to a quarter of the width, the right half to the rest: ratios 1/2 and 3/2.
+    const PointMap map = map_by(mesh, mesh, [](const Vec3& p) {
+        return Vec3(p.x() < 0.5 ? p.x() / 2 : 1.5 * p.x() - 0.5, p.y(), 0);
+    });
+    EXPECT_EQ(share_within_area_bound(at_vertices(mesh), mesh, mesh, 1), 1);
+    EXPECT_EQ(share_within_area_bound(map, mesh, mesh, 2), 1);
+    const double kept = share_within_area_bound(map, mesh, mesh, 1.6);  // all but the left half
+    EXPECT_GT(kept, 0.5);
+    EXPECT_LT(kept, 0.65) << "stars in the middle have both";
+    EXPECT_LT(share_within_area_bound(map, mesh, mesh, 1.2), 0.15);
+}
+
 TEST(Quality, IdentityIsPerfect) {
     for (const TriangleMesh& mesh : {shapes::ellipsoid(3), rectangle(9, 3, 1), sphere_with_limb(3)}) {
         const PointMap identity = at_vertices(mesh);

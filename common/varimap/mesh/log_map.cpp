@@ -1,4 +1,4 @@
-#include "varimap/verification/log_map.h"
+#include "varimap/mesh/log_map.h"
 
 #include <algorithm>
 #include <array>

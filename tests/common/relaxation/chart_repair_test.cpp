@@ -1,0 +1,127 @@
+#include "varimap/relaxation/chart_repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "fixtures/bad_maps.h"
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/relaxation/branch_points.h"
+#include "varimap/verification/verification.h"
+
+namespace varimap {
+namespace {
+
+VertexData<bool> none(const TriangleMesh& mesh) {
+    return VertexData<bool>(mesh.vertex_count());
+}
+
+/// The identity, but the vertices near one are anywhere near it.
+PointMap crumpled(const TriangleMesh& mesh, int centre, double radius) {
+    std::mt19937 random(5);
+    PointMap map = shapes::at_vertices(mesh);
+    std::vector<int> near;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if ((mesh.vertex(v) - mesh.vertex(centre)).norm() < radius) near.push_back(v);
+    const PointMap before = map;
+    for (const int v : near) map[std::size_t(v)] = before[std::size_t(near[random() % near.size()])];
+    return map;
+}
+
+/// What is left of a map's faults after repair.
+Verification repaired(PointMap& images, const TriangleMesh& mesh, const VertexData<bool>& fixed) {
+    SlidingMap map(images, mesh, mesh);
+    NormalAgreement agreement(map);
+    ChartRepair(map, agreement)(fixed);
+    images = map.points();
+    return verify_map(images, mesh, mesh);
+}
+
+TEST(LaidOut, TellsTheSidesOfAThinPlate) {
+    const TriangleMesh plate = shapes::ellipsoid(3, {1, 1, 0.1});
+    const LaidOut laid_out(plate);
+    const ClosestPoint closest(plate);
+    const auto at = [&](double x, double y, double z) { return closest(Vec3(x, y, z)).point; };
+    const SurfacePoint a = at(0.80, 0, 0.1), b = at(0.90, 0.1, 0.1);
+    EXPECT_GT(laid_out.sense({a, b, at(0.85, 0.2, 0.1)}), 0.9);
+    EXPECT_LT(laid_out.sense({b, a, at(0.85, 0.2, 0.1)}), -0.9);
+    // The straight triangle looks the same if its last corner slips through to the other side; but from there
+    // the others lie beyond the rim, on the other hand of it.
+    EXPECT_LT(laid_out.sense({a, b, at(0.85, 0.2, -0.1)}), 0);
+}
+
+TEST(BranchPoints, AreWhereAMapWindsTwice) {
+    TriangleMesh mesh = shapes::ellipsoid(4);
+    const Vec3 pole = mesh.vertex(3);
+    mesh.vertices = mesh.vertices *
+                    Eigen::Quaterniond::FromTwoVectors(pole, Vec3::UnitZ()).toRotationMatrix().transpose();
+    const ClosestPoint closest(mesh);
+    PointMap square;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3 p = mesh.vertex(v);
+        const double angle = 2 * std::atan2(p.y(), p.x()), r = std::hypot(p.x(), p.y());
+        square.push_back(closest(Vec3(r * std::cos(angle), r * std::sin(angle), p.z())).point);
+    }
+    const SlidingMap map(square, mesh, mesh);
+    EXPECT_NEAR(winding_number(map, 3), 2, 1e-6);
+    EXPECT_NEAR(winding_number(map, 100), 1, 1e-6);
+    std::vector<int> all(std::size_t(mesh.vertex_count()));
+    std::iota(all.begin(), all.end(), 0);
+    EXPECT_EQ(branch_points(map, all), (std::vector<int>{0, 3}));
+}
+
+TEST(BranchPoints, AreNotLookedForOnBoundaries) {
+    const TriangleMesh square = shapes::square(4);
+    const SlidingMap map(shapes::at_vertices(square), square, square);
+    EXPECT_EQ(winding_number(map, 0), 0);
+}
+
+TEST(ChartRepair, MapsACrumpledPatchAnew) {
+    for (const TriangleMesh& mesh : {shapes::ellipsoid(4), shapes::torus(1, 0.4, 60, 30)}) {
+        PointMap images = crumpled(mesh, 40, 0.25);
+        const Verification before = verify_map(images, mesh, mesh);
+        EXPECT_GT(before.reversed_faces.size(), 10u);
+        const Verification after = repaired(images, mesh, none(mesh));
+        EXPECT_TRUE(after.reversed_faces.empty()) << after.reversed_faces.size();
+        EXPECT_TRUE(after.branch_vertices.empty()) << after.branch_vertices.size();
+        EXPECT_EQ(after.degree.value(), 1);
+        EXPECT_LT(shapes::mean_error(images, mesh), 0.3 * shapes::longest_edge(mesh));
+    }
+}
+
+TEST(ChartRepair, DoesNoHarmAtABoundary) {
+    const TriangleMesh square = shapes::square(20);
+    PointMap images = crumpled(square, 10, 0.2);  // on its boundary, whose vertices stay
+    const std::size_t before = verify_map(images, square, square).reversed_faces.size();
+    EXPECT_LE(repaired(images, square, none(square)).reversed_faces.size(), before);
+}
+
+TEST(ChartRepair, LeavesAGoodMapAsItIs) {
+    const TriangleMesh mesh = shapes::figure(0.15);
+    const PointMap before = shapes::at_vertices(mesh);
+    PointMap images = before;
+    EXPECT_TRUE(repaired(images, mesh, none(mesh)).reversed_faces.empty());
+    for (std::size_t v = 0; v < images.size(); ++v) {
+        EXPECT_EQ(images[v].face, before[v].face);
+        EXPECT_EQ(images[v].barycentric, before[v].barycentric);
+    }
+}
+
+TEST(ChartRepair, KeepsFixedVertices) {
+    const TriangleMesh mesh = shapes::ellipsoid(4);
+    const PointMap before = crumpled(mesh, 40, 0.25);
+    VertexData<bool> fixed = none(mesh);
+    fixed[40] = true;
+    PointMap images = before;
+    repaired(images, mesh, fixed);
+    EXPECT_EQ(images[40].face, before[40].face);
+    EXPECT_EQ(images[40].barycentric, before[40].barycentric);
+}
+
+}  // namespace
+}  // namespace varimap
