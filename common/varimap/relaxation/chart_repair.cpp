@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<int, 8> ring_counts{2, 3, 4, 5, 6, 8, 10, 13};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
-constexpr double most_tried = 1.5;    ///< faces in discs that are tried, by all: bounds the time
+constexpr double most_tried = 3;      ///< faces in discs that are tried, by all: bounds the time
 constexpr int polishing = 15;         ///< sweeps
 constexpr int careful_polishing = 6;
 constexpr int most_with_care = 200;  ///< vertices
