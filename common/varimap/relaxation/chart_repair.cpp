@@ -16,15 +16,16 @@ namespace varimap {
 
 namespace {
 
-// Chosen by hand on pairs of people, cats and four-legged animals.
-constexpr std::array<int, 8> ring_counts{2, 3, 4, 5, 6, 8, 10, 13};
+// Chosen by hand on pairs of people, cats and four-legged animals. The smallest discs once more, for what is
+// left of larger ones.
+constexpr std::array<int, 10> ring_counts{2, 3, 4, 5, 6, 8, 10, 13, 2, 4};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
 constexpr double most_tried = 3;      ///< faces in discs that are tried, by all: bounds the time
 constexpr int polishing = 15;         ///< sweeps
 constexpr int careful_polishing = 6;
 constexpr int most_with_care = 200;  ///< vertices
-constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
+constexpr int patience = 4;          ///< attempts without gain after which defects are left as they are
 const FoldEnergy polish_energy{1, 0.03};
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
@@ -200,7 +201,9 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
             touched.insert(touched.end(), around.begin(), around.end());
             const Outcome outcome = attempt(cluster, rings, fixed);
             ++report_.outcomes[std::size_t(outcome)];
-            if (outcome == Outcome::no_gain || outcome == Outcome::folded)
+            if (outcome == Outcome::repaired)
+                for (const int f : around) strikes_[f] = 0;
+            else if (outcome == Outcome::no_gain || outcome == Outcome::folded)
                 for (const int f : cluster) ++strikes_[f];
         }
         if (touched.empty()) break;
