@@ -34,6 +34,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # needs dpkg-shlibdeps of dpkg-dev
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "bash, make, jq, util-linux")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libtbb-dev, libfmt-dev, libspdlog-dev, libcereal-dev, \
-libopenmesh-dev, libembree-dev, libxxhash-dev, zlib1g-dev, pkg-config")
+libopenmesh-dev, libembree-dev, libxxhash-dev, libpng-dev, zlib1g-dev, pkg-config")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

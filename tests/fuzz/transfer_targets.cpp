@@ -4,10 +4,10 @@
 #include "fixtures/shapes.h"
 #include "fuzz/scratch_file.h"
 #include "fuzz/target.h"
-#include "stages/transfer/obj_model.h"
 #include "stages/transfer/points.h"
 #include "stages/transfer/values.h"
 #include "varimap/artifact/npy.h"
+#include "varimap/mesh/io/obj_model.h"
 #include "varimap/mesh/io/ply_columns.h"
 
 namespace varimap::fuzz {

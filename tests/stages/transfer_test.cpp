@@ -432,7 +432,7 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
     model.uv_of = square.faces;
     model.material.assign(std::size_t(square.face_count()), 0);
     model.materials = {"skin"};
-    write("skin.png", encode_png(gradient(64)));
+    write("skin.png", to_png(gradient(64)));
     write("skin.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\n");
     Correspondence map = identity(square);
     map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
@@ -451,7 +451,7 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
 }
 
 TEST_F(Transfer, WritesTexturesAndGlb) {
-    write("skin.png", encode_png(gradient(8)));
+    write("skin.png", to_png(gradient(8)));
     write("skin.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
