@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
@@ -18,26 +16,6 @@ namespace varimap {
 namespace {
 
 constexpr std::size_t most_bytes = 6 << 20;  ///< of an image: pages stay below 15 MB
-
-/// Per face of the model: which connected part of the texture it lies in, named by one of its coordinates.
-class Charts {
-  public:
-    explicit Charts(const ObjModel& model) : parent_(model.uv.size()) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-        for (const auto corners : model.uv_of.rowwise())
-            for (const int k : {1, 2}) parent_[std::size_t(root(corners[k]))] = root(corners[0]);
-        for (const auto corners : model.uv_of.rowwise()) of_face_.push_back(root(corners[0]));
-    }
-    int of_face(int f) const { return of_face_[std::size_t(f)]; }
-
-  private:
-    int root(int i) {
-        while (parent_[std::size_t(i)] != i)
-            i = parent_[std::size_t(i)] = parent_[std::size_t(parent_[std::size_t(i)])];
-        return i;
-    }
-    std::vector<int> parent_, of_face_;
-};
 
 Vec2 coordinates(const ObjModel& model, int face, const Vec3& barycentric) {
     Vec2 uv = Vec2::Zero();
@@ -57,20 +35,22 @@ Vec3 on_plane(const TriangleMesh& mesh, int face, const Vec3& p) {
 using Corners = std::array<Vec2, 3>;
 const Corners nowhere{Vec2(-1, -1), Vec2(-1, -1), Vec2(-1, -1)};
 
-/// Of a face of the target: its corners in the chart of its middle.
+/// Of a face of the target: where its corners lie in the texture. Across a seam they would lie far from each
+/// other: there the texture goes on beyond its rim as it is under the face's middle.
 Corners carried_corners(const Correspondence& map, const PointCarrier& back, const ObjModel& model,
-                        const Charts& charts, int face) {
+                        int face) {
     const SurfacePoint middle = back({face, Vec3::Constant(1 / 3.)});
     if (middle.face < 0) return nowhere;
+    const Vec2 centre = coordinates(model, middle.face, middle.barycentric);
     Corners corners;
     for (int k = 0; k < 3; ++k) {
         const SurfacePoint& image = map.back[std::size_t(map.to.faces(face, k))];
         if (image.face < 0) return nowhere;
-        const bool same_chart = charts.of_face(image.face) == charts.of_face(middle.face);
-        corners[std::size_t(k)] =
-            same_chart
-                ? coordinates(model, image.face, image.barycentric)
-                : coordinates(model, middle.face, on_plane(map.from, middle.face, position(map.from, image)));
+        const Vec2 own = coordinates(model, image.face, image.barycentric);
+        const Vec2 beyond =
+            coordinates(model, middle.face, on_plane(map.from, middle.face, position(map.from, image)));
+        const double reach = (beyond - centre).norm();
+        corners[std::size_t(k)] = (own - beyond).norm() <= 2 * reach ? own : beyond;
     }
     return corners;
 }
@@ -123,11 +103,9 @@ std::optional<PageTexture> read_texture(const std::string& obj, const Correspond
     for (int f = 0; f < map.from.face_count(); ++f)
         for (int k = 0; k < 3; ++k)
             source[std::size_t(f)][std::size_t(k)] = coordinates(model, f, Vec3::Unit(k));
-    const Charts charts(model);
     const PointCarrier back(map.to, map.back, map.from);
-    parallel_for_each_index(map.to.face_count(), 256, [&](int f) {
-        target[std::size_t(f)] = carried_corners(map, back, model, charts, f);
-    });
+    parallel_for_each_index(map.to.face_count(), 256,
+                            [&](int f) { target[std::size_t(f)] = carried_corners(map, back, model, f); });
     texture.source_uv = flat(source);
     texture.target_uv = flat(target);
     return texture;

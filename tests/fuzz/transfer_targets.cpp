@@ -60,7 +60,7 @@ std::string ply() {
     PlyColumns columns;
     columns.vertex = {{"red", "uchar", std::vector<double>(std::size_t(mesh.vertex_count()), 7)}};
     columns.face = {{"part", "int", std::vector<double>(std::size_t(mesh.face_count()), -1)}};
-    return to_ply(mesh, columns);
+    return to_ply(mesh, columns, PlyFormat::binary);
 }
 
 std::string textured_obj() {

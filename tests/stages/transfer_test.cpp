@@ -302,8 +302,11 @@ TEST_F(Transfer, WritesTheFormatItReads) {
     PlyColumns columns;
     columns.vertex.push_back({"red", "uchar", std::vector<double>(std::size_t(ball_.vertex_count()), 200)});
     columns.face.push_back({"part", "int", std::vector<double>(std::size_t(ball_.face_count()), -3)});
-    const std::string ply = to_ply(ball_, columns);
-    EXPECT_EQ(round_trip(write("a.ply", ply)), ply);
+    columns.vertex.push_back({"heat", "float", std::vector<double>(std::size_t(ball_.vertex_count()), .1f)});
+    for (const PlyFormat format : {PlyFormat::binary, PlyFormat::ascii}) {
+        const std::string ply = to_ply(ball_, columns, format);
+        EXPECT_EQ(round_trip(write("a.ply", ply)), ply);
+    }
     std::string npy = npy_header("<f4", {ball_.vertex_count()});
     for (int v = 0; v < ball_.vertex_count(); ++v) {
         const float value = float(v) / 3;

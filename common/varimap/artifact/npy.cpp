@@ -76,6 +76,19 @@ std::string to_zip(const std::vector<std::pair<std::string, std::string>>& files
     return archive + list + end.bytes();
 }
 
+std::vector<std::pair<std::string, std::string>> csr_files(long long rows, long long columns,
+                                                           const std::vector<double>& data,
+                                                           const std::vector<int>& indices,
+                                                           const std::vector<int>& indptr) {
+    static_assert(sizeof(int) == 4);
+    const auto entries = static_cast<long long>(data.size());
+    return {{"format.npy", npy_header("|S3", {}) + "csr"},
+            {"shape.npy", to_npy("<i8", {2}, std::vector<std::int64_t>{rows, columns})},
+            {"data.npy", to_npy("<f8", {entries}, data)},
+            {"indices.npy", to_npy("<i4", {entries}, indices)},
+            {"indptr.npy", to_npy("<i4", {rows + 1}, indptr)}};
+}
+
 bool is_zip(std::string_view bytes) {
     return bytes.starts_with("PK\x03\x04");
 }

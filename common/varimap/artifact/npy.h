@@ -24,6 +24,13 @@ std::string to_npy(const char* type, const std::vector<long long>& shape, const 
 /// same files. An .npz is one of .npy files. Throws IoError beyond 4 GB.
 std::string to_zip(const std::vector<std::pair<std::string, std::string>>& files);
 
+/// The files of a sparse matrix as SciPy's load_npz reads it (compressed rows): format, shape, data, indices,
+/// indptr.
+std::vector<std::pair<std::string, std::string>> csr_files(long long rows, long long columns,
+                                                           const std::vector<double>& data,
+                                                           const std::vector<int>& indices,
+                                                           const std::vector<int>& indptr);
+
 bool is_zip(std::string_view bytes);
 /// The files of a zip archive by their names, stored or deflated. Throws InputError, naming `path`, for
 /// archives that are damaged, encrypted, or of more than 4 GB.
