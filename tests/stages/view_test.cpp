@@ -157,7 +157,7 @@ TEST_F(ViewTexture, GoesOnBeyondSeamsInsteadOfSmearing) {
     const ClosestPoint closest(strip_);
     for (int v = 0; v < strip_.vertex_count(); ++v) {
         Vec3 p = strip_.vertex(v);
-        p[0] = .06 + .88 * p[0];
+        p[0] = .1 + .85 * p[0];
         shifted.vertices.row(v) = p;
         back.push_back(closest(p).point);
     }
