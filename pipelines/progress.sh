@@ -19,6 +19,7 @@ show_progress() {
     [[ $3 ]] || progress_share[explore]=0
     for name in "${progress_stages[@]}"; do ((all += progress_share[$name])); done
     if [[ $kind == line && -z ${NO_COLOR:-} ]]; then colour=$'\e[36m' plain=$'\e[0m'; fi
+    true >&2 || exec 2>/dev/null  # closed
     { exec {log}>>"$1"; } 2>/dev/null || fd_open=''
     while true; do
         if IFS= read -r -t 0.5 piece; then
@@ -33,6 +34,7 @@ show_progress() {
         fi
         say_progress
     done
+    [[ -z $fd_open || -z $line ]] || { printf '%s\n' "$line" >&"$log"; } 2>/dev/null || true
     [[ $kind != line || -z $stage ]] || end_stage
 }
 
@@ -59,7 +61,7 @@ note_line() {
 say_event() {
     local what=begins
     [[ -z ${BASH_REMATCH[2]} ]] || what=ends
-    printf '{"stage": "%s", "event": "%s", "seconds": %d}\n' "$name" "$what" $((SECONDS - begun)) >&2
+    printf '{"stage": "%s", "event": "%s", "seconds": %d}\n' "$name" "$what" $((SECONDS - begun)) >&2 || true
 }
 
 # Per mille of the run that is done; within a stage as time passes, as far as the stages before tell.
@@ -77,7 +79,7 @@ clock() {  # SECONDS
 }
 
 # "12 s, about 30 s to go"
-times() {  # PER MILLE
+time_left() {  # PER MILLE
     local spent=$((SECONDS - begun)) text
     ((spent >= 0)) || spent=0
     text=$(clock "$spent")
@@ -92,17 +94,17 @@ say_progress() {
         ((SECONDS - told >= 10)) || return 0
         told=$SECONDS
         share=$(done_so_far)
-        echo "varimap: ${progress_words[$stage]}, $((share / 10)) %, $(times "$share")" >&2
+        echo "varimap: ${progress_words[$stage]}, $((share / 10)) %, $(time_left "$share")" >&2 || true
         return
     fi
     share=$(done_so_far)
     printf -v bar '%*s' $((share / 50)) ''
     printf -v text '\r%-24s %s%-20s%s %3d %%  %s\e[K' "${progress_words[$stage]}" "$colour" "${bar// /#}" "$plain" \
-        $((share / 10)) "$(times "$share")"
-    [[ $text == "$shown" ]] || printf '%s' "$text" >&2
+        $((share / 10)) "$(time_left "$share")"
+    [[ $text == "$shown" ]] || printf '%s' "$text" >&2 || true
     shown=$text
 }
 
 end_stage() {
-    printf '\r%-24s %s\e[K\n' "${progress_words[$stage]}" "$(clock $((SECONDS - stage_begun)))" >&2
+    printf '\r%-24s %s\e[K\n' "${progress_words[$stage]}" "$(clock $((SECONDS - stage_begun)))" >&2 || true
 }

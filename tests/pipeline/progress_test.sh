@@ -26,6 +26,15 @@ for out in verbose quiet json; do same plain/source_to_target.csv $out/source_to
 expect_exit 2 "$varimap" map a.off b.off -o none -q -v
 expect_exit 2 "$varimap" map a.off b.off -o none -v --json
 
+# Nowhere to show it: no reason to fail.
+"$varimap" map a.off b.off "${small[@]}" -o closed --json >out.txt 2>&- || fail "closed stderr"
+"$varimap" map a.off b.off "${small[@]}" -o full --json >out.txt 2>/dev/full || fail "full stderr"
+POSIXLY_CORRECT=1 "$varimap" map a.off b.off "${small[@]}" -o posix >out.txt 2>log || fail "POSIX mode"
+for out in closed full posix; do
+    same plain/source_to_target.csv $out/source_to_target.csv
+    grep -q '^\[refine\] done' $out/log.txt || fail "$out: log.txt"
+done
+
 # On a terminal: a line for each stage, colour unless it is unwanted.
 if command -v script >/dev/null; then
     on_terminal() { TERM=xterm script -qec "$(printf '%q ' "$varimap" map a.off b.off "${small[@]}" "$@")" terminal.txt >/dev/null; }
