@@ -15,6 +15,7 @@ set(includes_of_OpenMeshCore OpenMesh/)
 set(includes_of_embree embree3/)
 set(includes_of_Spectra::Spectra Spectra/)
 set(includes_of_PNG::PNG png.h)
+set(includes_of_stb stb/)
 set(includes_of_ZLIB::ZLIB zlib.h)
 
 # Sets `out` to what includes of the targets, and of all that their users may include, begin with.

@@ -15,8 +15,10 @@ def direction($words):
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
     (.round_trip // empty | check("there and back, mean"; "\(.mean | fixed(4)) sqrt(area)"; .mean | grade(0.01; 0.03))),
     (.exploration // empty | check("choice among mirrored and turned maps";
-        if .confident then "sure" else "not sure" end; if .confident then "good" else "look here" end))] as $checks
-| [.warnings[]? | "\(.stage): \(.message)"] as $warnings
+        if .continued > 1 then "candidate \(.continued), as asked" elif .confident then "sure" else "not sure" end;
+        if .confident or .continued > 1 then "good" else "look here" end))] as $checks
+| (.exploration.continued // 1) as $continued
+| [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not)) | "\(.stage): \(.message)"] as $warnings
 | {verdict: (if any($checks[]; .grade == "look here") or ($warnings | length > 0) then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),
     warnings: $warnings, checks: $checks, command: (.provenance.command // ""), version: (.provenance.version // ""),

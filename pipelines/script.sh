@@ -48,12 +48,16 @@ generate_pair() {
     "$VARIMAP_BIN/varimap-generate" "$@" 2>"$3/log.txt" || fail $? "$(tail -n 1 "$3/log.txt")"
 }
 
-# map_shape FOLDER OUT OPTION...: maps the pair that varimap-generate left in FOLDER, results in OUT; log.txt and
+# map_shape FOLDER OUT OPTION...: maps the pair that varimap-generate left in FOLDER, results in OUT; errors.txt and
 # errors.json in FOLDER.
 map_shape() {
-    "$varimap" map "$1/source.ply" "$1/target.ply" -o "$2" "${@:3}" >/dev/null 2>"$1/log.txt" || return
+    "$varimap" map -q "$1/source.ply" "$1/target.ply" -o "$2" "${@:3}" >/dev/null 2>"$1/errors.txt" || return
     "$VARIMAP_BIN/varimap-evaluate" "$1/target.ply" "$2/source_to_target.csv" "$1/source.txt" "$1/target.txt" \
-        --json >"$1/errors.json" 2>>"$1/log.txt"
+        --json >"$1/errors.json" 2>>"$1/errors.txt"
+}
+
+reason() {  # FILE of what was said on stderr: the error among it, or the last line
+    { grep 'error: ' "$1" || tail -n 1 "$1"; } 2>/dev/null | tail -n 1
 }
 
 require_number() {  # OPTION VALUE LEAST
@@ -81,6 +85,7 @@ parse_options() {
             ;;
         -h) typed=--help ;;
         -q) typed=--quiet ;;
+        -v) typed=--verbose ;;
         -o | -j) typed=${short[$typed]} ;;
         -o?* | -j?*) typed=${short[${typed::2}]}=${typed:2} ;;
         -?*) ;;

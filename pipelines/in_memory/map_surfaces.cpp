@@ -43,6 +43,7 @@ SurfaceData sketch(const Surface& surface) {
 /// `given`: landmarks on the inputs.
 std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const Landmarks& given,
                                            const MapOptions& options) {
+    if (!options.initial_map.empty()) return {};
     ExploreParams params;
     params.only_if_needed = !options.explore;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
@@ -60,13 +61,14 @@ std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, c
 
 /// The stages that solve for a plan.
 Plan solve(const PairContext& context, const PointPairs& landmark_points,
-           const std::optional<Candidates>& candidates, const MapOptions& options) {
+           const std::optional<Candidates>& candidates, const std::optional<Correspondences>& initial_map,
+           const MapOptions& options) {
     DiffuseParams coarse;
     coarse.candidate = options.candidate;
     coarse.landmark_weight = options.landmark_weight;
     RefineParams fine;
     coarse.alternation.area_bound = fine.alternation.area_bound = options.area_bound;
-    Diffusion diffusion = diffuse(context, coarse, candidates);
+    Diffusion diffusion = diffuse(context, coarse, candidates, initial_map);
     diffusion.record.landmark_points = landmark_points;
     return refine(context, diffusion, fine);
 }
@@ -94,7 +96,11 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     const Surface surface_A = data_A.surface, surface_B = data_B.surface;
     const PairContext context =
         pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
-    const Plan plan = solve(context, points, found_candidates(surface_A, surface_B, given, options), options);
+    std::optional<Correspondences> initial_map;
+    if (!options.initial_map.empty())
+        initial_map = correspondences_of(options.initial_map, surface_A, surface_B);
+    const Plan plan =
+        solve(context, points, found_candidates(surface_A, surface_B, given, options), initial_map, options);
     SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B));
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);

@@ -11,7 +11,8 @@ install(TARGETS ${libraries} EXPORT varimapTargets)
 install(DIRECTORY common/varimap pipelines/in_memory/varimap TYPE INCLUDE FILES_MATCHING PATTERN "*.h" PATTERN private EXCLUDE)
 install(PROGRAMS pipelines/varimap TYPE BIN)
 set(share ${CMAKE_INSTALL_DATADIR}/varimap)
-install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/script.sh DESTINATION ${share})
+install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/script.sh pipelines/progress.sh
+  DESTINATION ${share})
 install(PROGRAMS pipelines/bench pipelines/scaling pipelines/selftest pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/help DESTINATION ${share})
 # The viewer's page, where it has been built: pipelines/view/build build/view/frame.html
@@ -34,6 +35,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # needs dpkg-shlibdeps of dpkg-dev
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "bash, make, jq, util-linux")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libtbb-dev, libfmt-dev, libspdlog-dev, libcereal-dev, \
-libopenmesh-dev, libembree-dev, libxxhash-dev, zlib1g-dev, pkg-config")
+libopenmesh-dev, libembree-dev, libxxhash-dev, libpng-dev, zlib1g-dev, pkg-config")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

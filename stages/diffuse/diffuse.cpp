@@ -72,7 +72,7 @@ Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const Pa
 }  // namespace
 
 Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
-                  const std::optional<Candidates>& found) {
+                  const std::optional<Candidates>& found, const std::optional<Correspondences>& initial_map) {
     // Exploration may have found that landmarks suffice.
     const Candidates* candidates = found && !found->list.empty() ? &*found : nullptr;
     if (found && !candidates && params.candidate > 1)
@@ -84,9 +84,10 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;
     TracedDescent descent(context, params.alternation, params.ironing);
     std::optional<VertexCorrespondences> begun;
-    if (candidates)
-        begun =
-            at_vertices(chosen_map(*candidates, params.candidate), context.A().surface, context.B().surface);
+    if (const Correspondences* map = candidates    ? &chosen_map(*candidates, params.candidate)
+                                     : initial_map ? &*initial_map
+                                                   : nullptr)
+        begun = at_vertices(*map, context.A().surface, context.B().surface);
     const int first = begun ? std::min(first_level_for_a_map(context), levels - 1) : 0;
     Solution solution;
     for (int l = first; l < levels; ++l) {

@@ -1,6 +1,7 @@
 #include "stages/diffuse/diffuse.h"
 #include "varimap/pair_stage/likely_part.h"
 #include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/results/map_file.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;
@@ -16,17 +17,32 @@ std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs
     return std::move(candidates.value);
 }
 
+/// Read against the meshes' files, whose vertices and faces it names.
+std::optional<Correspondences> read_initial_map(Stage& stage, const std::string& path, IndexBase base,
+                                                const Surface& A, const Surface& B) {
+    if (path.empty()) return {};
+    const TriangleMesh source = in_numbers_of_file(A.input, A.link);
+    const PointMap map = read_map_file(path, base, file_of(B), &source);
+    stage.record_file("initial-map", path);
+    return correspondences_of(map, A, B);
+}
+
 void report(const std::vector<LandmarkCheck>& checks) {
+    constexpr double decides = .1;  // sqrt(area): no detail any more
+    const int worst = contradicted_landmark(checks);
     for (size_t i = 0; i < checks.size(); ++i) {
         const LandmarkCheck& check = checks[i];
-        log("landmark {}: the others take it {:.3f} from its partner, in units of sqrt(area); without it the "
-            "energy "
-            "falls by {:.1f}%",
-            i + 1, check.distance, 100 * check.energy_fall);
+        log("landmark {}: the others alone would have its place {:.3f} sqrt(area) away, and the energy "
+            "{:.1f}% "
+            "lower{}",
+            i + 1, check.distance, 100 * check.energy_fall,
+            int(i) == worst            ? ""
+            : check.distance < decides ? "; it agrees with them"
+                                       : "; it does not contradict them, and decides what they leave open");
     }
-    if (const int i = contradicted_landmark(checks); i >= 0)
+    if (worst >= 0)
         warn("landmark {} is contradicted by the others: is it in the right place, on the right side?",
-             i + 1);
+             worst + 1);
 }
 
 }  // namespace
@@ -43,9 +59,17 @@ int main(int argc, char** argv) {
         "one file of vertex pairs, or a source list and a target list; numbers of INPUT vertices", 1, 2);
     const std::string& candidates_in =
         stage.input_option("candidates", "maps of varimap-explore, to continue one of them");
+    const std::string& initial_map_in = stage.input_option(
+        "initial-map",
+        "map of another program, to refine it: for each vertex of the source one of the target (text, CSV, "
+        ".npy, .npz), or a table of varimap");
     return stage.main(argc, argv, [&] {
+        if (!candidates_in.empty() && !initial_map_in.empty())
+            throw UsageError("give --candidates or --initial-map, not both");
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto candidates = read_candidates(stage, inputs, candidates_in, A.surface, B.surface);
+        const auto initial_map =
+            read_initial_map(stage, initial_map_in, params.map_base, A.surface, B.surface);
         warn_of_part(A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
@@ -53,7 +77,7 @@ int main(int argc, char** argv) {
         PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context =
             pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-        Diffusion diffusion = diffuse(context, params, candidates);
+        Diffusion diffusion = diffuse(context, params, candidates, initial_map);
         diffusion.record.landmark_points = std::move(points);
         report(diffusion.record.landmark_checks);
         stage.record_number("levels", diffusion.trace.back().level + 1);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "varimap/mesh/io/index_base.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {
@@ -25,6 +26,7 @@ struct DiffuseParams {
     double shape_weight =
         0.25;           ///< of add_shape_term beside Eq. (3); at 0.5 the map of a bust onto another was lost
     int candidate = 1;  ///< which of the candidates of varimap-explore is continued
+    IndexBase map_base = IndexBase::automatic;  ///< of an initial map
     LandmarkSpace landmark_space = LandmarkSpace::stated;
     double landmark_weight = 1;   ///< W of pull_landmarks (cost.h); 1: pinned
     bool check_landmarks = true;  ///< compares the map with one that lacks each landmark in turn
@@ -42,6 +44,8 @@ struct DiffuseParams {
                  0.0, 100.0);
         list.add("candidate", candidate,
                  "which of the maps that varimap-explore found is continued (1: the best)", 1, 100);
+        list.add("map_base", map_base,
+                 "number of the first vertex in an initial map from vertices to vertices: 0, 1, or auto");
         varimap::describe(list, landmark_space);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);

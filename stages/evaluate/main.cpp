@@ -7,7 +7,9 @@
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mesh_repair.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/results/correspondence.h"
+#include "varimap/results/map_file.h"
 #include "varimap/stage/stage_main.h"
 #include "varimap/verification/evaluation.h"
 
@@ -44,14 +46,46 @@ std::string as_text(const MapErrors& errors) {
     return text;
 }
 
-/// The errors on the repaired target.
-MapErrors errors_on(const RepairedMesh& target, const PointMap& map, const std::vector<int>& source_points,
-                    std::vector<int> target_points) {
-    if (target.link.is_identity()) return map_errors(map, target.mesh, source_points, target_points);
-    if (!are_points(map, file_of(target).face_count()))
-        throw InputError("the map does not lead to this target: it has other faces");
-    for (int& vertex : target_points) vertex = target.link.vertex[size_t(vertex)];
-    return map_errors(from_file(map, {}, target.link), target.mesh, source_points, target_points);
+/// Points of the target's file on its repaired mesh; on faces that were dropped they are nowhere.
+PointMap on_repaired(const PointMap& points, const RepairedMesh& target) {
+    return target.link.is_identity() ? points : from_file(points, {}, target.link);
+}
+
+/// The errors on the repaired target, at vertices.
+MapErrors vertex_errors(const RepairedMesh& target, const PointMap& map,
+                        const std::vector<int>& source_points, std::vector<int> target_points) {
+    if (!target.link.is_identity())
+        for (int& vertex : target_points) vertex = target.link.vertex[size_t(vertex)];
+    return map_errors(on_repaired(map, target), target.mesh, source_points, target_points);
+}
+
+/// The same at landmarks of any form, which the map carries as points.
+MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const TriangleMesh& source,
+                          const std::vector<std::string>& files) {
+    const Landmarks landmarks = read_landmarks(files, source, file_of(target));
+    const PointCarrier carry(source, map, file_of(target));
+    PointMap images, truths;
+    for (std::size_t i = 0; i < landmarks.vertices.size(); ++i) {
+        const auto& [s, t] = landmarks.vertices[i];
+        images.push_back(
+            carry(landmarks.points.empty() ? point_at_vertex(source, s.index) : landmarks.points[i].first));
+        truths.push_back(landmarks.points.empty() ? point_at_vertex(file_of(target), t.index)
+                                                  : landmarks.points[i].second);
+    }
+    images = on_repaired(images, target), truths = on_repaired(truths, target);
+    PointPairs pairs;
+    for (std::size_t i = 0; i < images.size(); ++i) pairs.emplace_back(images[i], truths[i]);
+    return point_errors(pairs, target.mesh);
+}
+
+MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const TriangleMesh* source,
+                    const std::vector<std::string>& files, IndexBase base) {
+    if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
+        return vertex_errors(target, map, read_vertex_list(files[0], base, source),
+                             read_vertex_list(files[1], base, &file_of(target)));
+    if (source == nullptr)
+        throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
+    return landmark_errors(target, map, *source, files);
 }
 
 }  // namespace
@@ -61,25 +95,32 @@ int main(int argc, char** argv) {
     Stage stage("evaluate", "Geodesic error of a map against known correspondences");
     stage.parameters([&](ParameterList& list) { options.describe(list); });
     const auto& target_path = stage.input("target-mesh", "mesh the map leads to");
-    const auto& map_path = stage.input("map", "CSV of varimap-remesh, one row per source vertex");
-    const auto& source_list = stage.input("source-points", "vertices of the source, one per line");
-    const auto& target_list =
-        stage.input("target-points", "where they belong: vertices of the target, row by row");
+    const auto& map_path = stage.input(
+        "map", "table of varimap, or a vertex of the target for each of the source: text, CSV, .npy, .npz");
+    const auto& lists = stage.input_list(
+        "points",
+        "vertices of the source and where they belong on the target, a list for each, row by row; or, with "
+        "--source-mesh, landmarks in any form: one file of pairs, or two files");
     const auto& base_text = stage.option(
         "index-base",
         "number of a list's first vertex: 0, 1 or auto (coordinates in the list decide, else 0)");
+    const auto& map_base =
+        stage.option("map-base", "number of the first vertex in a vertex-to-vertex map: 0, 1 or auto");
     const auto& source_path = stage.input_option(
         "source-mesh", "mesh the map starts from, to check the source's points and their base");
     const auto& curve_path = stage.option("curve", "CSV to write: share of the pairs within each error");
     const auto& json = stage.flag("json", "print a JSON object");
     return stage.main(argc, argv, [&] {
-        const IndexBase base = index_base_from(base_text.empty() ? "auto" : base_text);
+        if (lists.size() > 2)
+            throw UsageError(
+                "points: give a list for the source and one for the target, or one file of pairs");
         const RepairedMesh target = repaired(read_mesh(target_path), options, target_path);
         std::optional<TriangleMesh> source;
         if (!source_path.empty()) source = read_mesh(source_path);
-        const auto source_points = read_vertex_list(source_list, base, source ? &*source : nullptr);
-        const auto target_points = read_vertex_list(target_list, base, &file_of(target));
-        const MapErrors errors = errors_on(target, read_csv_map(map_path), source_points, target_points);
+        const PointMap map =
+            read_map_file(map_path, index_base_from(map_base), file_of(target), source ? &*source : nullptr);
+        const MapErrors errors =
+            errors_of(target, map, source ? &*source : nullptr, lists, index_base_from(base_text));
         if (errors.unmapped > 0)
             warn("{} pairs left out: the map has no image for them, or the target is not mapped there",
                  errors.unmapped);

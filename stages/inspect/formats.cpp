@@ -31,4 +31,17 @@ std::string to_matrix_market(const SparseMatrix& matrix) {
     return text;
 }
 
+std::string to_npz(const SparseMatrix& matrix) {
+    std::vector<double> data;
+    std::vector<int> indices, indptr{0};
+    for (Eigen::Index row = 0; row < matrix.outerSize(); ++row) {
+        for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+            data.push_back(entry.value());
+            indices.push_back(int(entry.col()));
+        }
+        indptr.push_back(int(data.size()));
+    }
+    return to_zip(csr_files(matrix.rows(), matrix.cols(), data, indices, indptr));
+}
+
 }  // namespace varimap

@@ -12,4 +12,7 @@ std::string to_npy(const ArrayView& array);
 /// MatrixMarket coordinate format: indices from 1, row by row; values read back exactly, in any locale.
 std::string to_matrix_market(const SparseMatrix& matrix);
 
+/// An .npz that SciPy's load_npz reads.
+std::string to_npz(const SparseMatrix& matrix);
+
 }  // namespace varimap

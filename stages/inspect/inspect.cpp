@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "stages/inspect/contents.h"
@@ -16,6 +17,7 @@ namespace {
 /// Lists contents: facts as they are, arrays by shape and range.
 class Summary : public ContentsVisitor {
   public:
+    explicit Summary(Extent extent = Extent::all) : extent_(extent) {}
     void fact(const std::string& name, const std::string& value) override { line(name, value); }
     void array(const std::string& name, const ArrayView& array) override {
         line(name, std::visit([&](const auto* data) { return described(data, array); }, array.data));
@@ -29,7 +31,12 @@ class Summary : public ContentsVisitor {
         line(name, fmt::format("surface of {} vertices, {} faces", mesh.vertex_count(), mesh.face_count()));
     }
     void text(const std::string& name, const std::string& content) override {
-        if (!content.empty()) text_ += "  " + name + "\n" + indented(content);
+        constexpr auto few = 6;
+        const auto lines = std::count(content.begin(), content.end(), '\n');
+        if (extent_ == Extent::screen && lines > few)
+            line(name, fmt::format("{} lines: --trace shows them", lines));
+        else if (!content.empty())
+            text_ += "  " + name + "\n" + indented(content);
     }
     std::string result() const { return text_; }
 
@@ -52,6 +59,7 @@ class Summary : public ContentsVisitor {
     void line(const std::string& name, const std::string& value) {
         text_ += fmt::format("  {:<22} {}\n", name, value);
     }
+    Extent extent_;
     std::string text_;
 };
 
@@ -64,6 +72,7 @@ class Export : public ContentsVisitor {
     }
     void sparse(const std::string& name, const SparseMatrix& matrix) override {
         save(name + ".mtx", to_matrix_market(matrix));
+        save(name + ".npz", to_npz(matrix));
     }
     void mesh(const std::string& name, const TriangleMesh& mesh) override {
         save(name + ".ply", to_ply(mesh));
@@ -77,14 +86,41 @@ class Export : public ContentsVisitor {
     std::string folder_;
 };
 
+/// Kind and origin in a line, parameters in a few.
+std::string short_header(const Header& header) {
+    constexpr std::size_t width = 110;
+    std::string text =
+        fmt::format("{} of {} {}, schema {}\n", header.kind, header.stage, header.version, header.schema);
+    std::string line = " ";
+    for (const auto& [name, value] : header.parameters) {
+        const std::string word = fmt::format(" {}={}", name, value);
+        if (line.size() + word.size() > width) text += line + "\n", line = " ";
+        line += word;
+    }
+    return line == " " ? text : text + line + "\n";
+}
+
+/// Of a lineage, what the artifact itself was made from.
+std::string first_generation(const std::string& made_from) {
+    std::string text;
+    for (std::size_t at = 0; at < made_from.size();) {
+        const std::size_t end = std::min(made_from.find('\n', at), made_from.size() - 1) + 1;
+        if (made_from.compare(at, 4, "    ") != 0) text += made_from.substr(at, end - at);
+        at = end;
+    }
+    return text;
+}
+
 }  // namespace
 
-std::string summarise(const std::string& path) {
-    Summary summary;
+std::string summarise(const std::string& path, Extent extent) {
+    Summary summary(extent);
     visit_artifact(path, summary);
+    const Header header = read_header(path);
     const std::string made_from = lineage(path);
-    return header_text(read_header(path)) + "\nmade from\n" +
-           (made_from.empty() ? "  nothing\n" : made_from) + "\nholds\n" + summary.result();
+    const std::string from = extent == Extent::all ? made_from : first_generation(made_from);
+    return (extent == Extent::all ? header_text(header) : short_header(header)) + "\nmade from\n" +
+           (from.empty() ? "  nothing\n" : from) + "\nholds\n" + summary.result();
 }
 
 std::optional<Error> check(const std::string& path) {

@@ -7,8 +7,10 @@
 
 namespace varimap {
 
-/// Header, lineage and contents of an artifact, to be read by people. Throws ArtifactError, IoError.
-std::string summarise(const std::string& path);
+/// Header, lineage and contents of an artifact, to be read by people: all of it, or what fits a screen.
+/// Throws ArtifactError, IoError.
+enum class Extent : int { screen, all };
+std::string summarise(const std::string& path, Extent extent = Extent::all);
 
 /// Reads and decodes all of an artifact; what is wrong with it, if anything.
 std::optional<Error> check(const std::string& path);

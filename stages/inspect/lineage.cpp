@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -11,7 +12,14 @@
 namespace varimap {
 namespace {
 
-/// Artifacts of one folder by their content hash; among copies, the first name.
+/// What was made from the same content: a mesh that was coarse enough stays as it is.
+bool is_copy(const Header& header) {
+    return std::any_of(header.inputs.begin(), header.inputs.end(),
+                       [&](const InputRecord& input) { return input.hash == header.payload_hash; });
+}
+
+/// Artifacts of one folder by their content hash; among copies, that which was not made from another, or the
+/// first name.
 struct Neighbours {
     std::map<std::string, std::pair<std::string, Header>> by_hash;
 
@@ -27,7 +35,9 @@ struct Neighbours {
             Header header = read_header(path.string());
             auto& [name, known] = by_hash[header.payload_hash];
             const std::string file = path.filename().string();
-            if (name.empty() || file < name) name = file, known = std::move(header);
+            const bool copy = is_copy(header);
+            if (name.empty() || std::pair(copy, file) < std::pair(is_copy(known), name))
+                name = file, known = std::move(header);
         } catch (const Error&) {
             // Folders hold other files too.
         }

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     Stage stage("inspect", "Shows, checks or exports artifacts");
     const auto& files = stage.input_list("file", "artifacts of any kind");
     const bool& checks = stage.flag("check", "verify the files; one line on stdout for each bad one");
+    const bool& trace = stage.flag("trace", "all there is to say: every iteration, and the whole lineage");
     const auto& folder =
         stage.option("export", "folder for the contents of the one file, as .npy, .mtx, .ply and text");
     return stage.main(argc, argv, [&] {
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
         if (checks) return check_all(files);
         if (!folder.empty() && files.size() != 1) throw UsageError("--export takes exactly one file");
         if (!folder.empty()) return export_contents(files.front(), folder);
-        for (const auto& file : files) fmt::print("{}", summarise(file));
+        for (const auto& file : files)
+            fmt::print("{}", summarise(file, trace ? Extent::all : Extent::screen));
     });
 }

@@ -19,7 +19,7 @@ SolvedPair read_solved(Stage& stage, const std::string& path) {
 }
 
 void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, const SamplePlan& plan,
-                const Surface& A, const Surface& B) {
+                const Surface& A, const Surface& B, PlyFormat format) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
@@ -33,14 +33,18 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
                      masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
     stage.write_file(folder + "/source_vertices.csv", vertices_csv(A));
     stage.write_file(folder + "/target_vertices.csv", vertices_csv(B));
-    stage.write_file(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B)));
-    stage.write_file(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A)));
+    stage.write_file(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B), format));
+    stage.write_file(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A), format));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     Stage stage("remesh", "Tables of the map, cross-remeshed surfaces and quality numbers");
+    bool ascii = false;
+    stage.parameters([&](ParameterList& list) {
+        list.add("ascii_ply", ascii, "surfaces as PLY that is text, for programs that read no other");
+    });
     const std::string& surface_A =
         stage.input("A.surface", "artifact of varimap-coarsen or varimap-preprocess: the source");
     const std::string& surface_B =
@@ -69,7 +73,9 @@ int main(int argc, char** argv) {
         require_surfaces(pair, A.value, B.value);
         require_surfaces(map.value, A.value, B.value);
         const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
-        if (!folder.empty()) export_map(stage, folder, map.value, pair.plan, A.value, B.value);
+        if (!folder.empty())
+            export_map(stage, folder, map.value, pair.plan, A.value, B.value,
+                       ascii ? PlyFormat::ascii : PlyFormat::binary);
         if (!json_file.empty()) stage.write_file(json_file, quality.json + "\n");
         stage.write(out, quality);  // last, so that it tells that the rest is there
     });

@@ -3,31 +3,52 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "stages/render/bounds.h"
+#include "varimap/mesh/pattern_axes.h"
 
 namespace varimap {
 
+namespace {
+
+/// Dark blue to yellow, of growing lightness: sRGB as it is encoded. The viewer's page has the same.
+const std::array<Vec3, 5> cividis{Vec3(0x00, 0x22, 0x4e) / 255., Vec3(0x3b, 0x49, 0x6c) / 255.,
+                                  Vec3(0x7c, 0x7b, 0x78) / 255., Vec3(0xbc, 0xaf, 0x6f) / 255.,
+                                  Vec3(0xfe, 0xe8, 0x38) / 255.};
+
+Vec3 ramp(double t) {
+    const double s = std::clamp(t, 0., 1.) * (cividis.size() - 1);
+    const std::size_t i = std::min(cividis.size() - 2, std::size_t(s));
+    return cividis[i] + (s - double(i)) * (cividis[i + 1] - cividis[i]);
+}
+
+Vec3 mixed(const Vec3& colour, double grey, double share) {
+    return (1 - share) * colour + Vec3::Constant(share * grey);
+}
+
+double decode_channel(double encoded) {
+    return encoded <= .04045 ? encoded / 12.92 : std::pow((encoded + .055) / 1.055, 2.4);
+}
+
+}  // namespace
+
 SourceColour::SourceColour(const TriangleMesh& source, double cell)
-    : low_(bounds(source.vertices, source.faces).min()),
-      extent_(bounds(source.vertices, source.faces).sizes()),
-      cell_(cell) {
-    std::array<int, 3> axes{0, 1, 2};
-    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return extent_[a] > extent_[b]; });
-    first_ = axes[0], second_ = axes[1], third_ = axes[2];
-    extent_ = extent_.cwiseMax(1e-12);
+    : middle_(bounds(source.vertices, source.faces).center()), cell_(cell) {
+    axes_ = pattern_axes(source);
+    reach_ = std::max(bounds(source.vertices, source.faces).sizes()[axes_[0]], 1e-12);
 }
 
 Colour SourceColour::operator()(const Vec3& point) const {
-    const Vec3 t = (point - low_).cwiseQuotient(extent_);
+    Vec3 place;
+    for (int k = 0; k < 3; ++k) place[k] = point[axes_[std::size_t(k)]] - middle_[axes_[std::size_t(k)]];
     // The grid is shifted so that planes of symmetry do not coincide with its cells' faces.
-    const Vec3 cell = ((point - low_ - extent_ / 2) / cell_ + Vec3(.5, .37, .43)).array().floor();
+    const Vec3 cell = (place / cell_ + Vec3(.5, .37, .43)).array().floor();
     const bool dark = (long(cell[0]) + long(cell[1]) + long(cell[2])) & 1;
-    const double hue = 2 * std::numbers::pi * (.06 + .70 * t[first_] + .24 * (t[second_] - .5));
-    const double lightness = .76 + .12 * (t[second_] - .5) - .1 * (t[third_] - .5) - (dark ? .17 : 0);
-    const double chroma = .12 + .1 * (t[third_] - .5);  // pale on one side: mirrored maps must show
-    return from_oklch(lightness, chroma, hue);
+    const double contrast = place[1] > 0 ? .34 : .12;
+    Vec3 colour = mixed(ramp(place[0] / reach_ + .5), dark ? 0 : 1, contrast);
+    const double across = 2 * (place[0] + place[1]) / cell_;
+    if (place[2] > 0 && across - std::floor(across) < .3) colour = mixed(colour, dark ? 1 : 0, .6);
+    return colour.unaryExpr(&decode_channel);
 }
 
 Colour from_oklch(double lightness, double chroma, double hue) {

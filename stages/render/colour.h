@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
+
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 
 using Colour = Vec3;  ///< linear red, green, blue, from 0 to 1
 
-/// Colours the points of the source: hue runs along its longest axis, with lightness and chroma along the
-/// others, modulated by a checkerboard in space.
+/// Colours the points of the source: from dark blue to yellow along its longest axis, with a checkerboard in
+/// space that is faint on one half of the second axis, and stripes on one half of the third, such as the left (pattern_axes.h). Lightness alone tells all of it
+/// apart, which holds for eyes that do not see red and green as two.
 class SourceColour {
   public:
     /// `cell` is the edge of the checkerboard's cells, in the mesh's unit.
@@ -15,9 +18,9 @@ class SourceColour {
     Colour operator()(const Vec3& point) const;
 
   private:
-    Vec3 low_, extent_;
-    int first_, second_, third_;  ///< axes, from the longest to the shortest
-    double cell_;
+    Vec3 middle_;
+    std::array<int, 3> axes_;  ///< pattern_axes
+    double reach_ = 1, cell_;
 };
 
 inline const Colour unmapped_colour(.35, .35, .35);

@@ -9,6 +9,7 @@
 
 #include "stages/render/lettering.h"
 #include "stages/render/panels.h"
+#include "varimap/core/log.h"
 
 namespace varimap {
 
@@ -101,6 +102,14 @@ int lay_out_grid(std::vector<Panel>& panels, int columns, int picture_width) {
     return top;
 }
 
+/// Per triangle: whether it is reversed or collapsed, and that is to be shown.
+std::vector<bool> flagged(const DistortedSurface& surface, const RenderParams& params) {
+    std::vector<bool> flags;
+    for (const TriangleDistortion& t : surface.triangles)
+        flags.push_back(params.flips && t.area > 0 && (t.collapsed || t.flipped != params.mirror));
+    return flags;
+}
+
 }  // namespace
 
 Image draw_distortion(const DistortedSurface& source, const DistortedSurface& target,
@@ -109,14 +118,14 @@ Image draw_distortion(const DistortedSurface& source, const DistortedSurface& ta
     std::vector<Figure> figures;
     figures.reserve(6);
     std::vector<Panel> panels;
+    const std::vector<bool> source_flags = flagged(source, params), target_flags = flagged(target, params);
+    if (params.flips) log("{}", reversed_text(source_flags, target_flags));
     for (const DistortedSurface* surface : {&source, &target})
         for (const Quantity& q : columns) {
-            std::vector<bool> flagged;
-            for (const TriangleDistortion& t : surface->triangles)
-                flagged.push_back(params.flips && t.area > 0 && (t.collapsed || t.flipped != params.mirror));
             figures.emplace_back(
                 surface->mesh,
-                [&q, surface](const SurfacePoint& p) { return q.colour(q.value(*surface, p)); }, flagged);
+                [&q, surface](const SurfacePoint& p) { return q.colour(q.value(*surface, p)); },
+                surface == &source ? source_flags : target_flags);
             panels.emplace_back(figures.back(), surface->view);
         }
     const int letter = std::max(1, params.width / 600), scale_height = 7 * letter_height * letter;

@@ -1,5 +1,7 @@
 #include "stages/render/figure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -57,6 +59,14 @@ std::vector<bool> reversed_faces(const ImageMesh& images, bool mirror) {
     for (int f = 0; f < images.source.face_count(); ++f)
         reversed[size_t(f)] = images.is_mapped(f) && !(sign * images.facing(f) > 0);
     return reversed;
+}
+
+std::string reversed_text(const std::vector<bool>& source, const std::vector<bool>& target) {
+    const auto count = [](const std::vector<bool>& flags) {
+        return std::count(flags.begin(), flags.end(), true);
+    };
+    return fmt::format("reversed, in magenta: {} triangles of the source, {} of the target", count(source),
+                       count(target));
 }
 
 }  // namespace varimap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "stages/render/colour.h"
@@ -34,5 +35,7 @@ class Figure {
 /// Per triangle of the image mesh's source: whether its image is reversed (as quality.h counts flips); where
 /// the map reverses orientation on purpose (`mirror`), whether it is not.
 std::vector<bool> reversed_faces(const ImageMesh& images, bool mirror);
+/// How many there are on both surfaces, in words.
+std::string reversed_text(const std::vector<bool>& source, const std::vector<bool>& target);
 
 }  // namespace varimap

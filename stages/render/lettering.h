@@ -5,13 +5,13 @@
 
 namespace varimap {
 
-/// Small letters and digits for legends: 5 x 7 dots, 6 apart. Characters without a glyph leave a gap.
-inline constexpr int letter_height = 7, letter_spacing = 6;
+/// Height of capital letters in dots; letters with tails go two dots further down.
+inline constexpr int letter_height = 7;
 
-inline int text_width(const std::string& text) {
-    return letter_spacing * int(text.size()) - 1;
-}
+/// Width in dots.
+int text_width(const std::string& text);
 /// Calls set(x, y) for every pixel of the text, whose upper left corner is given; `size` pixels per dot.
+/// What is not ASCII is shown as a question mark.
 void draw_text(const std::string& text, int left, int top, int size,
                const std::function<void(int, int)>& set);
 

@@ -3,7 +3,9 @@
 
 #include "stages/render/render.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
@@ -16,6 +18,26 @@ using namespace varimap;
 Eigen::VectorXd read_masses(const std::string& path, const RepairedMesh& mesh) {
     const Eigen::VectorXd masses = read_csv_masses(path, file_of(mesh).vertex_count());
     return mesh.link.is_identity() ? masses : masses(mesh.link.origin);
+}
+
+/// Landmarks of the files, on the repaired meshes.
+PointPairs read_landmarks_on(const std::vector<std::string>& files, const RepairedMesh& A,
+                             const RepairedMesh& B, LandmarkSpace space) {
+    if (files.empty()) return {};
+    const Landmarks landmarks = read_landmarks(files, file_of(A), file_of(B), space);
+    PointMap on_A, on_B;
+    for (std::size_t i = 0; i < landmarks.vertices.size(); ++i) {
+        const auto& [a, b] = landmarks.vertices[i];
+        on_A.push_back(landmarks.points.empty() ? point_at_vertex(file_of(A), a.index)
+                                                : landmarks.points[i].first);
+        on_B.push_back(landmarks.points.empty() ? point_at_vertex(file_of(B), b.index)
+                                                : landmarks.points[i].second);
+    }
+    on_A = from_file(on_A, {}, A.link), on_B = from_file(on_B, {}, B.link);
+    PointPairs pairs;
+    for (std::size_t i = 0; i < on_A.size(); ++i)
+        if (on_A[i].face >= 0 && on_B[i].face >= 0) pairs.emplace_back(on_A[i], on_B[i]);
+    return pairs;
 }
 
 }  // namespace
@@ -37,6 +59,8 @@ int main(int argc, char** argv) {
         stage.input_option("candidates",
                            "of varimap-explore: where its choice was not sure, the first "
                            "three also go to candidates.png beside the picture");
+    const auto& landmarks = stage.input_list_option(
+        "landmarks", "what the map was made with, to mark it: a file of pairs, or two lists", 1, 2);
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
         const RepairedMesh A = repaired(read_mesh(source), params.repair, source),
@@ -49,7 +73,8 @@ int main(int argc, char** argv) {
         if (!candidates_in.empty()) candidates = stage.read<Candidates>("candidates", candidates_in).value;
         require_previews(candidates, file_of(A), file_of(B));
         const Image image = masses.empty()
-                                ? render(A.mesh, B.mesh, A_to_B, B_to_A, params)
+                                ? render(A.mesh, B.mesh, A_to_B, B_to_A, params,
+                                         read_landmarks_on(landmarks, A, B, params.landmark_space))
                                 : render_distortion(A.mesh, B.mesh, A_to_B, B_to_A, read_masses(masses[0], A),
                                                     read_masses(masses[1], B), params);
         stage.write_file(out, to_png(image));

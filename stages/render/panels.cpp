@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stages/render/bounds.h"
+#include "stages/render/dots.h"
 #include "stages/render/lettering.h"
 #include "varimap/core/parallel.h"
 
@@ -40,15 +41,18 @@ int lay_out(std::vector<Panel>& panels, int picture_width, int top) {
     return top + (in_a_row ? panel_height : 2 * panel_height);
 }
 
+/// Black letters around the middle `x`.
+void write(const std::string& text, int x, int y, int size, Image& image) {
+    draw_text(text, x - size * text_width(text) / 2, y, size,
+              [&](int px, int py) { set_pixel(image, px, py, Colour::Zero()); });
+}
+
 /// Writes each label above the middle of its panel.
 void write_labels(const std::vector<Exhibit>& exhibits, const std::vector<Panel>& panels, int size,
                   Image& image) {
-    for (size_t i = 0; i < exhibits.size(); ++i) {
-        const Panel& p = panels[2 * i];
-        const int left = p.x + (p.width - size * text_width(exhibits[i].label)) / 2;
-        draw_text(exhibits[i].label, left, size * letter_height / 2, size,
-                  [&](int x, int y) { set_pixel(image, x, y, Colour::Zero()); });
-    }
+    for (size_t i = 0; i < exhibits.size(); ++i)
+        write(exhibits[i].label, panels[2 * i].x + panels[2 * i].width / 2, size * letter_height / 2, size,
+              image);
 }
 
 /// Pixels whose rays may hit the figure: those under the bounding boxes of its triangles.
@@ -139,18 +143,21 @@ void set_pixel(Image& image, int x, int y, const Colour& colour) {
         image.rgb[3 * (size_t(y) * size_t(image.width) + size_t(x)) + size_t(k)] = encode_channel(colour[k]);
 }
 
-Image draw_panels(const std::vector<Exhibit>& exhibits, const RenderParams& params) {
+Image draw_panels(const std::vector<Exhibit>& exhibits, const std::vector<std::string>& caption,
+                  const RenderParams& params) {
     std::vector<Panel> panels;
     for (const Exhibit& e : exhibits)
         for (const double turn : {0., 180.})
             panels.emplace_back(*e.figure, moved(e.view, params.azimuth + turn, params.elevation));
-    const bool labelled =
-        std::any_of(exhibits.begin(), exhibits.end(), [](const Exhibit& e) { return !e.label.empty(); });
-    const int letter = std::max(1, params.width / 600), top = labelled ? 2 * letter * letter_height : 0;
-    Image image{params.width, lay_out(panels, params.width, top), {}};
+    const int letter = std::max(1, params.width / 600), line = 2 * letter * letter_height;
+    const int bottom = lay_out(panels, params.width, line);
+    Image image{params.width, bottom + line * int(caption.size()), {}};
     image.rgb.assign(3 * size_t(image.width) * size_t(image.height), 255);
     trace_panels(panels, params.samples, image);
+    for (size_t i = 0; i < panels.size(); ++i) draw_dots(exhibits[i / 2].points, panels[i], letter, image);
     write_labels(exhibits, panels, letter, image);
+    for (size_t i = 0; i < caption.size(); ++i)
+        write(caption[i], params.width / 2, bottom + int(i) * line, letter, image);
     return image;
 }
 

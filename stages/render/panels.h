@@ -30,15 +30,18 @@ void set_pixel(Image& image, int x, int y, const Colour& colour);
 /// Draws the panels, with that many rays per pixel, into the rectangles they say.
 void trace_panels(const std::vector<Panel>& panels, int samples, Image& image);
 
-/// A figure, its view, and what is written above it (nothing, or letters of lettering.h).
+/// A figure, its view, what is written above it, and points of it that are marked with dots and numbers from
+/// 1 where they can be seen.
 struct Exhibit {
     const Figure* figure;
     View view;
     std::string label;
+    std::vector<Vec3> points = {};
 };
 
 /// Lays out and traces the figures side by side, each from its view (moved as the parameters say) and from
-/// the opposite one.
-Image draw_panels(const std::vector<Exhibit>& exhibits, const RenderParams& params);
+/// the opposite one; `caption`: lines below.
+Image draw_panels(const std::vector<Exhibit>& exhibits, const std::vector<std::string>& caption,
+                  const RenderParams& params);
 
 }  // namespace varimap

@@ -13,6 +13,8 @@
 #include "stages/render/view.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/image/png_file.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/quality/image_mesh.h"
 
@@ -49,6 +51,11 @@ Colour carried_colour(const ImageMesh& back, const ClosestPoint& closest, const 
     return colour(position(back.target, closest(position(back.image, point)).point));
 }
 
+std::string checkerboard_text(double cell, const TriangleMesh& source) {
+    return fmt::format("squares are {:.3g} sqrt(area) wide: {:.3g} in the source's file", cell,
+                       cell * std::sqrt(surface_area(source)));
+}
+
 }  // namespace
 
 void require_fit(const PointMap& source_to_target, const PointMap& target_to_source,
@@ -58,7 +65,7 @@ void require_fit(const PointMap& source_to_target, const PointMap& target_to_sou
 }
 
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
-             const PointMap& target_to_source, const RenderParams& params) {
+             const PointMap& target_to_source, const RenderParams& params, const PointPairs& landmarks) {
     require_visible(source, target);
     require_fit(source_to_target, target_to_source, source, target);
     const ImageMesh there(source_to_target, source, target), back(target_to_source, target, source);
@@ -68,15 +75,28 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
         return params.flips ? reversed_faces(images, params.mirror)
                             : std::vector<bool>(size_t(images.source.face_count()));
     };
+    const std::vector<bool> source_flags = flags(there), target_flags = flags(back);
     const Figure source_figure(
-        there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, flags(there));
+        there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, source_flags);
     const Figure target_figure(
         back.source, [&](const SurfacePoint& p) { return carried_colour(back, closest, colour, p); },
-        flags(back));
+        target_flags);
     const View source_view = natural_view(source, params.up);
     const View target_view =
         matching_view(back.source, back.image.vertices, have_image(target_to_source), source_view);
-    return draw_panels({{&source_figure, source_view, ""}, {&target_figure, target_view, ""}}, params);
+    std::vector<Vec3> source_points, target_points;
+    for (const auto& [on_source, on_target] : landmarks) {
+        source_points.push_back(position(there.source, on_source));
+        target_points.push_back(position(back.source, on_target));
+    }
+    std::vector<std::string> caption{checkerboard_text(params.checker, source)};
+    if (params.flips) {
+        caption.push_back(reversed_text(source_flags, target_flags));
+        log("{}", caption.back());
+    }
+    return draw_panels({{&source_figure, source_view, "source", std::move(source_points)},
+                        {&target_figure, target_view, "target", std::move(target_points)}},
+                       caption, params);
 }
 
 Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
@@ -103,7 +123,7 @@ Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
                                                               have_image(map), source_view);
         exhibits.push_back({figures.back().get(), view, fmt::format("candidate {}", exhibits.size())});
     }
-    return draw_panels(exhibits, params);
+    return draw_panels(exhibits, {}, params);
 }
 
 Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
@@ -121,6 +141,10 @@ Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
                            {unit_area(target), measure_triangles(target_to_source, target, source),
                             target_masses, moved(target_view, params.azimuth, params.elevation)},
                            params);
+}
+
+std::string to_png(const Image& image) {
+    return encode_png(image.width, image.height, image.rgb);
 }
 
 Eigen::VectorXd read_csv_masses(const std::string& path, int vertices) {

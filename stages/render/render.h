@@ -19,9 +19,11 @@ struct Image {
 ///
 /// The source is coloured by position (SourceColour). A point of the target gets the colour of the point of
 /// the source closest to its image under target_to_source, linear on target triangles; grey where a corner
-/// has no image. Throws InputError where a map does not fit the meshes.
+/// has no image. Landmarks, if any, are marked with dots and numbers; a line below tells the size of the
+/// checkerboard's cells and, where they are shown, the number of reversed triangles, which the log has, too.
+/// Throws InputError where a map does not fit the meshes.
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
-             const PointMap& target_to_source, const RenderParams& params);
+             const PointMap& target_to_source, const RenderParams& params, const PointPairs& landmarks = {});
 
 /// Several maps beside each other, with labels: the source, then the target with the source's colours carried
 /// by each of them, all from the same two views. Throws InputError where a map does not fit the meshes.

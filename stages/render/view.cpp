@@ -1,34 +1,15 @@
 #include "stages/render/view.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "stages/render/bounds.h"
+#include "varimap/mesh/pattern_axes.h"
 
 namespace varimap {
 
 namespace {
 
 constexpr int x = 0, y = 1, z = 2;
-
-/// Sum of the areas of the faces' projections along each axis.
-Vec3 projected_areas(const TriangleMesh& mesh) {
-    Vec3 sum = Vec3::Zero();
-    for (int f = 0; f < mesh.face_count(); ++f) sum += face_normal(mesh, f).cwiseAbs();
-    return sum / 2;
-}
-
-int guess_up(const TriangleMesh& mesh, const Vec3& areas) {
-    // People seen from the side project almost as much as from the front: prefer the front.
-    constexpr double preference = 1.1;
-    if (areas[z] * preference >= areas.maxCoeff() && areas[z] >= areas[y]) return y;
-    if (areas[y] * preference >= areas.maxCoeff()) return z;
-    const auto box = bounds(mesh.vertices, mesh.faces);
-    const auto stands_on_zero = [&](int axis) { return std::abs(box.min()[axis]) < .05 * box.sizes()[axis]; };
-    if (stands_on_zero(y) != stands_on_zero(z)) return stands_on_zero(y) ? y : z;
-    return box.sizes()[y] < box.sizes()[z] ? y : z;
-}
 
 View view_along(int towards, double sign, int up) {
     View view;
@@ -42,7 +23,7 @@ View view_along(int towards, double sign, int up) {
 
 View natural_view(const TriangleMesh& mesh, const std::string& up_name) {
     Vec3 areas = projected_areas(mesh);
-    const int up = up_name == "auto" ? guess_up(mesh, areas) : up_name[0] - 'x';
+    const int up = up_name == "auto" ? likely_up(mesh) : up_name[0] - 'x';
     areas[up] = 0;
     if (up != x) areas[x] /= 1.1;
     const int towards = int(std::max_element(areas.begin(), areas.end()) - areas.begin());

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "stages/transfer/obj_model.h"
+#include "varimap/mesh/io/obj_model.h"
 
 namespace varimap {
 

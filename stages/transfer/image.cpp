@@ -1,11 +1,10 @@
 #include "stages/transfer/image.h"
 
-#include <png.h>
-
 #include <cmath>
+#include <utility>
 
 #include "varimap/artifact/artifact.h"
-#include "varimap/core/error.h"
+#include "varimap/image/png_file.h"
 
 namespace varimap {
 
@@ -35,32 +34,15 @@ Rgba sample_image(const TextureImage& image, const Vec2& uv) {
 }
 
 TextureImage read_png(const std::string& path) {
-    const std::string bytes = read_file(path);
-    png_image header{};
-    header.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
-        throw InputError(path + ": not a PNG; save the texture as one (" + header.message + ")");
-    header.format = PNG_FORMAT_RGBA;
-    TextureImage image(int(header.width), int(header.height));
-    if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr))
-        throw InputError(path + ": the PNG is damaged (" + header.message + ")");
+    DecodedPng decoded = decode_png(read_file(path), path);
+    TextureImage image;
+    image.width = decoded.width, image.height = decoded.height;
+    image.rgba = std::move(decoded.rgba);
     return image;
 }
 
-std::string encode_png(const TextureImage& image) {
-    png_image header{};
-    header.version = PNG_IMAGE_VERSION;
-    header.width = png_uint_32(image.width);
-    header.height = png_uint_32(image.height);
-    header.format = PNG_FORMAT_RGBA;
-    png_alloc_size_t size = 0;
-    std::string bytes;
-    if (png_image_write_to_memory(&header, nullptr, &size, 0, image.rgba.data(), 0, nullptr)) {
-        bytes.resize(size);
-        if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr))
-            return bytes.substr(0, size);
-    }
-    throw Error(ExitCode::internal, std::string("cannot encode the PNG: ") + header.message);
+std::string to_png(const TextureImage& image) {
+    return encode_png(image.width, image.height, image.rgba);
 }
 
 }  // namespace varimap

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/transfer/obj_model.h"
+#include "varimap/mesh/io/obj_model.h"
 
 namespace varimap {
 
@@ -30,6 +30,6 @@ Rgba sample_image(const TextureImage& image, const Vec2& uv);
 /// Throws InputError where the file is no PNG, IoError.
 TextureImage read_png(const std::string& path);
 /// The bytes of a PNG file.
-std::string encode_png(const TextureImage& image);
+std::string to_png(const TextureImage& image);
 
 }  // namespace varimap

@@ -1,113 +1,15 @@
-#include <fmt/format.h>
-
-#include <cstdint>
-#include <cstring>
-#include <functional>
-#include <limits>
-#include <map>
-
 #include "stages/transfer/values.h"
-#include "varimap/artifact/npy.h"
-#include "varimap/core/error.h"
-#include "varimap/core/printable.h"
-#include "varimap/mesh/io/number_type.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/io/npy_array.h"
 
 namespace varimap {
 
-namespace {
-
-const std::map<std::string, NumberType, std::less<>>& types() {
-    static const std::map<std::string, NumberType, std::less<>> table{
-        {"<f8", number_type<double>()},        {"<f4", number_type<float>()},
-        {"|i1", number_type<std::int8_t>()},   {"|u1", number_type<std::uint8_t>()},
-        {"|b1", number_type<std::uint8_t>()},  {"<i2", number_type<std::int16_t>()},
-        {"<u2", number_type<std::uint16_t>()}, {"<i4", number_type<std::int32_t>()},
-        {"<u4", number_type<std::uint32_t>()}, {"<i8", number_type<std::int64_t>()},
-        {"<u8", number_type<std::uint64_t>()}};
-    return table;
-}
-
-/// Rows and columns, or a list, which is flat.
-struct NpyHeader {
-    std::string type;
-    bool column_major = false, flat = false;
-    Eigen::Index rows = 0, columns = 1;
-    std::size_t bytes = 0;  ///< where the numbers start
-};
-
-/// What stands behind `'key':` up to a comma, or, of a tuple, its inside.
-std::string_view entry(std::string_view text, const std::string& key, const std::string& path) {
-    const std::size_t at = text.find("'" + key + "':");
-    if (at == text.npos) throw InputError(path + ": not an .npy file (its header has no " + key + ")");
-    text.remove_prefix(std::min(text.size(), text.find_first_not_of(' ', at + key.size() + 3)));
-    const bool tuple = text.starts_with('(');
-    return tuple ? text.substr(1, text.find(')') - 1) : text.substr(0, text.find_first_of(",}"));
-}
-
-Eigen::Index extent(std::string_view text, const std::string& path) {
-    const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
-    long long value = 0;
-    if (!to_integer(text.substr(begin), value) || value < 0 || value > std::numeric_limits<int>::max())
-        throw InputError(path + ": its shape is not one of rows and columns");
-    return Eigen::Index(value);
-}
-
-/// `12,` is a list; `12, 3` and `12, 3, ` are rows and columns.
-void read_shape(std::string_view shape, const std::string& path, NpyHeader& header) {
-    const std::size_t comma = std::min(shape.find(','), shape.size());
-    header.rows = extent(shape.substr(0, comma), path);
-    std::string_view rest = shape.substr(comma);
-    rest = rest.substr(0, rest.find_last_not_of(" ,") + 1);
-    header.flat = rest.empty();
-    if (!header.flat) header.columns = extent(rest.substr(1), path);
-}
-
-NpyHeader read_header(std::string_view bytes, const std::string& path) {
-    if (!bytes.starts_with("\x93NUMPY") || bytes.size() < 12) throw InputError(path + ": not an .npy file");
-    const bool first_version = bytes[6] == 1;
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 8, first_version ? 2 : 4);
-    NpyHeader header;
-    header.bytes = std::size_t(first_version ? 10 : 12) + length;
-    if (header.bytes > bytes.size()) throw InputError(path + ": the file ends within its header");
-    const std::string_view text = bytes.substr(0, header.bytes);
-    const std::string_view type = entry(text, "descr", path);
-    if (type.size() > 2) header.type = type.substr(1, type.size() - 2);
-    header.column_major = entry(text, "fortran_order", path).starts_with("True");
-    read_shape(entry(text, "shape", path), path, header);
-    if (!types().contains(header.type))
-        throw InputError(fmt::format("{}: has numbers of type {}; save it as float64, float32 or integers",
-                                     path, excerpt(header.type)));
-    return header;
-}
-
-}  // namespace
-
 ValueFile parse_npy_values(std::string_view bytes, const std::string& path) {
-    const NpyHeader header = read_header(bytes, path);
-    const NumberType& type = types().find(header.type)->second;
-    const auto available = (bytes.size() - header.bytes) / std::size_t(type.bytes);
-    if (header.columns == 0 || available / std::size_t(header.columns) < std::size_t(header.rows))
-        throw InputError(path + ": the file ends before its last number, or has no columns");
-    ValueTable table{Place::vertex, Eigen::MatrixXd(header.rows, header.columns)};
-    for (Eigen::Index row = 0; row < header.rows; ++row)
-        for (Eigen::Index column = 0; column < header.columns; ++column) {
-            const auto at = header.column_major ? column * header.rows + row : row * header.columns + column;
-            table.values(row, column) =
-                type.read(bytes.data() + header.bytes + std::size_t(at) * std::size_t(type.bytes));
-        }
-    const auto write = [header](const std::vector<ValueTable>& tables, const TriangleMesh&) {
-        const Eigen::MatrixXd& values = tables[0].values;
-        std::vector<long long> shape{values.rows()};
-        if (!header.flat) shape.push_back(values.cols());
-        std::string out = npy_header(header.type, shape);
-        for (Eigen::Index row = 0; row < values.rows(); ++row)
-            for (Eigen::Index column = 0; column < values.cols(); ++column)
-                types().find(header.type)->second.append(values(row, column), out);
-        return out;
+    const NpyArray array = parse_npy(bytes, path);
+    const auto write = [type = array.type, flat = array.flat](const std::vector<ValueTable>& tables,
+                                                              const TriangleMesh&) {
+        return to_npy(NpyArray{type, flat, tables[0].values});
     };
-    return {{std::move(table)}, write};
+    return {{ValueTable{Place::vertex, array.values}}, write};
 }
 
 }  // namespace varimap

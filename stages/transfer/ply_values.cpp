@@ -47,12 +47,13 @@ ValueFile parse_ply_values(std::string_view bytes, const std::string& path) {
         if (!of->empty()) file.tables.push_back(to_table(*of));
     if (file.tables.empty())
         throw InputError(path + ": holds no properties besides positions, normals and faces");
-    file.write = [columns](const std::vector<ValueTable>& tables, const TriangleMesh& to) {
+    file.write = [columns, format = ply_format(bytes)](const std::vector<ValueTable>& tables,
+                                                       const TriangleMesh& to) {
         PlyColumns out;
         auto next = tables.begin();
         if (!columns.vertex.empty()) out.vertex = to_columns(columns.vertex, *next++);
         if (!columns.face.empty()) out.face = to_columns(columns.face, *next);
-        return to_ply(to, out);
+        return to_ply(to, out, format);
     };
     return file;
 }

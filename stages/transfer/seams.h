@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stages/transfer/obj_model.h"
+#include "varimap/mesh/io/obj_model.h"
 #include "varimap/results/correspondence.h"
 
 namespace varimap {

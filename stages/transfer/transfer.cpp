@@ -185,7 +185,7 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
     std::fill(target.model.material.begin(), target.model.material.end(), 0);
     add(name + ".obj", to_obj(target, name + ".mtl"));
     add(name + ".mtl", fmt::format("newmtl baked\nKd 1 1 1\nmap_Kd {}.png\n", name));
-    add(name + ".png", encode_png(image));
+    add(name + ".png", to_png(image));
 }
 
 }  // namespace

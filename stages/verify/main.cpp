@@ -10,12 +10,15 @@ int main(int argc, char** argv) {
     stage.parameters([&](ParameterList& list) { options.describe(list); });
     const auto& source = stage.input("source-mesh", "mesh the map starts from");
     const auto& target = stage.input("target-mesh", "mesh the map leads to");
-    const auto& map = stage.input("map", "CSV of varimap-remesh, one row per source vertex");
+    const auto& map = stage.input(
+        "map", "table of varimap, or a vertex of the target for each of the source: text, CSV, .npy, .npz");
+    const auto& base =
+        stage.option("map-base", "number of the first vertex in a vertex-to-vertex map: 0, 1 or auto");
     const auto& mirror =
         stage.flag("mirror", "the map reverses orientation on purpose (varimap map --mirror)");
     const auto& json = stage.flag("json", "print a JSON object, with the faces and vertices found (0-based)");
     return stage.main(argc, argv, [&] {
-        const Verification found = verify_files(source, target, map, mirror, options);
+        const Verification found = verify_files(source, target, map, mirror, options, index_base_from(base));
         if (found.left_out_count > 0)
             warn("{} triangles left out: a corner has no image", found.left_out_count);
         if (!found.degree)

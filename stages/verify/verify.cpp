@@ -4,9 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/results/surface_map.h"
 
 namespace varimap {
 
@@ -20,27 +18,13 @@ Verification in_file(Verification found, const FileLink& link) {
     return found;
 }
 
-void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& source,
-                 const TriangleMesh& target) {
-    if (int(map.size()) != source.vertex_count())
-        throw InputError(
-            fmt::format("{}: {} rows, but the source mesh has {} vertices; give the mesh the map starts "
-                        "from first, then the one it leads to",
-                        path, map.size(), source.vertex_count()));
-    for (std::size_t v = 0; v < map.size(); ++v)
-        if (map[v].face >= target.face_count())
-            throw InputError(fmt::format("{}:{}: face {}, but the target mesh has {} faces", path, v + 2,
-                                         map[v].face, target.face_count()));
-}
-
 }  // namespace
 
 Verification verify_files(const std::string& source_mesh, const std::string& target_mesh,
-                          const std::string& map, bool mirror, const RepairOptions& options) {
+                          const std::string& map, bool mirror, const RepairOptions& options, IndexBase base) {
     RepairedMesh source = repaired(read_mesh(source_mesh), options, source_mesh);
     const RepairedMesh target = repaired(read_mesh(target_mesh), options, target_mesh);
-    const PointMap images = read_csv_map(map);
-    require_fit(images, map, file_of(source), file_of(target));
+    const PointMap images = read_map_file(map, base, file_of(target), &file_of(source));
     if (mirror) source.mesh.faces.col(1).swap(source.mesh.faces.col(2));
     return in_file(verify_map(from_file(images, source.link, target.link), source.mesh, target.mesh),
                    source.link);

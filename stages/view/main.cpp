@@ -6,6 +6,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/results/candidates.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {
@@ -55,6 +56,31 @@ std::string read_report(const std::string& path) {
     return text;
 }
 
+/// The texture of an OBJ that is asked for; of the mesh itself, where it is one that can be shown.
+std::optional<PageTexture> texture_of(const std::string& asked, const Correspondence& map) {
+    if (!asked.empty()) {
+        auto texture = read_texture(asked, map);
+        if (!texture) throw InputError(asked + ": has no texture coordinates, or no material with an image");
+        return texture;
+    }
+    const std::string& mesh = map.from_file;
+    if (mesh.size() < 4 || mesh.compare(mesh.size() - 4, 4, ".obj") != 0) return {};
+    try {
+        return read_texture(mesh, map);
+    } catch (const Error& error) {
+        warn("{}; the page shows no texture", error.what());
+        return {};
+    }
+}
+
+std::vector<PageCandidate> candidates_of(const Candidates& candidates, const Correspondence& map) {
+    require_previews(candidates, map.from, map.to);
+    std::vector<PageCandidate> shown;
+    for (std::size_t k = 0; k < candidates.previews.size(); ++k)
+        shown.push_back({relation(candidates.list[k]), candidates.previews[k]});
+    return shown;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,12 +94,20 @@ int main(int argc, char** argv) {
     const auto& report = stage.input_option("report", "what pipelines/report.jq makes of quality.json");
     const auto& landmarks = stage.input_list_option(
         "landmarks", "what the map was made with: a file of pairs, or two lists", 1, 2);
+    const auto& texture = stage.input_option(
+        "texture", "OBJ of the source with a texture (default: the source's mesh, where it has one)");
+    const auto& candidates_in = stage.input_option(
+        "candidates", "of varimap-explore: where its choice was not sure, the page shows the first three");
     const auto& mirror = stage.flag("mirror", "the map reverses orientation on purpose");
     return stage.main(argc, argv, [&] {
         const MapFiles files{source, target, there, back};
         const Correspondence map = read_correspondence(files, false);
-        stage.write_file(page, viewer_page({map, landmarks_of(landmarks, map), read_report(report), mirror},
-                                           read_file(frame)));
+        PageContent content{map, landmarks_of(landmarks, map), read_report(report), mirror};
+        content.texture = texture_of(texture, map);
+        if (!candidates_in.empty())
+            content.candidates =
+                candidates_of(stage.read<Candidates>("candidates", candidates_in).value, map);
+        stage.write_file(page, viewer_page(content, read_file(frame)));
         fmt::print("{}\n", page);
     });
 }

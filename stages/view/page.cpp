@@ -10,9 +10,13 @@
 #include "stages/view/packed_arrays.h"
 #include "stages/view/thinning.h"
 #include "varimap/core/error.h"
+#include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
+#include "varimap/mesh/mesh_repair.h"
+#include "varimap/mesh/pattern_axes.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
+#include "varimap/verification/verification.h"
 
 namespace varimap {
 
@@ -24,9 +28,9 @@ static void to_json(Json& json, const ArrayPlace& array) {
 
 namespace {
 
-constexpr double steps = 65535;     ///< of positions and barycentric coordinates
-constexpr double per_octave = 32;   ///< steps of the logarithm of distortions
-constexpr int most_shown = 150000;  ///< vertices of a surface: pages stay below 15 MB
+constexpr double steps = 65535;    ///< of positions and barycentric coordinates
+constexpr double per_octave = 32;  ///< steps of the logarithm of distortions
+constexpr double far_back = .05;   ///< sqrt(area) from itself: the end of the scale of what comes back
 constexpr const char* place = "<!--varimap-data-->";
 
 std::uint16_t step(double share) {
@@ -84,10 +88,42 @@ Json add_distortion(const PointMap& map, TriangleMesh from, const TriangleMesh& 
             {"flipped", arrays.add(flipped, "Uint8Array")}};
 }
 
+/// Per vertex, how far from itself it comes back through both maps: 1 to 255 at `far_back` and beyond; 0:
+/// there is no way there or back.
+std::vector<std::uint8_t> way_back(const PointMap& map, const TriangleMesh& from, const PointCarrier& back) {
+    const double unit = std::sqrt(surface_area(from));
+    std::vector<std::uint8_t> steps(map.size());
+    parallel_for_each_index(int(map.size()), 256, [&](int v) {
+        const SurfacePoint returned = back(map[std::size_t(v)]);
+        if (returned.face < 0) return;
+        const double distance = (position(from, returned) - from.vertex(v)).norm() / unit;
+        steps[std::size_t(v)] = std::uint8_t(1 + std::lround(254 * std::min(1., distance / far_back)));
+    });
+    return steps;
+}
+
+/// Vertices round which the map winds more than once (verification.h); none where the surfaces cannot be
+/// judged.
+std::vector<std::int32_t> branch_points(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to,
+                                        bool mirrored) {
+    try {
+        RepairedMesh source = repaired(from, {}, "source");
+        const RepairedMesh target = repaired(to, {}, "target");
+        if (mirrored) source.mesh.faces.col(1).swap(source.mesh.faces.col(2));
+        const Verification found =
+            verify_map(from_file(map, source.link, target.link), source.mesh, target.mesh);
+        std::vector<std::int32_t> vertices;
+        for (const int v : found.branch_vertices) vertices.push_back(number_in_file(v, source.link));
+        return vertices;
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
 struct Side {
     const std::string& file;
     const TriangleMesh& mesh;
-    const PointMap& map;
+    const PointMap &map, &back;
     int vertices;  ///< of the file
 };
 
@@ -109,6 +145,8 @@ Json add_side(const Side& side, const TriangleMesh& other, bool mirrored, Packed
     json["corner"] = arrays.add(corner_differences(side.mesh.faces), "Int32Array");
     json["map"] = add_map(side.map, arrays);
     json["distortion"] = add_distortion(side.map, side.mesh, other, mirrored, arrays);
+    json["way_back"] = arrays.add(way_back(side.map, side.mesh, {other, side.back, side.mesh}), "Uint8Array");
+    json["branches"] = arrays.add(branch_points(side.map, side.mesh, other, mirrored), "Int32Array");
     return json;
 }
 
@@ -153,6 +191,12 @@ Json rows_of(const Eigen::Matrix3d& matrix) {
     return rows;
 }
 
+Json add_texture(const PageTexture& texture, PackedArrays& arrays) {
+    return {{"image", "data:" + texture.type + ";base64," + base64(texture.image)},
+            {"source", arrays.add(texture.source_uv, "Float32Array")},
+            {"target", arrays.add(texture.target_uv, "Float32Array")}};
+}
+
 /// Text that ends no element of a page.
 std::string inside_page(std::string json) {
     for (std::size_t at = json.find("</"); at != json.npos; at = json.find("</", at + 3))
@@ -170,8 +214,18 @@ std::string viewer_page(const PageContent& content, const std::string& frame) {
     PackedArrays arrays;
     Json json;
     json["source"] =
-        add_side({map.from_file, map.from, map.there, in_source}, map.to, content.mirrored, arrays);
-    json["target"] = add_side({map.to_file, map.to, map.back, in_target}, map.from, content.mirrored, arrays);
+        add_side({map.from_file, map.from, map.there, map.back, in_source}, map.to, content.mirrored, arrays);
+    json["target"] =
+        add_side({map.to_file, map.to, map.back, map.there, in_target}, map.from, content.mirrored, arrays);
+    const bool whole = map.from.vertex_count() == in_source && map.to.vertex_count() == in_target;
+    if (content.texture && whole) json["texture"] = add_texture(*content.texture, arrays);
+    json["candidates"] = Json::array();
+    for (const PageCandidate& candidate : content.candidates)
+        if (whole)
+            json["candidates"].push_back(
+                {{"relation", candidate.relation}, {"map", add_map(candidate.back, arrays)}});
+    json["pattern"] = pattern_axes(map.from);
+    json["up"] = std::string(1, "xyz"[likely_up(map.from)]);
     json["turn"] = rows_of(target_to_source(map));
     json["landmarks"] = landmarks_json(content);
     json["report"] = content.report.empty() ? Json() : Json::parse(content.report);

@@ -1,14 +1,17 @@
 #include <algorithm>
 
+#include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "fuzz/scratch_file.h"
 #include "fuzz/target.h"
 #include "stages/preprocess/preprocess.h"
+#include "varimap/artifact/npy.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
+#include "varimap/results/map_file.h"
 #include "varimap/results/plan.h"
 #include "varimap/results/quality_numbers.h"
 #include "varimap/results/surface_map.h"
@@ -166,6 +169,24 @@ Target csv_map() {
             }};
 }
 
+/// Maps of other programs.
+Target map_file() {
+    static const TriangleMesh mesh = shapes::ellipsoid(0);
+    const PointMap map = shapes::at_vertices(mesh);
+    std::string list = "target\n";
+    for (int v = 0; v < mesh.vertex_count(); ++v) list += std::to_string(v) + "\n";
+    const std::string npy =
+        to_npy("<i4", {mesh.vertex_count()}, std::vector<int>(std::size_t(mesh.vertex_count()), 3));
+    return {"map_file",
+            {to_csv(map), list, npy, to_npz(map, mesh), to_zip({{"p2p.npy", npy}})},
+            {"face.npy", "p2p.npy", "nan", "-1", "12", "vertex,face,b0,b1,b2", "PK\x05\x06"},
+            [](const std::string& bytes) {
+                const ScratchFile scratch(bytes, ".map");
+                for (const auto base : {IndexBase::zero, IndexBase::automatic})
+                    read_map_file(scratch.path(), base, mesh, &mesh);
+            }};
+}
+
 }  // namespace
 
 std::vector<Target> artifact_targets() {
@@ -179,7 +200,8 @@ std::vector<Target> artifact_targets() {
             artifact(QualityNumbers{
                 R"({"energy": 0.5, "landmarks": [0, 1e-3], "levels": [{"kind": "diffusion"}]})"}),
             whole_file(),
-            csv_map()};
+            csv_map(),
+            map_file()};
 }
 
 }  // namespace varimap::fuzz

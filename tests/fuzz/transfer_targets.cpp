@@ -4,10 +4,10 @@
 #include "fixtures/shapes.h"
 #include "fuzz/scratch_file.h"
 #include "fuzz/target.h"
-#include "stages/transfer/obj_model.h"
 #include "stages/transfer/points.h"
 #include "stages/transfer/values.h"
 #include "varimap/artifact/npy.h"
+#include "varimap/mesh/io/obj_model.h"
 #include "varimap/mesh/io/ply_columns.h"
 
 namespace varimap::fuzz {
@@ -60,7 +60,7 @@ std::string ply() {
     PlyColumns columns;
     columns.vertex = {{"red", "uchar", std::vector<double>(std::size_t(mesh.vertex_count()), 7)}};
     columns.face = {{"part", "int", std::vector<double>(std::size_t(mesh.face_count()), -1)}};
-    return to_ply(mesh, columns);
+    return to_ply(mesh, columns, PlyFormat::binary);
 }
 
 std::string textured_obj() {

@@ -16,6 +16,15 @@ head -n 1 out.txt | grep -q '^warning  explore a--b: .*candidates.png' || fail "
 jq -e '[.warnings[] | select(.stage == "explore a--b") | .message] | length == 1' out/quality.json >/dev/null ||
     fail "the warning in quality.json"
 
+# Another candidate is continued: nobody asks again to choose.
+map a.off b.off -o out --candidate 2
+! grep -q 'not sure\|candidates.png' out.txt || fail "after --candidate 2 the summary still asks"
+grep -q 'candidate 2 of' out.txt || fail "the summary does not say which candidate it is"
+"$varimap" report out >report.txt 2>log || fail "report"
+grep -q 'candidate 2, as asked' report.txt || fail "the report does not say which candidate it is"
+! grep -q '^warning  explore' report.txt || fail "the report still warns"
+map a.off b.off -o out
+
 # The long axis runs up to 1.3, the next one to 0.7.
 tips() {
     awk 'NR > 2 && NF == 3 { if ($3 > 1.29) up = NR - 3; if ($3 < -1.29) down = NR - 3; if ($1 > .69) side = NR - 3 }

@@ -101,7 +101,7 @@ coarse_pair() {
 }
 
 # map ARGUMENTS: runs the front end, with a small picture; what the stages say goes to the file log.
-small_picture=(--set render.width=64 --set render.samples=1)
+small_picture=(-v --set render.width=64 --set render.samples=1)
 # Besides, where the map itself does not matter: a few hundred vertices instead of 2500, which takes a second.
 # shellcheck disable=SC2034
 coarse=(--set preprocess.target_edge_length=.2 --set explore.random_starts=4)

@@ -61,6 +61,11 @@ refuse 6 "the mesh is not there any more" good --values heat.txt
 mv kept.off a.off
 run good --values heat.txt
 
+# Surfaces as text, for programs that read no other PLY.
+map a.off b.off -o text --ascii
+head -n 2 text/source_on_target.ply | grep -q '^format ascii' || fail "--ascii"
+[[ $(awk '/^element vertex/ { print $3 }' text/source_on_target.ply) == "$n" ]] || fail "--ascii: vertices"
+
 # Arrays beside the tables are what SciPy reads.
 if /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
     /usr/bin/python3 - <<'PYTHON' || fail "arrays"

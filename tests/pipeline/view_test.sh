@@ -31,5 +31,25 @@ done
     fail "view (exit $?)"
 mkdir downloads
 node "$VARIMAP_SOURCE/tests/view/view_test.mjs" "$(command -v chromium)" "$PWD/view.html" "$PWD/downloads" || fail "the page"
+# With a texture, and with candidates of a symmetric shape, of which the choice is not sure.
+awk -v n="$(awk 'NR == 2 { print $1 }' a.off)" 'BEGIN { print "mtllib a.mtl\nusemtl skin" }
+    NR > 2 && NR <= n + 2 { print "v", $0; print "vt", $1 / 4 + .5, $3 / 6 + .5 }
+    NR > n + 2 { print "f", $2 + 1 "/" $2 + 1, $3 + 1 "/" $3 + 1, $4 + 1 "/" $4 + 1 }' a.off >a.obj
+printf 'newmtl skin\nmap_Kd a.png\n' >a.mtl
+base64 -d >a.png <<<iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==
+"$varimap" view good --texture a.obj >out.txt 2>log || fail "view --texture (exit $?)"
+grep -q '"texture":{"image":"data:image/png' good/view.html || fail "no texture on the page"
+mkdir textured
+node "$VARIMAP_SOURCE/tests/view/view_test.mjs" "$(command -v chromium)" "$PWD/good/view.html" "$PWD/textured" || fail "the page with a texture"
+expect_exit 6 "$varimap" view good --texture absent.obj
+expect_exit 2 "$varimap" view good --texture
+figure c.off 9 0 0
+figure d.off 10 0 0
+map c.off d.off -o unsure
+"$varimap" view unsure >out.txt 2>log || fail "view with candidates (exit $?)"
+mkdir compared
+node "$VARIMAP_SOURCE/tests/view/view_test.mjs" "$(command -v chromium)" "$PWD/unsure/view.html" "$PWD/compared" >out.txt ||
+    fail "the page with candidates: $(cat out.txt)"
+grep -q '^candidates: ' out.txt || fail "no candidates on the page of a choice that is not sure"
 map a.off b.off -o again --landmarks downloads/landmarks.txt
 jq -e '.landmarks | length > 0' again/quality.json >/dev/null || fail "picked landmarks were not used"

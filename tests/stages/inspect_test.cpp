@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "fixtures/temporary_folder.h"
 #include "stages/inspect/formats.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/artifact/npy.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
@@ -165,6 +167,42 @@ TEST(Inspect, ExportWritesThePreviewsOfCandidates) {
     export_contents(folder / "AB.candidates", folder / "out");
     EXPECT_EQ(npy_doubles(read_file(folder / "out/preview_01_barycentric.npy")),
               (std::vector<double>{.25, .75, 0}));
+}
+
+TEST(Inspect, APlanFitsAScreen) {
+    const TemporaryFolder folder;
+    Plan plan = small_plan();
+    plan.trace.assign(200, TraceRow{});
+    write_sample(folder / "AB.plan", plan, {{"basis_A", "basis", content_hash("basis")}});
+    const std::string text = summarise(folder / "AB.plan", Extent::screen);
+    EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 45);
+    EXPECT_THAT(text, HasSubstr("plan of varimap-test"));
+    EXPECT_THAT(text, HasSubstr("basis_A: basis"));
+    EXPECT_THAT(text, HasSubstr("201 lines: --trace shows them"));
+    EXPECT_GT(summarise(folder / "AB.plan").size(), 3 * text.size());
+}
+
+TEST(Inspect, LineageEndsWhereAnArtifactHasTheContentItWasMadeFrom) {
+    const TemporaryFolder folder;
+    Basis basis;
+    basis.eigenvalues = basis.residuals = Eigen::Vector2d(0, 5);
+    basis.functions = RowMatrix::Ones(3, 2);
+    write_sample(folder / "b.basis", basis, {{"mesh", "off", content_hash("mesh")}});
+    const std::string hash = read_header(folder / "b.basis").payload_hash;
+    write_sample(folder / "a.basis", basis, {{"fine", "basis", hash}});
+    const std::string text = summarise(folder / "a.basis");
+    EXPECT_THAT(text, HasSubstr("fine: basis " + hash + " b.basis\n    mesh: off"));
+}
+
+TEST(Inspect, ExportsAPlanAsAnArrayThatSciPyReads) {
+    const TemporaryFolder folder;
+    write_sample(folder / "AB.plan", small_plan());
+    export_contents(folder / "AB.plan", folder / "out");
+    const auto files = from_zip(read_file(folder / "out/plan.npz"), "plan.npz");
+    ASSERT_EQ(files.size(), 5u);
+    EXPECT_EQ(npy_doubles(files.at("data.npy")), (std::vector<double>{.25, .75}));
+    EXPECT_THAT(files.at("shape.npy"), HasSubstr("(2, )"));
+    EXPECT_THAT(files.at("format.npy"), testing::EndsWith("csr"));
 }
 
 }  // namespace

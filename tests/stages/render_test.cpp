@@ -9,8 +9,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
 #include "stages/render/colour.h"
+#include "stages/render/figure.h"
 #include "stages/render/view.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
@@ -61,6 +63,11 @@ Pixel pixel(const Image& image, int x, int y) {
     return {p[0], p[1], p[2]};
 }
 const Pixel white{255, 255, 255};
+constexpr int strip = 2 * 7;  ///< height of the letters above and below, with their margins
+
+int image_half(const Image& image) {
+    return image.height / 2;
+}
 
 class Render : public testing::Test {
   protected:
@@ -84,13 +91,58 @@ TEST_F(Render, HasTheWidthAskedForAndAWhiteBackground) {
 TEST_F(Render, CarriesTheSourcesColoursThroughTheMap) {
     const Image image = render(mesh_, mesh_, map_, map_, small());
     int different = 0, coloured = 0;
-    for (int y = 0; y < image.height; ++y)
+    for (int y = strip; y < image.height - strip; ++y)
         for (int x = 0; x < 200; ++x) {
             coloured += pixel(image, x, y) != white;
             different += pixel(image, x, y) != pixel(image, x + 200, y);
         }
     EXPECT_GT(coloured, 10000);
     EXPECT_LT(different, coloured / 500);  // rounding at the edges of cells
+}
+
+TEST_F(Render, NamesTheSurfacesAndTellsTheSizeOfTheSquares) {
+    const Image image = render(mesh_, mesh_, map_, map_, small());
+    const auto letters = [&](int left, int right, int top) {
+        int black = 0;
+        for (int y = top; y < top + strip; ++y)
+            for (int x = left; x < right; ++x) black += pixel(image, x, y) == Pixel{0, 0, 0};
+        return black;
+    };
+    EXPECT_GT(letters(0, 200, 0), 40);
+    EXPECT_GT(letters(200, 400, 0), 40);
+    EXPECT_GT(letters(0, 400, image.height - strip), 200);
+    EXPECT_NE(letters(0, 200, 0), letters(200, 400, 0));  // other words
+}
+
+TEST_F(Render, MarksLandmarksWhereTheyAreSeen) {
+    // Vertex 600 is the top; one low in front is hidden from behind.
+    const int front = 12 * 30;
+    const PointPairs landmarks{{map_[600], map_[600]}, {map_[front], map_[front]}};
+    const Image plain = render(mesh_, mesh_, map_, map_, small()),
+                marked = render(mesh_, mesh_, map_, map_, small(), landmarks);
+    const auto changed = [&](int panel, bool top) {
+        int count = 0;
+        for (int y = 0; y < image_half(plain); ++y)
+            for (int x = 100 * panel; x < 100 * (panel + 1); ++x) {
+                const int row = top ? y : y + image_half(plain);
+                count += pixel(plain, x, row) != pixel(marked, x, row);
+            }
+        return count;
+    };
+    for (int panel = 0; panel < 4; ++panel) EXPECT_GT(changed(panel, true), 15);
+    EXPECT_GT(changed(0, false), 15);
+    EXPECT_EQ(changed(1, false), 0);
+    EXPECT_GT(changed(2, false), 15);
+    EXPECT_EQ(changed(3, false), 0);
+}
+
+TEST_F(Render, CountsReversedTriangles) {
+    EXPECT_EQ(reversed_text({true, false, true}, {false}),
+              "reversed, in magenta: 2 triangles of the source, 0 of the target");
+    RenderParams params = small();
+    params.flips = true;
+    EXPECT_EQ(render(mesh_, mesh_, map_, map_, params).height,
+              render(mesh_, mesh_, map_, map_, small()).height + strip);
 }
 
 TEST_F(Render, TurnsTheTargetsViewWithTheMap) {
@@ -124,7 +176,7 @@ TEST_F(Render, ShowsCandidatesBesideEachOther) {
     PointMap other = map_;
     std::reverse(other.begin(), other.end());
     const Image image = render_candidates(mesh_, mesh_, {map_, other}, small());
-    const int column = image.width / 3, strip = 2 * 7;  // the labels' height
+    const int column = image.width / 3;
     const auto difference = [&](int first, int second) {
         int count = 0;
         for (int y = strip; y < image.height; ++y)
@@ -153,7 +205,7 @@ TEST_F(Render, MarksReversedTrianglesOnDemand) {
         const Image plain = render(mesh_, mesh_, map_, map, small()),
                     image = render(mesh_, mesh_, map_, map, flips);
         int count = 0;
-        for (int y = 0; y < image.height; ++y)
+        for (int y = 0; y < plain.height - strip; ++y)
             for (int x = 0; x < image.width; ++x) count += pixel(image, x, y) != pixel(plain, x, y);
         return count;
     };
@@ -170,7 +222,9 @@ TEST_F(Render, MarksTrianglesThatKeepOrientationOfAMirror) {
     const auto with_flips = [&](bool flips, bool mirror) {
         RenderParams params = small();
         params.flips = flips, params.mirror = mirror;
-        return render(mesh_, left, map, map_, params).rgb;
+        const Image image = render(mesh_, left, map, map_, params);
+        const int caption = (flips ? 2 : 1) * strip;
+        return std::vector(image.rgb.begin(), image.rgb.end() - 3 * image.width * caption);
     };
     EXPECT_EQ(with_flips(true, true), with_flips(false, true));
     EXPECT_NE(with_flips(true, false), with_flips(false, false));
@@ -274,6 +328,38 @@ TEST(SourceColour, IsACheckerboardOverASmoothFunction) {
     const Vec3 step(.05, 0, 0);  // into the next cell
     EXPECT_LT((colour(p) - colour(p + 2 * step)).norm(), .8 * (colour(p) - colour(p + step)).norm());
     EXPECT_LT((colour(p) - colour(p + .001 * step)).norm(), .01);
+}
+
+/// What eyes without cones for middle wavelengths see (Machado, Oliveira and Fernandes 2009), its luminance.
+double luminance_to_deuteranopes(const Colour& rgb) {
+    const Vec3 seen(.367322 * rgb[0] + .860646 * rgb[1] - .227968 * rgb[2],
+                    .280085 * rgb[0] + .672501 * rgb[1] + .047413 * rgb[2],
+                    -.011820 * rgb[0] + .042940 * rgb[1] + .968881 * rgb[2]);
+    return Vec3(.2126, .7152, .0722).dot(seen);
+}
+
+TEST(SourceColour, TellsHalvesApartByLightnessAlone) {
+    const TriangleMesh mesh = shapes::ellipsoid(3, Vec3(1, .7, .4));
+    const double cell = .2;
+    const SourceColour colour(mesh, cell);
+    // How much lightness changes within half a square: by the stripes of one half only.
+    double change[2] = {0, 0};
+    int count[2] = {0, 0};
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3 p = mesh.vertex(v), q = p + Vec3(.25 * cell, 0, 0);
+        change[p[2] > 0] +=
+            std::abs(luminance_to_deuteranopes(colour(p)) - luminance_to_deuteranopes(colour(q)));
+        ++count[p[2] > 0];
+    }
+    EXPECT_GT(change[1] / count[1], 1.5 * change[0] / count[0]);
+    // And along the longest axis it grows.
+    double before = 0;
+    for (double x = -.9; x < 1; x += .2) {
+        const double here = luminance_to_deuteranopes(colour(Vec3(x, .01, -.05))) +
+                            luminance_to_deuteranopes(colour(Vec3(x, .01 + cell, -.05)));
+        EXPECT_GT(here, before);
+        before = here;
+    }
 }
 
 TEST(SourceColour, KnowsOkLab) {

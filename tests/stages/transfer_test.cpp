@@ -302,8 +302,11 @@ TEST_F(Transfer, WritesTheFormatItReads) {
     PlyColumns columns;
     columns.vertex.push_back({"red", "uchar", std::vector<double>(std::size_t(ball_.vertex_count()), 200)});
     columns.face.push_back({"part", "int", std::vector<double>(std::size_t(ball_.face_count()), -3)});
-    const std::string ply = to_ply(ball_, columns);
-    EXPECT_EQ(round_trip(write("a.ply", ply)), ply);
+    columns.vertex.push_back({"heat", "float", std::vector<double>(std::size_t(ball_.vertex_count()), .1f)});
+    for (const PlyFormat format : {PlyFormat::binary, PlyFormat::ascii}) {
+        const std::string ply = to_ply(ball_, columns, format);
+        EXPECT_EQ(round_trip(write("a.ply", ply)), ply);
+    }
     std::string npy = npy_header("<f4", {ball_.vertex_count()});
     for (int v = 0; v < ball_.vertex_count(); ++v) {
         const float value = float(v) / 3;
@@ -432,7 +435,7 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
     model.uv_of = square.faces;
     model.material.assign(std::size_t(square.face_count()), 0);
     model.materials = {"skin"};
-    write("skin.png", encode_png(gradient(64)));
+    write("skin.png", to_png(gradient(64)));
     write("skin.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\n");
     Correspondence map = identity(square);
     map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
@@ -451,7 +454,7 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
 }
 
 TEST_F(Transfer, WritesTexturesAndGlb) {
-    write("skin.png", encode_png(gradient(8)));
+    write("skin.png", to_png(gradient(8)));
     write("skin.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));

@@ -35,6 +35,24 @@ async function picture(name) {
   if (pictures) writeFileSync(`${pictures}/${name}.png`, await browser.screenshot());
 }
 
+// Side by side: a caption for each, another picture; nothing is picked meanwhile.
+async function compareCandidates() {
+  const candidates = await browser.evaluate('varimap.data.candidates.length');
+  assert.equal(await browser.evaluate(`document.getElementById('compare').hidden`), candidates === 0);
+  if (candidates === 0) return;
+  const pair = await browser.screenshot();
+  await browser.key('c');
+  await browser.until('varimap.view.scenes.length > 2', 5);
+  await new Promise((done) => setTimeout(done, 300));
+  assert.equal(await browser.evaluate(`document.querySelectorAll('#candidates div').length`), candidates + 1);
+  assert.equal(await browser.evaluate(`varimap.view.hitAt(100, 300).hit`), null);
+  assert.notDeepEqual(await browser.screenshot(), pair);
+  await picture('candidates');
+  await browser.key('c');
+  assert.equal(await browser.evaluate('varimap.view.scenes.length'), 2);
+  console.log(`candidates: ${candidates}`);
+}
+
 async function run() {
   await browser.open(pathToFileURL(page).href);
   await browser.until('Boolean(window.varimap)', 60);
@@ -108,12 +126,13 @@ async function run() {
   await browser.key('Delete');
 
   // Layers, themes, the report.
-  for (const key of ['1', '2', '3', '4']) {
+  for (const key of ['1', '2', '3', '4', '5', '6', ...(await browser.evaluate('Boolean(varimap.data.texture)') ? ['7'] : [])]) {
     await browser.key(key);
     assert.equal(await browser.evaluate(`document.querySelector('#layers [aria-pressed=true]').title`), key);
     await picture(`layer-${key}`);
   }
   await browser.key('1');
+  await compareCandidates();
   await browser.key('d');
   await browser.key('r');
   assert.equal(await browser.evaluate(`document.getElementById('report').hidden`), false);

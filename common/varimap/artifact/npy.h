@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,5 +23,17 @@ std::string to_npy(const char* type, const std::vector<long long>& shape, const 
 /// A zip archive of files (name, bytes), stored as they are, with the date 1980-01-01: the same bytes for the
 /// same files. An .npz is one of .npy files. Throws IoError beyond 4 GB.
 std::string to_zip(const std::vector<std::pair<std::string, std::string>>& files);
+
+/// The files of a sparse matrix as SciPy's load_npz reads it (compressed rows): format, shape, data, indices,
+/// indptr.
+std::vector<std::pair<std::string, std::string>> csr_files(long long rows, long long columns,
+                                                           const std::vector<double>& data,
+                                                           const std::vector<int>& indices,
+                                                           const std::vector<int>& indptr);
+
+bool is_zip(std::string_view bytes);
+/// The files of a zip archive by their names, stored or deflated. Throws InputError, naming `path`, for
+/// archives that are damaged, encrypted, or of more than 4 GB.
+std::map<std::string, std::string> from_zip(std::string_view bytes, const std::string& path);
 
 }  // namespace varimap

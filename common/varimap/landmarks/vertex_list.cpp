@@ -303,17 +303,14 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
 
 }  // namespace
 
-IndexBase index_base_from(const std::string& text) {
-    if (text == "0") return IndexBase::zero;
-    if (text == "1") return IndexBase::one;
-    if (text == "auto") return IndexBase::automatic;
-    throw UsageError("index base '" + text + "': use 0, 1 or auto");
-}
-
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
     std::vector<int> vertices;
     for (const Named& named : read_list(path, base, mesh)) vertices.push_back(named.vertex);
     return vertices;
+}
+
+bool holds_points(const std::string& path) {
+    return is_picked_points(path) || read_rows(path)[0].numbers.size() == 3;
 }
 
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,

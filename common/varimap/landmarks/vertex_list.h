@@ -4,21 +4,21 @@
 #include <vector>
 
 #include "varimap/landmarks/landmark_points.h"
+#include "varimap/mesh/io/index_base.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/mesh/vertex_index.h"
 
 namespace varimap {
 
-/// Number of a file's first vertex. automatic: where the lines carry coordinates, those of the mesh decide;
-/// else 0.
-enum class IndexBase { zero, one, automatic };
-/// From "0", "1" or "auto". Throws UsageError.
-IndexBase index_base_from(const std::string& text);
-
 /// Reads a list of vertices (.vts, .pinned, plain): a line is a vertex number, which x y z may follow; `#`
-/// starts a comment. Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where
+/// starts a comment. Automatic base: where the lines carry coordinates, those of the mesh decide; else 0.
+/// Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where
 /// it is given. Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
+
+/// Whether a file holds points of one surface rather than numbers of vertices: picked points, or x y z in the
+/// first row. Throws as the readers do.
+bool holds_points(const std::string& path);
 
 /// Landmarks of the source and the target, row by row.
 struct Landmarks {

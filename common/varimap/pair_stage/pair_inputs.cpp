@@ -202,6 +202,20 @@ PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const S
     return points;
 }
 
+Correspondences correspondences_of(const PointMap& map, const Surface& A, const Surface& B) {
+    const PointMap images = from_file(map, A.link, B.link);
+    const PointMap vertices = points_at_vertices(A.input);
+    Correspondences pairs;
+    for (std::size_t v = 0; v < images.size(); ++v) {
+        if (images[v].face < 0 || vertices[v].face < 0) continue;
+        pairs.from_A.emplace_back(vertices[v], images[v]);
+        pairs.from_B.emplace_back(images[v], vertices[v]);
+    }
+    if (pairs.from_A.empty())
+        throw InputError("the initial map gives no image to any vertex of the source that is mapped");
+    return pairs;
+}
+
 PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVertex>& landmarks,
                          const PointPairs& points, double landmark_weight) {
     if (!points.empty()) {

@@ -57,6 +57,9 @@ VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmar
 /// Landmarks as points of the inputs, where they lie between vertices of the preprocessed or coarsened
 /// meshes; else none.
 PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const Surface& B);
+/// A map from elsewhere, between the FILES of the surfaces (map_file.h), as what a map may begin from: both
+/// ways the same pairs. Throws InputError where no vertex that is mapped has an image.
+Correspondences correspondences_of(const PointMap& map, const Surface& A, const Surface& B);
 /// The pair to solve for. Where landmarks are points (`points` is not empty), the vertices that stand for
 /// them take their places, in space and in the eigenbasis.
 PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVertex>& landmarks,

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "varimap/artifact/npy.h"
@@ -50,16 +52,13 @@ std::string to_npz(const PointMap& map, const TriangleMesh& target) {
         barycentric.insert(barycentric.end(), point.barycentric.begin(), point.barycentric.end());
         csr.add_row(point, target);
     }
-    const auto entries = static_cast<long long>(csr.data.size());
-    const std::vector<std::int64_t> shape{n, target.vertex_count()};
-    return to_zip({{"face.npy", to_npy("<i4", {n}, faces)},
-                   {"barycentric.npy", to_npy("<f8", {n, 3}, barycentric)},
-                   {"nearest_vertex.npy", to_npy("<i4", {n}, nearest)},
-                   {"format.npy", npy_header("|S3", {}) + "csr"},
-                   {"shape.npy", to_npy("<i8", {2}, shape)},
-                   {"data.npy", to_npy("<f8", {entries}, csr.data)},
-                   {"indices.npy", to_npy("<i4", {entries}, csr.indices)},
-                   {"indptr.npy", to_npy("<i4", {n + 1}, csr.indptr)}});
+    std::vector<std::pair<std::string, std::string>> files{
+        {"face.npy", to_npy("<i4", {n}, faces)},
+        {"barycentric.npy", to_npy("<f8", {n, 3}, barycentric)},
+        {"nearest_vertex.npy", to_npy("<i4", {n}, nearest)}};
+    for (auto& file : csr_files(n, target.vertex_count(), csr.data, csr.indices, csr.indptr))
+        files.push_back(std::move(file));
+    return to_zip(files);
 }
 
 }  // namespace varimap

@@ -35,13 +35,6 @@ bool take(std::string_view& line, Number& number, bool last = false) {
     return true;
 }
 
-bool is_valid(const SurfacePoint& point) {
-    const Vec3& b = point.barycentric;
-    if (point.face < -1 || !b.allFinite()) return false;
-    if (point.face < 0) return true;
-    return std::abs(b.sum() - 1) <= barycentric_tolerance && b.minCoeff() >= -barycentric_tolerance;
-}
-
 std::string_view next_line(std::string_view& text) {
     const auto end = text.find('\n');
     std::string_view line = text.substr(0, end);
@@ -60,7 +53,7 @@ SurfacePoint parse_row(std::string_view line, int vertex, const std::string& pla
     if (number != vertex)
         throw InputError(place + ": vertex " + std::to_string(number) + " where vertex " +
                          std::to_string(vertex) + " should stand; rows must be in the vertices' order");
-    if (!is_valid(point))
+    if (!is_near_surface(point))
         throw InputError(place + ": needs a face of -1 or more and barycentric coordinates that sum to 1");
     return point;
 }
@@ -167,9 +160,22 @@ std::string to_csv(const PointMap& map) {
     return text;
 }
 
+bool is_near_surface(const SurfacePoint& point) {
+    const Vec3& b = point.barycentric;
+    if (point.face < -1 || !b.allFinite()) return false;
+    if (point.face < 0) return true;
+    return std::abs(b.sum() - 1) <= barycentric_tolerance && b.minCoeff() >= -barycentric_tolerance;
+}
+
 PointMap read_csv_map(const std::string& path) {
-    const std::string bytes = read_file(path);
-    std::string_view text = bytes;
+    return parse_csv_map(read_file(path), path);
+}
+
+bool is_csv_map(std::string_view bytes) {
+    return next_line(bytes) == csv_header;
+}
+
+PointMap parse_csv_map(std::string_view text, const std::string& path) {
     if (next_line(text) != csv_header)
         throw InputError(path + ":1: not a map of varimap, whose first line is " + std::string(csv_header));
     PointMap map;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
@@ -35,6 +36,11 @@ void require_surfaces(const SurfaceMap& map, const Surface& A, const Surface& B)
 std::string to_csv(const PointMap& map);
 /// Throws InputError naming file and line.
 PointMap read_csv_map(const std::string& path);
+/// Whether the first line is that of such a table.
+bool is_csv_map(std::string_view bytes);
+PointMap parse_csv_map(std::string_view bytes, const std::string& path);
+/// Nowhere, or with barycentric coordinates in [0, 1] of sum 1, to the few digits of other programs.
+bool is_near_surface(const SurfacePoint& point);
 
 /// The same as an .npz: `face` (int32), `barycentric` (n x 3), `nearest_vertex` (int32; -1 as of faces), and
 /// `format`, `shape`, `data`, `indices`, `indptr` of the sparse matrix (CSR, as SciPy's load_npz reads it)

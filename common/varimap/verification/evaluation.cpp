@@ -22,41 +22,29 @@ PointMap vertex_points(const TriangleMesh& mesh) {
     return points;
 }
 
-struct Pair {
-    int source, target;
-    SurfacePoint image, truth;
-};
-
-void require_possible(const Pair& pair, size_t row, const TriangleMesh& target) {
-    if (pair.image.face >= target.face_count())
-        throw InputError(fmt::format("the map sends vertex {} to face {}, but the target has {} faces",
-                                     pair.source, pair.image.face, target.face_count()));
-    if (pair.truth.face < 0)
-        throw InputError(
-            fmt::format("row {} of the target's points: vertex {} belongs to no face", row + 1, pair.target));
-}
-
-std::vector<Pair> pairs_with_images(const PointMap& map, const TriangleMesh& target,
-                                    const std::vector<int>& source_points,
-                                    const std::vector<int>& target_points) {
+PointPairs pairs_of(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
+                    const std::vector<int>& target_points) {
     if (source_points.size() != target_points.size())
         throw InputError(fmt::format("{} points on the source but {} on the target; they match row by row",
                                      source_points.size(), target_points.size()));
     const PointMap at_vertex = vertex_points(target);
-    std::vector<Pair> pairs;
+    PointPairs pairs;
     for (size_t i = 0; i < source_points.size(); ++i) {
         const int s = source_points[i], t = target_points[i];
         if (s < 0 || size_t(s) >= map.size())
             throw InputError(fmt::format("row {} of the source's points: vertex {}, but the map has {} rows",
                                          i + 1, s, map.size()));
-        if (t == -1) continue;
-        if (t < 0 || t >= target.vertex_count())
+        if (t < -1 || t >= target.vertex_count())
             throw InputError(fmt::format("row {} of the target's points: vertex {}, but the mesh has {}",
                                          i + 1, t, target.vertex_count()));
-        const Pair pair{s, t, map[size_t(s)], at_vertex[size_t(t)]};
-        if (pair.image.face < 0) continue;
-        require_possible(pair, i, target);
-        pairs.push_back(pair);
+        const SurfacePoint image = map[size_t(s)];
+        if (image.face >= target.face_count())
+            throw InputError(fmt::format("the map sends vertex {} to face {}, but the target has {} faces", s,
+                                         image.face, target.face_count()));
+        if (t >= 0 && at_vertex[size_t(t)].face < 0 && image.face >= 0)
+            throw InputError(
+                fmt::format("row {} of the target's points: vertex {} belongs to no face", i + 1, t));
+        pairs.emplace_back(image, t < 0 ? SurfacePoint{} : at_vertex[size_t(t)]);
     }
     return pairs;
 }
@@ -65,19 +53,25 @@ std::vector<Pair> pairs_with_images(const PointMap& map, const TriangleMesh& tar
 
 MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
                      const std::vector<int>& target_points) {
-    const auto pairs = pairs_with_images(map, target, source_points, target_points);
+    return point_errors(pairs_of(map, target, source_points, target_points), target);
+}
+
+MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& target) {
+    PointPairs pairs;
+    for (const auto& pair : images_and_truths)
+        if (pair.first.face >= 0 && pair.second.face >= 0) pairs.push_back(pair);
     if (pairs.empty()) throw InputError("the map gives an image to none of the source's points");
     const double unit = std::sqrt(surface_area(target));
     if (!(unit > 0)) throw InputError("the target mesh has no area");
     const Geodesic distance(target);
-    MapErrors result{std::vector<double>(pairs.size()), int(source_points.size() - pairs.size()), 0};
+    MapErrors result{std::vector<double>(pairs.size()), int(images_and_truths.size() - pairs.size()), 0};
     parallel_for_each_index(pairs.size(), size_t(16), [&](size_t i) {
-        result.errors[i] = distance(pairs[i].image, pairs[i].truth) / unit;
+        result.errors[i] = distance(pairs[i].first, pairs[i].second) / unit;
     });
     for (size_t i = 0; i < pairs.size(); ++i) {
         if (std::isfinite(result.errors[i])) continue;
         result.errors[i] =
-            (position(target, pairs[i].image) - position(target, pairs[i].truth)).norm() / unit;
+            (position(target, pairs[i].first) - position(target, pairs[i].second)).norm() / unit;
         ++result.apart;
     }
     return result;

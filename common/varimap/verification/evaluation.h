@@ -29,6 +29,10 @@ struct MapErrors {
 MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
                      const std::vector<int>& target_points);
 
+/// The same for points that are given as such: pair by pair, where a map takes a point, and where it belongs.
+/// Pairs that are nowhere count as unmapped.
+MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& target);
+
 /// The cumulative curve of Fig. 18 as CSV: `error,share` from 0 to 0.25 in steps of 0.0025.
 std::string curve_csv(const MapErrors& errors);
 

@@ -10,11 +10,12 @@ namespace varimap {
 struct MapOptions {
     VertexPairs<InputVertex> landmarks;  ///< without any, the map is looked for (varimap-explore)
     double landmark_weight = 1;          ///< how firmly landmarks hold, in (0, 1]; 1: mapped exactly
-    bool explore = false;                ///< with landmarks, too; else only where they lead to a doubtful map
-    int candidate = 1;                   ///< which of the maps that were found is continued; 1: the best
-    bool full_resolution = false;        ///< solves on all vertices of large meshes, not on coarse ones
-    bool mirror = false;                 ///< the surfaces are of opposite handedness
-    double area_bound = 2;  ///< areas change by at most this factor, measured on the masses (Sec. 3.4)
+    PointMap initial_map;          ///< per vertex of A, on B: a map to refine instead of looking for one
+    bool explore = false;          ///< with landmarks, too; else only where they lead to a doubtful map
+    int candidate = 1;             ///< which of the maps that were found is continued; 1: the best
+    bool full_resolution = false;  ///< solves on all vertices of large meshes, not on coarse ones
+    bool mirror = false;           ///< the surfaces are of opposite handedness
+    double area_bound = 2;         ///< areas change by at most this factor, measured on the masses (Sec. 3.4)
 };
 
 /// How good the map is in one direction (quality.h).

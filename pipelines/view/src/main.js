@@ -1,7 +1,7 @@
 // Joins what the page holds: the surfaces, the layers, the landmarks and the report.
 import { readData } from './data.js';
 import { Landmarks, download, nextCommand } from './landmarks.js';
-import { drawLegend, layers } from './layers.js';
+import { drawLegend, layersFor } from './layers.js';
 import { drawReport } from './report.js';
 import { View } from './scene.js';
 
@@ -17,6 +17,7 @@ function element(tag, className, text = '') {
 class Page {
   constructor(data) {
     this.data = data;
+    this.layers = layersFor(data);
     this.picking = false;
     this.active = 'source';
     this.layer = 0;
@@ -46,6 +47,7 @@ class Page {
     byId('title').textContent = `${this.data.source.name} → ${this.data.target.name}`;
     drawReport(byId('report'), this.data.report);
     if (this.data.report) byId('report-button').textContent = `Report: ${this.data.report.verdict}`;
+    this.describeCandidates();
     byId('command').textContent = nextCommand(this.data.report, this.surfaces);
   }
 
@@ -61,9 +63,31 @@ class Page {
 
   setLayer(index) {
     this.layer = index;
-    this.view.setLayer(index);
-    drawLegend(byId('legend'), index);
+    this.view.setLayer(this.layers[index]);
+    drawLegend(byId('legend'), this.layers[index]);
     for (const [i, button] of [...byId('layers').children].entries()) button.setAttribute('aria-pressed', i === index);
+  }
+
+  // The maps that the choice was among, beside each other; how to continue another.
+  setComparing(on) {
+    this.view.compare(on);
+    byId('compare').setAttribute('aria-pressed', on);
+    byId('candidates').hidden = !on;
+    for (const side of sides) byId(`caption-${side}`).hidden = on;
+    if (on) this.setLayer(0);
+    this.showPoint(null);
+    if (on) byId('status').textContent = 'Do the colours arrive where they belong? Continue another by --candidate';
+  }
+
+  describeCandidates() {
+    byId('compare').hidden = this.data.candidates.length === 0;
+    const caption = (title, text) => {
+      const label = element('div', '');
+      label.append(element('b', '', title), ` ${text}`);
+      return label;
+    };
+    byId('candidates').replaceChildren(caption('source', this.data.source.name),
+      ...this.data.candidates.map(({ relation }, k) => caption(`candidate ${k + 1}`, `${relation}: --candidate ${k + 1}`)));
   }
 
   setTheme(dark) {
@@ -188,7 +212,7 @@ class Page {
   }
 
   connect() {
-    layers.forEach((layer, index) => {
+    this.layers.forEach((layer, index) => {
       const button = element('button', '', layer.name);
       button.title = layer.key;
       button.addEventListener('click', () => this.setLayer(index));
@@ -198,6 +222,7 @@ class Page {
     byId('up').addEventListener('click', () => this.turnUp());
     byId('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme !== 'dark'));
     byId('report-button').addEventListener('click', () => this.setReport(byId('report').hidden));
+    byId('compare').addEventListener('click', () => this.setComparing(!this.view.comparing));
     byId('save-pairs').addEventListener('click', () => this.save());
     for (const side of sides)
       byId(`save-${side}`).addEventListener('click', () =>
@@ -238,7 +263,7 @@ class Page {
 
   onKey(event) {
     if (event.target.tagName === 'INPUT' || event.ctrlKey || event.metaKey || event.altKey) return;
-    const layer = layers.findIndex(({ key }) => key === event.key);
+    const layer = this.layers.findIndex(({ key }) => key === event.key);
     if (layer >= 0) return this.setLayer(layer);
     const action = this.keys[event.key] ?? (event.target === byId('canvas') ? this.canvasKeys[event.key] : undefined);
     if (!action) return;
@@ -249,6 +274,7 @@ class Page {
   keys = {
     p: () => this.setPicking(!this.picking),
     u: () => this.turnUp(),
+    c: () => this.data.candidates.length > 0 && this.setComparing(!this.view.comparing),
     d: () => byId('theme').click(),
     r: () => byId('report-button').click(),
     s: () => this.landmarks.complete.length > 0 && this.save(),

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { makeMaterial, showLayer } from './layers.js';
-import { Surface, extentsOf, placesOf } from './surface.js';
+import { Surface, extentOf, placesOf } from './surface.js';
 
 const sides = ['source', 'target'];
 const turnStep = Math.PI / 24;
@@ -16,13 +16,6 @@ function radiusOf({ positions, size }) {
   return Math.sqrt(most) / size;
 }
 
-// Surfaces are seen along their shortest axis. Of those seen along y or z the other one is upright; of those seen
-// along x the shorter one, as four-legged animals stand.
-function likelyUp([x, y, z]) {
-  if (x <= y && x <= z) return y <= z ? 'y' : 'z';
-  return y <= z ? 'z' : 'y';
-}
-
 export class View {
   constructor(canvas, data, onDraw) {
     this.canvas = canvas;
@@ -30,24 +23,44 @@ export class View {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shader's colours are those to show
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    const { extent, axes } = extentsOf(data.source);
-    this.material = makeMaterial((2 * extent[axes[0]]) / data.source.size);
+    const extent = extentOf(data.source);
+    this.material = makeMaterial((2 * extent[data.pattern[0]]) / data.source.size);
     const turn = new THREE.Matrix4().makeBasis(...[0, 1, 2].map((c) => new THREE.Vector3(...data.turn.map((row) => row[c]))));
     this.surfaces = {
-      source: new Surface(data.source, placesOf(data.source, data.source), this.material, new THREE.Matrix4()),
-      target: new Surface(data.target, placesOf(data.target, data.source), this.material, turn),
+      source: new Surface(data.source, placesOf(data.source, data), this.material, new THREE.Matrix4(), data.texture?.source),
+      target: new Surface(data.target, placesOf(data.target, data), this.material, turn, data.texture?.target),
     };
+    this.data = data;
+    this.comparing = false;
+    if (data.texture) this.loadTexture(data.texture.image);
     this.radius = Math.max(...sides.map((side) => radiusOf(data[side])));
     this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -20, 20);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = true;
     this.controls.addEventListener('change', () => this.draw());
-    this.setUp(likelyUp(extent), extent);
+    this.setUp(data.up, extent);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
+  loadTexture(image) {
+    const texture = new THREE.TextureLoader().load(image, () => this.draw());
+    texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+    this.material.uniforms.image.value = texture;
+  }
+  // Shows the source and all candidates beside each other, or source and target.
+  compare(on) {
+    this.comparing = on;
+    if (on && !this.candidateScenes)
+      this.candidateScenes = this.data.candidates.map(({ map }) =>
+        this.surfaces.target.sceneWith(placesOf(this.data.target, this.data, map)));
+    this.resize();
+  }
+  get scenes() {
+    const { source, target } = this.surfaces;
+    return [source.scene, ...(this.comparing ? this.candidateScenes : [target.scene])];
+  }
   // Which axis of the source points up; the camera looks at the broadest side.
-  setUp(axis, extent = extentsOf(this.surfaces.source.side).extent) {
+  setUp(axis, extent = extentOf(this.surfaces.source.side)) {
     this.up = axis;
     const up = new THREE.Matrix4();
     if (axis === 'z') up.makeRotationX(-Math.PI / 2);
@@ -60,15 +73,16 @@ export class View {
     this.controls.update();
     this.draw();
   }
-  setLayer(index) {
-    showLayer(this.material, index);
+  setLayer(layer) {
+    showLayer(this.material, layer);
+    for (const side of sides) this.surfaces[side].branches.visible = layer.id === 'flips';
     this.draw();
   }
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
-    const aspect = width / 2 / height;
+    const aspect = width / this.scenes.length / height;
     const half = 1.1 * this.radius * Math.max(1, 1 / aspect);
     Object.assign(this.camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half });
     this.camera.updateProjectionMatrix();
@@ -84,10 +98,12 @@ export class View {
   drawNow() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     this.renderer.setScissorTest(true);
-    sides.forEach((side, i) => {
-      this.renderer.setViewport((i * width) / 2, 0, width / 2, height);
-      this.renderer.setScissor((i * width) / 2, 0, width / 2, height);
-      this.renderer.render(this.surfaces[side].scene, this.camera);
+    const { scenes } = this;
+    const part = width / scenes.length;
+    scenes.forEach((scene, i) => {
+      this.renderer.setViewport(i * part, 0, part, height);
+      this.renderer.setScissor(i * part, 0, part, height);
+      this.renderer.render(scene, this.camera);
     });
     this.onDraw();
   }
@@ -102,6 +118,7 @@ export class View {
   }
   hitAt(x, y, onlySide = null) {
     const { side, ray } = this.rayAt(x, y);
+    if (this.comparing) return { side, hit: null };
     if (onlySide && side !== onlySide) return { side, hit: null };
     return { side, hit: this.surfaces[side].hit(ray) };
   }
@@ -116,7 +133,7 @@ export class View {
     return {
       x: left + ((seen.x + 1) / 2) * (width / 2),
       y: ((1 - seen.y) / 2) * height,
-      inside: Math.abs(seen.x) <= 1 && Math.abs(seen.y) <= 1,
+      inside: !this.comparing && Math.abs(seen.x) <= 1 && Math.abs(seen.y) <= 1,
       hidden: this.surfaces[side].hit(ray) !== null,
     };
   }

@@ -40,9 +40,38 @@ function measuresOf(side) {
   return measures;
 }
 
+// For every corner: how far it comes back, from 0 to 1, or -1; and its texture coordinates.
+function carriedOf(side, uv) {
+  const values = new Float32Array(9 * side.faceCount);
+  for (let c = 0; c < side.corners.length; c++) {
+    const step = side.wayBack[side.corners[c]];
+    values[3 * c] = step === noMeasure ? -1 : (step - 1) / 254;
+    if (uv) values.set(uv.subarray(2 * c, 2 * c + 2), 3 * c + 1);
+  }
+  return values;
+}
+
+// Black dots with a yellow middle, at vertices.
+function dotsAt(side, vertices) {
+  const canvas = Object.assign(document.createElement('canvas'), { width: 32, height: 32 });
+  const pen = canvas.getContext('2d');
+  for (const [colour, radius] of [['#000', 15], ['#fee838', 8]]) {
+    pen.fillStyle = colour;
+    pen.beginPath();
+    pen.arc(16, 16, radius, 0, 2 * Math.PI);
+    pen.fill();
+  }
+  const geometry = new THREE.BufferGeometry();
+  const positions = Float32Array.from(Array.from(vertices).flatMap((v) => side.position(v)));
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  const map = new THREE.CanvasTexture(canvas);
+  const material = new THREE.PointsMaterial({ map, size: 12, sizeAttenuation: false, alphaTest: 0.5 });
+  return new THREE.Points(geometry, material);
+}
+
 export class Surface {
-  // places: of every vertex, where it lies on the source, in axes from the longest to the shortest.
-  constructor(side, places, material, turn) {
+  // places: of every vertex, where it lies on the source (placesOf); uv: texture coordinates of every corner, or none.
+  constructor(side, places, material, turn, uv) {
     this.side = side;
     const geometry = new THREE.BufferGeometry();
     const add = (name, values) => geometry.setAttribute(name, new THREE.BufferAttribute(values, 3));
@@ -50,12 +79,26 @@ export class Surface {
     add('normal', atCorners(side.corners, vertexNormals(side)));
     add('place', atCorners(side.corners, places));
     add('measures', measuresOf(side));
+    add('carried', carriedOf(side, uv));
     this.mesh = new THREE.Mesh(geometry, material);
     this.mesh.matrixAutoUpdate = false;
     this.turn = turn;
-    this.setUp(new THREE.Matrix4());
     this.scene = new THREE.Scene();
-    this.scene.add(this.mesh);
+    this.branches = dotsAt(side, side.branches);
+    this.branches.matrixAutoUpdate = false;
+    this.scene.add(this.mesh, this.branches);
+    this.setUp(new THREE.Matrix4());
+  }
+  // The same surface with other places, for a candidate.
+  sceneWith(places) {
+    const geometry = this.mesh.geometry.clone();
+    geometry.setAttribute('place', new THREE.BufferAttribute(atCorners(this.side.corners, places), 3));
+    const mesh = new THREE.Mesh(geometry, this.mesh.material);
+    mesh.matrixAutoUpdate = false;
+    Object.assign(mesh, { matrix: this.mesh.matrix, matrixWorld: this.mesh.matrixWorld, matrixWorldAutoUpdate: false }); // turns with this one
+    const scene = new THREE.Scene();
+    scene.add(mesh);
+    return scene;
   }
   // Rays need it, the first picture does not: it is made when first asked for.
   get bvh() {
@@ -69,7 +112,8 @@ export class Surface {
   }
   setUp(up) {
     this.mesh.matrix.copy(up).multiply(this.turn).scale(new THREE.Vector3().setScalar(1 / this.side.size));
-    this.mesh.updateMatrixWorld(true);
+    this.branches.matrix.copy(this.mesh.matrix);
+    for (const shown of [this.mesh, this.branches]) shown.updateMatrixWorld(true);
     this.inverse = this.mesh.matrix.clone().invert();
   }
   // Where a ray of the scene meets the surface first: {face, point, shares}, or null.
@@ -99,24 +143,22 @@ export class Surface {
   toScene(point) { return new THREE.Vector3(...point).applyMatrix4(this.mesh.matrix); }
 }
 
-// Where the vertices of a side lie on the source, relative to the middle of its box, by its axes from the
-// longest to the shortest, in units of sqrt(area).
-export function placesOf(side, source) {
-  const { axes } = extentsOf(source);
+// Where the vertices of a side lie on the source, relative to the middle of its box, by the axes of the pattern (the
+// last one from left to right), in units of sqrt(area). `map`: another than the side's own.
+export function placesOf(side, { source, pattern }, map = side.map) {
   const places = new Float32Array(side.positions.length);
   for (let v = 0; v < side.vertexCount; v++) {
-    const point = side === source ? side.position(v) : side.image(v, source) || [0, 0, 0];
-    for (let k = 0; k < 3; k++) places[3 * v + k] = point[axes[k]] / source.size;
+    const point = side === source ? side.position(v) : side.image(v, source, map) || [0, 0, 0];
+    for (let k = 0; k < 3; k++) places[3 * v + k] = point[pattern[k]] / source.size;
   }
   return places;
 }
 
-// Half the lengths of a side's box, and its axes from the longest to the shortest.
-export function extentsOf(side) {
-  const extent = [0, 1, 2].map((axis) => {
+// Half the lengths of a side's box.
+export function extentOf(side) {
+  return [0, 1, 2].map((axis) => {
     let most = 0;
     for (let i = axis; i < side.positions.length; i += 3) most = Math.max(most, Math.abs(side.positions[i]));
     return most;
   });
-  return { extent, axes: [0, 1, 2].sort((a, b) => extent[b] - extent[a]) };
 }

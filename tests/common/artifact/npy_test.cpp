@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "varimap/core/error.h"
+
 namespace varimap {
 namespace {
 
@@ -35,6 +37,30 @@ TEST(Zip, HoldsFilesAsTheyAreAndTheSumOfEach) {
     EXPECT_TRUE(end.starts_with(std::string("PK\x05\x06", 4)));
     EXPECT_EQ(end.substr(10, 2), std::string("\2\0", 2));
     EXPECT_EQ(zip, to_zip({{"a.txt", "123456789"}, {"b", ""}}));
+}
+
+TEST(Zip, ReadsBackWhatIsStored) {
+    const std::string zip = to_zip({{"a.txt", "123456789"}, {"b", ""}});
+    EXPECT_EQ(from_zip(zip, "x"), (std::map<std::string, std::string>{{"a.txt", "123456789"}, {"b", ""}}));
+    std::string damaged = zip;
+    damaged[damaged.find("123456789")] = '0';
+    EXPECT_THROW(from_zip(damaged, "x"), InputError);
+    for (std::size_t size = 0; size < zip.size(); ++size)
+        EXPECT_THROW(from_zip(zip.substr(0, size), "x"), InputError);
+}
+
+/// As Python's zipfile writes "a" * 1000, deflated.
+TEST(Zip, ReadsWhatIsDeflated) {
+    const unsigned char bytes[] = {
+        80, 75, 3,   4,   20, 0,   0,   0,  8, 0,  0,   0,  33,  0,   3,   218, 56,  154, 11, 0,
+        0,  0,  232, 3,   0,  0,   5,   0,  0, 0,  110, 46, 110, 112, 121, 75,  76,  28,  5,  163,
+        96, 20, 12,  119, 0,  0,   80,  75, 1, 2,  20,  3,  20,  0,   0,   0,   8,   0,   0,  0,
+        33, 0,  3,   218, 56, 154, 11,  0,  0, 0,  232, 3,  0,   0,   5,   0,   0,   0,   0,  0,
+        0,  0,  0,   0,   0,  0,   128, 1,  0, 0,  0,   0,  110, 46,  110, 112, 121, 80,  75, 5,
+        6,  0,  0,   0,   0,  1,   0,   1,  0, 51, 0,   0,  0,   46,  0,   0,   0,   0,   0};
+    const auto files = from_zip({reinterpret_cast<const char*>(bytes), sizeof bytes}, "x");
+    ASSERT_EQ(files.size(), 1u);
+    EXPECT_EQ(files.at("n.npy"), std::string(1000, 'a'));
 }
 
 }  // namespace

@@ -137,6 +137,9 @@ TEST_F(MeshFile, BinaryPlyOfBothByteOrders) {
 TEST_F(MeshFile, WrittenPlyReadsBackExactly) {
     const TriangleMesh mesh = shapes::moved(shapes::tube(9, 7, true), 1. / 3, 1, {1, 2, 3});
     expect_equal(read("a.ply", to_ply(mesh)), mesh);
+    const std::string ascii = to_ply(mesh, PlyFormat::ascii);
+    EXPECT_TRUE(ascii.starts_with("ply\nformat ascii 1.0\n"));
+    expect_equal(read("b.ply", ascii), mesh);
 }
 
 TEST_F(MeshFile, StlIsWeldedByFirstAppearance) {
@@ -192,6 +195,8 @@ TEST_F(MeshFile, OffElementsMayGoOnInTheNextLineOrShareOne) {
         "OFF\n4 2 0\n.1 0 0 5 5 5\n1 0 0 9 9 9\n1 1 0 1 1 1\n0 1 0 0 0 0\n3 0 1 2 7 8\n";
     expect_equal(read("d.off", coloured + "3 0 2 3\n"), mesh);
     EXPECT_NE(complaint("e.off", coloured), "") << "cut short";
+    expect_equal(read("f.off", "OFF 4 2 0 .1 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3"), mesh);
+    EXPECT_NE(complaint("g.off", "OFF 4 2 0 .1 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2"), "") << "cut short";
 }
 
 TEST_F(MeshFile, ByteOrderMarksAndUtf16) {

@@ -81,8 +81,8 @@ TriangleMesh parse_mesh(std::string_view bytes, const std::string& path) {
     return fan(soup);
 }
 
-std::string to_ply(const TriangleMesh& mesh) {
-    return to_ply(mesh, {});
+std::string to_ply(const TriangleMesh& mesh, PlyFormat format) {
+    return to_ply(mesh, {}, format);
 }
 
 }  // namespace varimap

@@ -17,8 +17,9 @@ TriangleMesh read_mesh(const std::string& path);
 /// The same from the bytes of such a file; `path` tells the format, and is named in messages.
 TriangleMesh parse_mesh(std::string_view bytes, const std::string& path);
 
-/// Binary little-endian PLY with double coordinates.
-std::string to_ply(const TriangleMesh& mesh);
+enum class PlyFormat : int { binary, ascii };
+/// PLY with double coordinates: binary little-endian, or text whose numbers read back exactly.
+std::string to_ply(const TriangleMesh& mesh, PlyFormat format = PlyFormat::binary);
 
 // Refusals, as one line that names the defect, how many there are and the first element (0-based). Throw
 // InputError.

@@ -13,6 +13,7 @@ class OffWords {
     /// The next word; goes on in the next line where this one ends.
     long long integer(const char* what) { return scanner_.integer(step(what), what); }
     double number(const char* what) { return scanner_.number(step(what), what); }
+    std::size_t left_in_line() const { return scanner_.words().size() - at_; }
     /// Leaves what is left of the line.
     void end_line() { at_ = scanner_.words().size(); }
     /// Whether enough lines are left for each of `count` elements to start one.
@@ -82,7 +83,11 @@ PolygonSoup parse_off(std::string_view bytes, const std::string& path) {
     words.read_keyword();
     const long long vertices = words.integer("the count of vertices");
     const long long faces = words.integer("the count of faces");
-    words.end_line();
+    // The count of edges, which may be missing; or all of the file is in this line.
+    if (words.left_in_line() > 1)
+        words.integer("the count of edges");
+    else
+        words.end_line();
     const bool packed_vertices = !words.has_lines_for(bounded(vertices) + bounded(faces));
     read_vertices(words, vertices, packed_vertices, soup);
     const bool packed_faces = !words.has_lines_for(faces);

@@ -20,6 +20,19 @@ void append_row(const std::vector<PlyColumn>& columns, int row, std::string& byt
         ply_type(column.type)->append(column.values[std::size_t(row)], bytes);
 }
 
+/// The rest of a line of text: numbers as their types hold them, which read back the same.
+void append_text(const std::vector<PlyColumn>& columns, int row, std::string& bytes) {
+    for (const PlyColumn& column : columns) {
+        std::string number;
+        const NumberType& type = *ply_type(column.type);
+        type.append(column.values[std::size_t(row)], number);
+        const double value = type.read(number.data());
+        const bool single = column.type == "float" || column.type == "float32";
+        bytes += single ? fmt::format(" {}", float(value)) : fmt::format(" {}", value);
+    }
+    bytes += '\n';
+}
+
 }  // namespace
 
 const NumberType* ply_type(std::string_view name) {
@@ -36,20 +49,37 @@ const NumberType* ply_type(std::string_view name) {
     return found == types.end() ? nullptr : &found->second;
 }
 
-std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns) {
+PlyFormat ply_format(std::string_view bytes) {
+    const std::string_view header = bytes.substr(0, bytes.find("end_header"));
+    return header.find("\nformat ascii") == header.npos ? PlyFormat::binary : PlyFormat::ascii;
+}
+
+std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns, PlyFormat format) {
+    const bool ascii = format == PlyFormat::ascii;
     std::string bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\n"
+        "ply\nformat {} 1.0\n"
         "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
         "element face {}\nproperty list uchar int vertex_indices\n{}end_header\n",
-        mesh.vertex_count(), declarations(columns.vertex), mesh.face_count(), declarations(columns.face));
+        ascii ? "ascii" : "binary_little_endian", mesh.vertex_count(), declarations(columns.vertex),
+        mesh.face_count(), declarations(columns.face));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-        bytes.append(reinterpret_cast<const char*>(mesh.vertices.data() + 3 * v), 3 * sizeof(double));
-        append_row(columns.vertex, v, bytes);
+        if (ascii) {
+            bytes += fmt::format("{} {} {}", mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
+            append_text(columns.vertex, v, bytes);
+        } else {
+            bytes.append(reinterpret_cast<const char*>(mesh.vertices.data() + 3 * v), 3 * sizeof(double));
+            append_row(columns.vertex, v, bytes);
+        }
     }
     for (int f = 0; f < mesh.face_count(); ++f) {
-        bytes.push_back(3);
-        bytes.append(reinterpret_cast<const char*>(mesh.faces.data() + 3 * f), 3 * sizeof(int));
-        append_row(columns.face, f, bytes);
+        if (ascii) {
+            bytes += fmt::format("3 {} {} {}", mesh.faces(f, 0), mesh.faces(f, 1), mesh.faces(f, 2));
+            append_text(columns.face, f, bytes);
+        } else {
+            bytes.push_back(3);
+            bytes.append(reinterpret_cast<const char*>(mesh.faces.data() + 3 * f), 3 * sizeof(int));
+            append_row(columns.face, f, bytes);
+        }
     }
     return bytes;
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/number_type.h"
 #include "varimap/mesh/triangle_mesh.h"
 
@@ -25,7 +26,10 @@ PlyColumns parse_ply_columns(std::string_view bytes, const std::string& path);
 /// The number type that PLY calls so; none where it knows no such type.
 const NumberType* ply_type(std::string_view name);
 
+/// Whether a PLY file is text.
+PlyFormat ply_format(std::string_view bytes);
+
 /// The mesh as to_ply (mesh_file.h) writes it, with further properties.
-std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns);
+std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns, PlyFormat format);
 
 }  // namespace varimap

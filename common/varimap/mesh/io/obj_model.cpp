@@ -1,4 +1,4 @@
-#include "stages/transfer/obj_model.h"
+#include "varimap/mesh/io/obj_model.h"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "stages/transfer/obj_model.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
+#include "varimap/mesh/io/obj_model.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {

@@ -1,0 +1,39 @@
+#include "varimap/image/png_file.h"
+
+#include <png.h>
+
+#include "varimap/core/error.h"
+
+namespace varimap {
+
+std::string encode_png(int width, int height, const std::vector<unsigned char>& pixels) {
+    png_image header{};
+    header.version = PNG_IMAGE_VERSION;
+    header.width = png_uint_32(width);
+    header.height = png_uint_32(height);
+    const bool alpha = pixels.size() == 4 * std::size_t(width) * std::size_t(height);
+    header.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+    png_alloc_size_t size = 0;
+    std::string bytes;
+    if (png_image_write_to_memory(&header, nullptr, &size, 0, pixels.data(), 0, nullptr)) {
+        bytes.resize(size);
+        if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels.data(), 0, nullptr))
+            return bytes.substr(0, size);
+    }
+    throw Error(ExitCode::internal, std::string("cannot encode the PNG: ") + header.message);
+}
+
+DecodedPng decode_png(std::string_view bytes, const std::string& path) {
+    png_image header{};
+    header.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
+        throw InputError(path + ": not a PNG; save the texture as one (" + header.message + ")");
+    header.format = PNG_FORMAT_RGBA;
+    DecodedPng image{int(header.width), int(header.height), {}};
+    image.rgba.resize(PNG_IMAGE_SIZE(header));
+    if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr))
+        throw InputError(path + ": the PNG is damaged (" + header.message + ")");
+    return image;
+}
+
+}  // namespace varimap

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace varimap {
+
+/// The bytes of a PNG file of 8-bit sRGB, rows from the top: three bytes a pixel, or with alpha four.
+std::string encode_png(int width, int height, const std::vector<unsigned char>& pixels);
+
+struct DecodedPng {
+    int width = 0, height = 0;
+    std::vector<unsigned char> rgba;  ///< four bytes a pixel, rows from the top
+};
+/// Throws InputError, naming `path`, where the bytes are no PNG.
+DecodedPng decode_png(std::string_view bytes, const std::string& path);
+
+}  // namespace varimap

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "varimap/core/enum_names.h"
+
+namespace varimap {
+
+/// Number of a file's first vertex. automatic: what else is in the file decides.
+enum class IndexBase : int { zero = 0, one = 1, automatic = 2 };
+template <>
+struct EnumNames<IndexBase> {
+    static constexpr std::array names{"0", "1", "auto"};
+};
+/// From "0", "1" or "auto"; empty: automatic. Throws UsageError.
+IndexBase index_base_from(const std::string& text);
+
+}  // namespace varimap
