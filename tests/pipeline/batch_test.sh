@@ -79,7 +79,7 @@ jq -e '.landmarks | length == 2' listed/pairs/three/quality.json >/dev/null || f
 [[ $(stat -c %y listed/pairs/tips/result.json) == "$stamp" ]] || fail "other pairs ran too"
 rm meshes/broken.off
 
-# A template and its specimens, with landmarks that are found by name, some of them damaged artifacts.
+# A template and its specimens, with landmarks that are found by name. Then a damaged artifact.
 mkdir points
 cut -d ' ' -f 1 tips.txt | tee points/a.txt >points/c.txt
 batch --star meshes/b.off meshes -o star --landmarks-from points -j 2
@@ -88,6 +88,7 @@ head -c 100 all/artifacts/b.basis >short
 cp short all/artifacts/b.basis
 batch --all-pairs meshes -o all --check -j 2
 same_batch narrow all
+grep -q "b.basis' is damaged.*making it anew" all/batch/surfaces/b/log.txt || fail "a damaged artifact is not said"
 
 # Bad input: one line, and nothing is made.
 expect_exit 2 "$varimap" batch
