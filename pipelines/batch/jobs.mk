@@ -4,4 +4,4 @@ include $(JOBS_FILE)
 .SUFFIXES:
 all: $(JOBS)
 $(JOBS):
-	-@$(JOB) "$(OUT)" $(KIND) $@ $(THREADS)
+	-@$(JOB) "$(OUT)" $(KIND) $@ $(THREADS) $(STAGE)

@@ -1,4 +1,4 @@
-# The contact sheet: a card for each pair, the worst first.
+# The contact sheet: a card for each pair, the worst first, a thousand at most.
 #   jq -r -n -f sheet.jq results.jsonl
 def rank: if .status == "done" then [1, -.badness, .name] elif .status == "failed" then [0, 0, .name] else [2, 0, .name] end;
 def card: (.name | @uri) as $folder
@@ -21,5 +21,5 @@ article.good { border-color: #2a7f4f } article.usable { border-color: #c8960c } 
 h1 { font-size: 1.3rem } h2 { font-size: 1rem; margin: 0 0 .4rem } p { margin: .3rem 0; font-size: .85rem }
 img { width: 100%; height: auto } .warning { color: #8c1d18 } a { color: inherit }
 @media (prefers-color-scheme: dark) { body { background: #1b1b1b; color: #ddd } article { background: #262626 } .warning { color: #ff9c94 } }
-</style></head><body><h1>\($all | length) pairs: \($counts | @html)</h1>\n<p>The worst come first. A name leads to the pair’s folder, a picture to its full size.</p>\n<main>",
-($all | sort_by(rank)[] | card), "</main></body></html>"
+</style></head><body><h1>\($all | length) pairs: \($counts | @html)</h1>\n<p>The worst come first\(if $all | length > 1000 then ", a thousand of them; status.csv has all" else "" end). A name leads to the pair’s folder, a picture to its full size.</p>\n<main>",
+($all | sort_by(rank)[:1000][] | card), "</main></body></html>"
