@@ -90,6 +90,16 @@ batch --all-pairs meshes -o all --check -j 2
 same_batch narrow all
 grep -q "b.basis' is damaged.*making it anew" all/batch/surfaces/b/log.txt || fail "a damaged artifact is not said"
 
+# Loops of three: these close with the first maps, which stay.
+batch --all-pairs meshes -o together --consistent -j 2
+[[ $(column together/cycles.csv name | xargs) == "a--b a--c b--c" && $(column together/cycles.csv candidate | sort -u) == 1 ]] ||
+    fail "cycles.csv"
+[[ $(column together/cycles.csv loops | sort -u) == 1 && $(column together/cycles.csv closed | sort -u) == 1 ]] || fail "loops do not close"
+grep -q '^cycles   100 % of the loops' out.txt || fail "loops are not told"
+same together/pairs/b--c/source_to_target.csv all/pairs/b--c/source_to_target.csv
+batch --all-pairs meshes -o together --consistent -j 2
+grep -q '3 done already' log || fail "consistent pairs are not known"
+
 # Bad input: one line, and nothing is made.
 expect_exit 2 "$varimap" batch
 expect_exit 2 "$varimap" batch lists/pairs.csv
