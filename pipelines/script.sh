@@ -96,8 +96,10 @@ wait_for_group() {
 interrupted() {  # CODE
     trap '' INT TERM HUP
     kill -TERM -- "-$group" 2>/dev/null || true
-    wait "$group" 2>/dev/null || true
+    # The log ends when all have ended that write to it. It comes first: where the group ended at the very moment of the
+    # interrupt, bash may have lost it, and waits for it as long as it has any child.
     ! declare -F close_log >/dev/null || close_log
+    wait "$group" 2>/dev/null || true
     fail "$1" "interrupted; what is finished is kept"
 }
 

@@ -19,7 +19,7 @@ main { display: grid; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr
 article { background: #fff; border-top: .35rem solid #999; padding: .6rem; overflow-wrap: anywhere }
 article.good { border-color: #2a7f4f } article.usable { border-color: #c8960c } article.look-here, article.failed { border-color: #b3261e }
 h1 { font-size: 1.3rem } h2 { font-size: 1rem; margin: 0 0 .4rem } p { margin: .3rem 0; font-size: .85rem }
-img { width: 100%; height: auto } .warning { color: #8c1d18 } a { color: inherit }
+img { width: 100%; height: 12rem; object-fit: contain } .warning { color: #8c1d18 } a { color: inherit }
 @media (prefers-color-scheme: dark) { body { background: #1b1b1b; color: #ddd } article { background: #262626 } .warning { color: #ff9c94 } }
 </style></head><body><h1>\($all | length) pairs: \($counts | @html)</h1>\n<p>The worst come first\(if $all | length > 1000 then ", a thousand of them; status.csv has all" else "" end). A name leads to the pair’s folder, a picture to its full size.</p>\n<main>",
 ($all | sort_by(rank)[:1000][] | card), "</main></body></html>"
