@@ -70,6 +70,9 @@ artifact_stem() {
     echo "${stem:-mesh}"
 }
 
+# quoted TEXT: as a field of a CSV file.
+quoted() { printf '"%s"' "${1//\"/\"\"}"; }
+
 # find_landmarks FOLDER MESH: the file of landmarks in FOLDER that has the name of that mesh; nothing where there is none.
 find_landmarks() {
     local stem ending file
