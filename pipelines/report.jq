@@ -2,21 +2,23 @@
 #   jq -f report.jq quality.json
 def fixed($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
 def grade($good; $usable): if . <= $good then "good" elif . <= $usable then "usable" else "look here" end;
-def check($what; $value; $grade): {what: $what, value: $value, grade: $grade};
+# badness: 1 at the end of what is usable.
+def check($what; $value; $number; $good; $usable):
+    {what: $what, value: $value, grade: ($number | grade($good; $usable)), badness: ($number / $usable)};
 
 def direction($words):
     (.verification.reversed_area_percent // .flipped_area_percent) as $reversed
-    | check("area reversed, \($words)"; "\($reversed | fixed(2)) %"; $reversed | grade(0.1; 1)),
-      check("area covered, \($words)"; "\(100 * .coverage | fixed(1)) %"; 1 - .coverage | grade(0.03; 0.1)),
+    | check("area reversed, \($words)"; "\($reversed | fixed(2)) %"; $reversed; 0.1; 1),
+      check("area covered, \($words)"; "\(100 * .coverage | fixed(1)) %"; 1 - .coverage; 0.03; 0.1),
       (.conformal_distortion | check("change of angles, \($words)"; "\(.p50 | fixed(2)) (median), \(.p95 | fixed(2)) (95 %)";
-          .p95 | grade(3; 6))),
-      (.verification.degree // empty | check("how often covered, \($words)"; fixed(2); fabs - 1 | fabs | grade(0.02; 0.1)));
+          .p95; 3; 6)),
+      (.verification.degree // empty | check("how often covered, \($words)"; fixed(2); fabs - 1 | fabs; 0.02; 0.1));
 
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
-    (.round_trip // empty | check("there and back, mean"; "\(.mean | fixed(4)) sqrt(area)"; .mean | grade(0.01; 0.03))),
+    (.round_trip // empty | check("there and back, mean"; "\(.mean | fixed(4)) sqrt(area)"; .mean; 0.01; 0.03)),
     (.exploration // empty | check("choice among mirrored and turned maps";
         if .continued > 1 then "candidate \(.continued), as asked" elif .confident then "sure" else "not sure" end;
-        if .confident or .continued > 1 then "good" else "look here" end))] as $checks
+        if .confident or .continued > 1 then 0 else 2 - (.probability // 0) end; 1; 1))] as $checks
 | (.exploration.continued // 1) as $continued
 | [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not)) | "\(.stage): \(.message)"] as $warnings
 | {verdict: (if any($checks[]; .grade == "look here") or ($warnings | length > 0) then "look here"

@@ -42,6 +42,70 @@ require() {  # PROGRAM
     command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
 }
 
+require_file() {  # FILE that is read: a pipe would be read twice, and wait
+    [[ -e $1 ]] || fail 6 "$1: no such file"
+    [[ -f $1 ]] || fail 6 "$1: not a file"
+    [[ -r $1 ]] || fail 6 "$1: cannot be read"
+}
+
+make_folder() {
+    [[ ! -e $1 || -d $1 ]] || fail 6 "$1: is a file, not a folder"
+    mkdir -p -- "$1" 2>/dev/null || fail 6 "$1: cannot be made"
+    [[ -w $1 && -x $1 ]] || fail 6 "$1: cannot be written to"
+}
+
+lock() {  # FOLDER: one run at a time; the lock lasts until the last stage has ended
+    local fd
+    { exec {fd}>"$1/.lock"; } 2>/dev/null || fail 6 "$1: cannot be written to"
+    flock -n "$fd" && return
+    (($? == 1)) || return 0  # a file system without locks: what is made twice is renamed into place
+    echo "$name: waiting for another run in $1" >&2
+    flock "$fd"
+}
+
+# artifact_stem PATH: the name of a mesh's artifacts: the mesh's own, in letters that make can handle.
+artifact_stem() {
+    local stem=${1##*/}
+    stem=$(tr -c '[:alnum:]_-' _ <<<"${stem%.*}" | sed 's/_$//; s/--*/-/g; s/^-//; s/-$//')
+    echo "${stem:-mesh}"
+}
+
+# quoted TEXT: as a field of a CSV file.
+quoted() { printf '"%s"' "${1//\"/\"\"}"; }
+
+# find_landmarks FOLDER MESH: the file of landmarks in FOLDER that has the name of that mesh; nothing where there is none.
+find_landmarks() {
+    local stem ending file
+    stem=${2##*/} stem=${stem%.*}
+    [[ -n $1 ]] || return 0
+    for ending in mrk.json fcsv pp txt csv vts; do
+        file=$1/$stem.$ending
+        [[ ! -f $file ]] || { realpath -s -- "$file"; return; }
+    done
+}
+
+# wait_for_group: waits for the process group `group`, started in the background under `set -m`, and returns its exit code.
+# So an interrupt reaches all that it started and is waited for; then the script ends, after close_log where that is defined.
+group=''
+wait_for_group() {
+    local code=0
+    trap 'interrupted 130' INT
+    trap 'interrupted 143' TERM HUP
+    wait "$group" || code=$?
+    trap - INT TERM HUP
+    return "$code"
+}
+
+interrupted() {  # CODE
+    trap '' INT TERM HUP
+    kill -TERM -- "-$group" 2>/dev/null || true
+    # The log ends when all have ended that write to it. It comes first: where the group ended at the very moment of the
+    # interrupt, bash may have lost it, and waits for it as long as it has any child.
+    ! declare -F close_log >/dev/null || close_log
+    wait "$group" 2>/dev/null || true
+    fail "$1" "interrupted; what is finished is kept"
+}
+
 # generate_pair FAMILY SEED FOLDER OPTION...: makes FOLDER and lets varimap-generate write a pair there; prints its kind.
 generate_pair() {
     mkdir -p -- "$3"

@@ -23,26 +23,35 @@ void require_fit(const PointMap& map, const std::string& path, const TriangleMes
                                          path, v + 2, map[v].face, to_file, to.face_count()));
 }
 
+bool is_finite(const TriangleMesh& mesh, int f) {
+    return mesh.vertex(mesh.faces(f, 0)).allFinite() && mesh.vertex(mesh.faces(f, 1)).allFinite() &&
+           mesh.vertex(mesh.faces(f, 2)).allFinite();
+}
+
 /// Maps leave such faces out, but a surface with holes that no file tells of is none to carry things on.
-TriangleMesh read_finite_mesh(const std::string& path) {
+TriangleMesh read_finite_mesh(const std::string& path, UnplacedFaces unplaced) {
     TriangleMesh mesh = read_mesh(path);
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (const int v : mesh.faces.row(f))
-            if (!mesh.vertex(v).allFinite())
-                throw InputError(
-                    fmt::format("{}: face {} (from 0) has a corner that is not finite; mend the "
-                                "file to carry things through its map",
-                                path, f));
+    int anchor = 0;
+    while (anchor < mesh.face_count() && !is_finite(mesh, anchor)) ++anchor;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        if (is_finite(mesh, f)) continue;
+        if (unplaced == UnplacedFaces::refuse || anchor == mesh.face_count())
+            throw InputError(
+                fmt::format("{}: face {} (from 0) has a corner that is not finite; mend the "
+                            "file to carry things through its map",
+                            path, f));
+        mesh.faces.row(f).setConstant(mesh.faces(anchor, 0));
+    }
     return mesh;
 }
 
 }  // namespace
 
-Correspondence read_correspondence(const MapFiles& files, bool reverse) {
+Correspondence read_correspondence(const MapFiles& files, bool reverse, UnplacedFaces unplaced) {
     Correspondence map{files.source,
                        files.target,
-                       read_finite_mesh(files.source),
-                       read_finite_mesh(files.target),
+                       read_finite_mesh(files.source, unplaced),
+                       read_finite_mesh(files.target, unplaced),
                        read_csv_map(files.source_to_target),
                        read_csv_map(files.target_to_source)};
     require_fit(map.there, files.source_to_target, map.from, files.source, map.to, files.target);

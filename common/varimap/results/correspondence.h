@@ -20,9 +20,14 @@ struct MapFiles {
     std::string source, target, source_to_target, target_to_source;
 };
 
-/// Reads a map from source to target, or, where `reverse`, from target to source. Throws InputError where a
-/// table is not one of these meshes or a face has a corner that is not finite, IoError.
-Correspondence read_correspondence(const MapFiles& files, bool reverse);
+/// What to do with faces that have a corner which is not finite; maps leave them out.
+enum class UnplacedFaces { refuse, collapse };
+
+/// Reads a map from source to target, or, where `reverse`, from target to source. Faces that have a corner
+/// which is not finite are refused, or become points on a finite vertex, so that the others keep their
+/// numbers. Throws InputError for these, and where a table is not one of these meshes; IoError.
+Correspondence read_correspondence(const MapFiles& files, bool reverse,
+                                   UnplacedFaces unplaced = UnplacedFaces::refuse);
 
 /// Carries points of one surface to another through a map of its vertices: linearly in space between the
 /// images of a face's corners, then to the closest point that faces as these images do, so that the other

@@ -84,6 +84,9 @@ bool Stage::State::is_current() const {
         const KnownHashes known(line.if_stale);
         if (output_schema > 0 && !artifact_is_current(known, header(output_kind, from))) return false;
         return line.stamp.empty() || stamp_is_current(known, header(stamp_kind, from));
+    } catch (const ArtifactError& damaged) {
+        log("{}; making it anew", damaged.what());
+        return false;
     } catch (const Error&) {
         return false;
     }

@@ -1,0 +1,162 @@
+#!/usr/bin/env bash
+# Many pairs: work on a surface is done once, one failing pair stops nobody, and a batch that is killed at random moments ends
+# with the same bytes. VARIMAP_KILLS: how many runs are killed (default 8).
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+kills=${VARIMAP_KILLS:-8}
+mkdir meshes
+figure meshes/a.off 6
+figure meshes/b.off 6 .5
+figure meshes/c.off 6 .3
+
+batch() {  # ARGUMENTS
+    "$varimap" batch "${small_picture[@]}" "${coarse[@]}" "$@" >out.txt 2>log || fail "varimap batch $* (exit $?)"
+}
+column() {  # FILE NAME: that column of a table without commas in its fields
+    awk -F, -v name="$2" '{ gsub(/"/, "") } NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i; next } { print $c }' "$1"
+}
+# Tables, meshes, artifacts, and what is said of them; times differ.
+same_batch() {  # OUT OUT
+    local pair
+    same "$1/status.csv" "$2/status.csv"
+    same "$1/index.html" "$2/index.html"
+    for pair in "$1"/pairs/*; do same_results "$pair" "$2/pairs/${pair##*/}"; done
+}
+
+# All pairs: each surface's stages once, those of its sketch beside it; the second run starts nothing.
+batch --all-pairs meshes -o all -j 2
+[[ $(column all/status.csv name | xargs) == "a--b a--c b--c" && $(column all/status.csv status | sort -u) == "done" ]] || fail "status.csv"
+cat all/pairs/*/log.txt all/batch/surfaces/*/log.txt >log
+for count in 3:preprocess 6:coarsen 6:eigen 6:hierarchy 6:explore 3:diffuse 3:relax 3:render; do
+    [[ $(grep -c "^\[${count#*:}\] done" log) == "${count%:*}" ]] || fail "${count#*:} did not run ${count%:*} times"
+done
+[[ $(grep -c '<article' all/index.html) == 3 ]] || fail "the contact sheet"
+: >all/pairs/a--b/log.txt
+batch --all-pairs meshes -o all -j 1
+grep -q '3 done already' log || fail "done pairs are not known"
+[[ ! -s all/pairs/a--b/log.txt ]] || fail "a finished pair was started again"
+map meshes/a.off meshes/b.off -o alone "${coarse[@]}"
+same all/pairs/a--b/source_to_target.csv alone/source_to_target.csv
+same all/artifacts/a--b.plan alone/artifacts/a--b.plan
+
+# One job at a time where memory is for one only, and the same bytes.
+batch --all-pairs meshes -o narrow -j 2 --memory 60
+same_batch all narrow
+
+# A list of pairs, with names, landmarks, quotes and folders; a mesh that is none fails alone, and says why.
+echo nonsense >meshes/broken.off
+landmarks_of_figure meshes/a.off >tips.txt
+head -n 3 tips.txt | cut -d ' ' -f 1 >three.txt
+mkdir lists
+cat >lists/pairs.csv <<'TEXT'
+name,source,target,landmarks,source_landmarks,target_landmarks,remark
+# with tips
+tips,"meshes/a.off",meshes/b.off,tips.txt,,,"a, ""b"""
+
+three,meshes/c.off,meshes/a.off,,three.txt,three.txt,
+bad,meshes/a.off,meshes/broken.off,,,,
+none,meshes/a.off,meshes/c.off,,,,
+TEXT
+expect_list() {
+    local code=0
+    "$varimap" batch "${small_picture[@]}" "${coarse[@]}" lists/pairs.csv -o listed -j 2 >out.txt 2>log || code=$?
+    ((code == 1)) || fail "exit $code, not 1, with a pair that fails"
+    [[ $(column listed/status.csv status | xargs) == "done done failed done" ]] || fail "status of the list"
+    grep -q '^failed   bad: .*broken.off' out.txt || fail "the summary does not say what failed"
+}
+expect_list
+[[ $(column listed/status.csv code | xargs) == "0 0 3 0" ]] || fail "codes of the list"
+jq -e '.landmarks | length == 5' listed/pairs/tips/quality.json >/dev/null || fail "landmarks of a pair"
+jq -e '.landmarks | length == 3' listed/pairs/three/quality.json >/dev/null || fail "two lists of a pair"
+same listed/pairs/none/source_to_target.csv all/pairs/a--c/source_to_target.csv
+# Changed landmarks run their pair alone.
+stamp=$(stat -c %y listed/pairs/tips/result.json)
+head -n 2 three.txt >fewer.txt
+mv fewer.txt three.txt
+expect_list
+grep -q '2 done already' log || fail "changed landmarks"
+jq -e '.landmarks | length == 2' listed/pairs/three/quality.json >/dev/null || fail "changed landmarks were not used"
+[[ $(stat -c %y listed/pairs/tips/result.json) == "$stamp" ]] || fail "other pairs ran too"
+rm meshes/broken.off
+
+# A template and its specimens, with landmarks that are found by name. Then a damaged artifact.
+mkdir points
+cut -d ' ' -f 1 tips.txt | tee points/a.txt >points/c.txt
+batch --star meshes/b.off meshes -o star --landmarks-from points -j 2
+[[ $(column star/status.csv name | xargs) == "b--a b--c" ]] || fail "pairs of a template"
+head -c 100 all/artifacts/b.basis >short
+cp short all/artifacts/b.basis
+batch --all-pairs meshes -o all --check -j 2
+same_batch narrow all
+grep -q "b.basis' is damaged.*making it anew" all/batch/surfaces/b/log.txt || fail "a damaged artifact is not said"
+
+# Loops of three: these close with the first maps, which stay.
+batch --all-pairs meshes -o together --consistent -j 2
+[[ $(column together/cycles.csv name | xargs) == "a--b a--c b--c" && $(column together/cycles.csv candidate | sort -u) == 1 ]] ||
+    fail "cycles.csv"
+[[ $(column together/cycles.csv loops | sort -u) == 1 && $(column together/cycles.csv closed | sort -u) == 1 ]] || fail "loops do not close"
+grep -q '^cycles   100 % of the loops' out.txt || fail "loops are not told"
+same together/pairs/b--c/source_to_target.csv all/pairs/b--c/source_to_target.csv
+batch --all-pairs meshes -o together --consistent -j 2
+grep -q '3 done already' log || fail "consistent pairs are not known"
+
+# Bad input: one line, and nothing is made.
+expect_exit 2 "$varimap" batch
+expect_exit 2 "$varimap" batch lists/pairs.csv
+expect_exit 2 "$varimap" batch --star meshes/a.off -o none
+expect_exit 2 "$varimap" batch lists/pairs.csv -o none --memory much
+expect_exit 6 "$varimap" batch absent.csv -o none
+expect_exit 6 "$varimap" batch lists/pairs.csv -o none
+printf 'a,b\n1,2\n' >columns.csv
+expect_exit 3 "$varimap" batch columns.csv -o none
+printf 'source,target\nmeshes/a.off,meshes/b.off\nmeshes/a.off,meshes/b.off\n' >twice.csv
+expect_exit 3 "$varimap" batch twice.csv -o none
+printf 'mesh,name\n"meshes/a.off,x\n' >quotes.csv
+expect_exit 3 "$varimap" batch quotes.csv -o none
+[[ ! -e none ]] || fail "a refused batch left files"
+"$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
+grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"
+[[ -z $(ls planned/pairs) ]] || fail "--plan runs something"
+
+# Killed: everything, the front end alone, one job, or one stage; in the end the same bytes.
+start=$EPOCHREALTIME
+batch --all-pairs meshes -o timed -j 2
+milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 1000))
+same_batch all timed
+victims() {  # KIND SESSION
+    case $1 in
+    0) pgrep -s "$2" || true ;;
+    1) echo "$2" ;;
+    2) pgrep -s "$2" job | head -n 1 || true ;;
+    3) pgrep -s "$2" varimap- | head -n 1 || true ;;
+    esac
+}
+RANDOM=1
+for ((i = 0; i < kills; ++i)); do
+    setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o killed -j 2 >/dev/null 2>&1 </dev/null &
+    session=$!
+    sleep "$(printf '%d.%03d' $((RANDOM % milliseconds / 1000)) $((RANDOM % 1000)))"
+    # shellcheck disable=SC2046
+    kill -9 $(victims $((RANDOM % 4)) $session) 2>/dev/null || true
+    wait $session 2>/dev/null || true
+    ((RANDOM % 2)) || rm -rf killed/pairs/a--b killed/artifacts/a--b.plan
+    ((RANDOM % 4)) || rm -rf killed
+done
+batch --all-pairs meshes -o killed -j 2
+same_batch all killed
+nothing_left killed all
+
+# Ended by an interrupt: all that it started ends with it, and it says so.
+setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &
+session=$!
+sleep 1
+kill -TERM $session
+code=0
+wait $session || code=$?
+((code == 143)) || fail "exit $code after an interrupt"
+[[ -z $(ps -o stat= -s $session | grep -v Z || true) ]] || fail "jobs go on after an interrupt"
+grep -q 'interrupted; what is finished is kept' log || fail "an interrupt is not said"
+[[ -z $(find stopped/pairs -name result.json -exec grep -l failed {} +) ]] || fail "an interrupted pair is called failed"
+batch --all-pairs meshes -o stopped -j 2
+same_batch all stopped
+echo "$kills batches of about $milliseconds ms were killed"

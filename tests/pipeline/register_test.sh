@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# A template onto specimens whose vertices correspond: points, landmarks, the mean shape, components, several templates.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+mkdir meshes points
+for twist in 1 2 3 4; do figure "meshes/s$twist.off" 10 ".$twist"; done
+figure template.off 10
+figure other.off 10 .25
+landmarks_of_figure template.off | cut -d ' ' -f 1 >points/template.txt
+cp points/template.txt points/other.txt
+
+register() {  # ARGUMENTS
+    "$varimap" register "${small_picture[@]}" "$@" >out.txt 2>log || fail "varimap register $* (exit $?)"
+}
+vertices() { awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2' "$1"; }
+# error TABLE MESH: mean distance of rows x,y,z in columns 2 to 4 from the mesh's vertices, its size being about 2
+error() {
+    paste -d ' ' <(tail -n +2 "$1" | cut -d , -f 2-4 | tr , ' ') <(vertices "$2") |
+        awk '{ sum += sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2) } END { print sum / NR }'
+}
+at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }' || fail "$3: $1 instead of at most $2"; }
+
+register template.off meshes -o out --landmarks-from points -j 2
+for specimen in s1 s2 s3 s4; do
+    at_most "$(error out/specimens/$specimen.csv meshes/$specimen.off)" .06 "points of $specimen"
+    [[ $(sed -n 's/^element vertex //p' out/specimens/$specimen.ply) == 402 ]] || fail "$specimen.ply"
+done
+[[ $(wc -c <out/points.npy) == $((128 + 4 * 402 * 3 * 8)) ]] || fail "the size of points.npy"
+head -c 128 out/points.npy | grep -q "'shape': (4, 402, 3," || fail "the shape of points.npy"
+[[ $(wc -l <out/landmarks.csv) == 21 ]] || fail "rows of landmarks.csv"
+for specimen in s1 s4; do
+    paste -d ' ' <(grep "^$specimen," out/landmarks.csv | cut -d , -f 3-5 | tr , ' ') \
+        <(while read -r v; do vertices meshes/$specimen.off | sed -n "$((v + 1))p"; done <points/template.txt) |
+        awk '{ sum += sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2) } END { print sum / NR }' >error.txt
+    at_most "$(<error.txt)" .1 "landmarks of $specimen"
+done
+# They differ in one thing, how far they are twisted: the first component is that.
+share=$(sed -n 's/^1,[^,]*,//p' out/components.csv)
+at_most .9 "$share" "share of the first component"
+tail -n +2 out/specimens.csv | cut -d , -f 5 | sort -g -c 2>/dev/null || tail -n +2 out/specimens.csv | cut -d , -f 5 | sort -gr -c ||
+    fail "scores are not in the order of the twists"
+[[ -s out/component_1.png && -s out/mean.png ]] || fail "pictures"
+"$varimap" inspect out/mean.ply >/dev/null 2>log || true
+
+# Again: nothing is mapped anew, and the bytes are the same.
+cp -r out before
+register template.off meshes -o out --landmarks-from points -j 1
+grep -q '4 done already' log || fail "maps were made again"
+for file in points.npy aligned.npy landmarks.csv specimens.csv components.csv mean.ply; do same "out/$file" "before/$file"; done
+
+# Several templates: the median of their answers; a specimen that cannot be mapped is left out, and said.
+register template.off meshes/s1.off meshes/s4.off -o several --landmarks-from points --templates other.off meshes/s2.off -j 2
+[[ $(jq '.specimens | map(.answers | length) | unique[]' several/manifest.json) == 3 ]] || fail "answers of three templates"
+at_most "$(error several/specimens/s4.csv meshes/s4.off)" .06 "points by three templates"
+awk -F, 'NR > 1 && $8 > 0 { found = 1 } END { exit !found }' several/landmarks.csv || fail "no spread of several answers"
+echo nonsense >meshes/s9.off
+code=0
+"$varimap" register "${small_picture[@]}" template.off meshes -o out --landmarks-from points >out.txt 2>log || code=$?
+((code == 1)) || fail "exit $code with a specimen that fails"
+grep -q '^left out    1 ' out.txt || fail "who is left out"
+same out/points.npy before/points.npy
+
+expect_exit 2 "$varimap" register template.off -o none
+expect_exit 2 "$varimap" register template.off meshes
+expect_exit 6 "$varimap" register absent.off meshes -o none
+expect_exit 6 "$varimap" register template.off meshes -o none --points-from absent
+expect_exit 3 "$VARIMAP_BIN/varimap-register" template.off --out none
+echo '{"template": "template.off", "specimens": []}' >empty.json
+expect_exit 3 "$VARIMAP_BIN/varimap-register" empty.json --out none
+[[ ! -e none ]] || fail "what is refused left files"

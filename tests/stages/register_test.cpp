@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "stages/register/answers.h"
+#include "stages/register/procrustes.h"
+#include "varimap/mesh/mass.h"
+
+namespace varimap {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::Lt;
+
+const TriangleMesh& body() {
+    static const TriangleMesh mesh = shapes::figure(.15);
+    return mesh;
+}
+
+Points moved(const Points& points, double scale, double angle, const Vec3& by) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vec3(1, 2, .5).normalized()).toRotationMatrix();
+    return ((scale * points * turn).rowwise() + by.transpose()).eval();
+}
+
+/// Bends upwards in proportion to `amount`.
+Points bent(double amount) {
+    Points points = body().vertices;
+    points.col(2).array() += amount * points.col(0).array().square() / 10;
+    return points;
+}
+
+double largest_distance(const Points& a, const Points& b) {
+    return (a - b).rowwise().norm().maxCoeff();
+}
+
+TEST(Procrustes, LaysMovedCopiesOverTheStart) {
+    const Eigen::VectorXd weights = voronoi_masses(body());
+    const Points& rest = body().vertices;
+    const Alignment found =
+        procrustes({moved(rest, 1, .4, {1, 2, 3}), moved(rest, 3, -2, {0, -5, 1})}, rest, weights, true);
+    EXPECT_THAT(found.distances, Each(Lt(1e-9)));
+    EXPECT_NEAR(found.sizes[1] / found.sizes[0], 3, 1e-9);
+    // The mean has the mean size, twice that of the start, and lies over it.
+    const Eigen::RowVector3d centre = weights.transpose() * rest;
+    EXPECT_LT(largest_distance(found.mean, (2 * (rest.rowwise() - centre)).rowwise() + centre), 1e-8);
+}
+
+TEST(Procrustes, KeepsSizesWhereAsked) {
+    const Eigen::VectorXd weights = voronoi_masses(body());
+    const Alignment found = procrustes({body().vertices, moved(body().vertices, 3, 1, {0, 0, 1})},
+                                       body().vertices, weights, false);
+    EXPECT_NEAR(found.distances[0], found.sizes[0], 1e-6);  // from 1 to the mean 2
+    EXPECT_NEAR(found.distances[1], found.sizes[0], 1e-6);
+}
+
+TEST(Procrustes, NeverMirrors) {
+    const Eigen::VectorXd weights = voronoi_masses(body());
+    Points mirrored = body().vertices;
+    mirrored.col(0) = -mirrored.col(0);
+    const Alignment found = procrustes({mirrored}, body().vertices, weights, true);
+    EXPECT_GT(largest_distance(found.shapes[0], body().vertices), .1);
+}
+
+TEST(PrincipalComponents, FindTheOneWayInWhichShapesDiffer) {
+    const Eigen::VectorXd weights = voronoi_masses(body());
+    std::vector<Points> shapes;
+    for (const double amount : {-2., -1., 0., 1., 2.})
+        shapes.push_back(moved(bent(amount * .01), 1, amount, {amount, 0, 0}));
+    const Alignment alignment = procrustes(shapes, body().vertices, weights, false);
+    const Components found = principal_components(alignment, weights, 10);
+    ASSERT_EQ(found.variance.size(), 4);
+    EXPECT_GT(found.variance[0] / found.total_variance, .999);
+    EXPECT_NEAR(found.variance.sum(), found.total_variance, 1e-12);
+    // Equal steps in the bend are equal steps in the score.
+    const Eigen::VectorXd steps = found.scores.col(0).tail(4) - found.scores.col(0).head(4);
+    EXPECT_LT((steps.array() / steps.mean() - 1).abs().maxCoeff(), .02);
+    // Scores and displacements rebuild the shapes.
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        Points rebuilt = alignment.mean;
+        for (Eigen::Index k = 0; k < 4; ++k)
+            if (found.variance[k] > 1e-20)
+                rebuilt += found.scores(Eigen::Index(i), k) / std::sqrt(found.variance[k]) *
+                           found.displacement[std::size_t(k)];
+        EXPECT_LT(largest_distance(rebuilt, alignment.shapes[i]), 1e-6);
+    }
+}
+
+TEST(PrincipalComponents, OfOneShapeAreNone) {
+    const Eigen::VectorXd weights = voronoi_masses(body());
+    const Alignment alignment = procrustes({body().vertices}, body().vertices, weights, true);
+    EXPECT_EQ(principal_components(alignment, weights, 5).variance.size(), 0);
+}
+
+TEST(Outliers, AreFarFromTheOthers) {
+    EXPECT_THAT(outliers({1, 1.1, .9, 1.05, 5}), ElementsAre(false, false, false, false, true));
+    EXPECT_THAT(outliers({1, 1.1, .9, 1.05, 1.2}), Each(false));
+    EXPECT_THAT(outliers({1, 50}), Each(false));
+}
+
+Answer identity_answer() {
+    const PointMap at = shapes::at_vertices(body());
+    return {{"a.off", "b.off", body(), body(), at, at}, {}};
+}
+
+/// All vertices go to one wrong place, the tip that is numbered last.
+Answer wrong_answer() {
+    Answer answer = identity_answer();
+    const PointMap at = answer.map.there;
+    for (SurfacePoint& point : answer.map.there) point = at.back();
+    answer.from_first = at;
+    return answer;
+}
+
+Answer right_answer_of_another() {
+    Answer answer = identity_answer();
+    answer.from_first = answer.map.there;
+    return answer;
+}
+
+TEST(CorrespondingPoints, AreTheImagesOfASingleTemplate) {
+    EXPECT_LT(largest_distance(corresponding_points({identity_answer()}), body().vertices), 1e-12);
+}
+
+TEST(CorrespondingPoints, OneWrongTemplateOfThreeIsOutvoted) {
+    const std::vector<Answer> answers{identity_answer(), wrong_answer(), right_answer_of_another()};
+    EXPECT_LT(largest_distance(corresponding_points(answers), body().vertices), 1e-9);
+}
+
+TEST(CorrespondingPoints, WithoutAnImageAreNotNumbers) {
+    Answer answer = identity_answer();
+    answer.map.there[3] = {};
+    const Points points = corresponding_points({answer});
+    EXPECT_TRUE(points.row(3).hasNaN());
+    EXPECT_TRUE(points.row(4).allFinite());
+}
+
+TEST(TransferredLandmarks, AreTrustedWhereTheWayBackLeadsHome) {
+    const PointMap landmarks{{5, {.2, .3, .5}}, {50, {1, 0, 0}}};
+    const TransferredLandmarks found = transfer_landmarks({identity_answer()}, {landmarks});
+    EXPECT_LT((found.positions.row(0).transpose() - position(body(), landmarks[0])).norm(), 1e-9);
+    EXPECT_THAT(found.confidence[0], DoubleNear(1, 1e-9));
+    const TransferredLandmarks wrong = transfer_landmarks({wrong_answer()}, {landmarks});
+    EXPECT_LT(wrong.confidence[0], .1);
+    const TransferredLandmarks disputed =
+        transfer_landmarks({identity_answer(), wrong_answer()}, {landmarks, landmarks});
+    EXPECT_GT(disputed.spread[0], .1);
+    EXPECT_LT(disputed.confidence[0], .1);
+    const TransferredLandmarks absent = transfer_landmarks({identity_answer()}, {{SurfacePoint{}}});
+    EXPECT_EQ(absent.confidence[0], 0);
+    EXPECT_TRUE(absent.positions.row(0).hasNaN());
+}
+
+}  // namespace
+}  // namespace varimap
