@@ -12,7 +12,7 @@
 
 namespace varimap {
 
-/// The six per-surface artifacts a solving stage reads, as its positional arguments, with their lineage
+/// The six per-surface (or per-domain) artifacts a solving stage reads, as its positional arguments, with their lineage
 /// checked.
 class PairInputs {
   public:
