@@ -94,8 +94,6 @@ std::string finer_surface(const Header& surface) {
 
 }  // namespace
 
-namespace {
-
 Artifact<Surface> read_surface_or_domain(Stage& stage, const std::string& role, const std::string& path) {
     if (read_header(path).kind != ArtifactType<Domain>::kind) return stage.read<Surface>(role, path);
     Artifact<Domain> domain = stage.read<Domain>(role, path);
@@ -104,8 +102,6 @@ Artifact<Surface> read_surface_or_domain(Stage& stage, const std::string& role, 
     surface.value.input = surface.value.mesh;
     return surface;
 }
-
-}  // namespace
 
 PairInputs::PairInputs(Stage& stage, const std::string& kind)
     : kind_(kind), A_(declare(stage, "A." + kind)), B_(declare(stage, "B." + kind)) {}
