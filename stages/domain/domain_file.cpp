@@ -10,7 +10,9 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -111,8 +113,10 @@ void require_distinct(const Points& points, const std::string& path) {
                             order[n - 1], order[n]));
 }
 
-void measure(std::vector<DomainEdge>& edges, const Points& points) {
-    for (DomainEdge& edge : edges) edge.length = (points.row(edge.a) - points.row(edge.b)).norm();
+void measure(DomainFile& file) {
+    for (DomainEdge& edge : file.edges)
+        edge.length = (file.positions.row(edge.a) - file.positions.row(edge.b)).norm();
+    file.measured = true;
 }
 
 DomainEdge edge_between(int a, int b, double length = 0) {
@@ -123,7 +127,7 @@ DomainFile polyline_from_rows(const std::string& path) {
     std::vector<Vec3> points = rows_of_points(path);
     const bool closed = points.size() > least_points && points.front() == points.back();
     if (closed) points.pop_back();
-    DomainFile file{DomainKind::polyline, int(points.size()), to_points(points), {}};
+    DomainFile file{DomainKind::polyline, int(points.size()), to_points(points), {}, false};
     for (int i = 1; i < file.count; ++i) file.edges.push_back(edge_between(i - 1, i));
     if (closed) file.edges.push_back(edge_between(file.count - 1, 0));
     return file;
@@ -156,7 +160,7 @@ DomainFile polyline_from_obj(const std::string& path) {
         }
     }
     if (edges.empty()) throw InputError(path + ": has no lines (l); give a surface to varimap-preprocess");
-    return {DomainKind::polyline, int(points.size()), to_points(points), edges};
+    return {DomainKind::polyline, int(points.size()), to_points(points), edges, false};
 }
 
 /// Edges, each once. Loops, as on a matrix's diagonal, say nothing.
@@ -203,7 +207,7 @@ DomainFile graph_from_rows(const std::string& path) {
         edges.add(row, a, b, row.words().size() == 3 ? finite(row, 2, "weight") : 1);
         count = std::max({count, a + 1, b + 1});
     }
-    return {DomainKind::graph, count, {}, edges.edges()};
+    return {DomainKind::graph, count, {}, edges.edges(), false};
 }
 
 /// Not Eigen's unsupported MarketIO: it goes on after lines it cannot read, whose values it makes up.
@@ -235,16 +239,33 @@ DomainFile graph_from_matrix_market(const std::string& path) {
         if (a != b) edges.add(row, a, b, pattern ? 1 : finite(row, 2, "weight"));
     }
     if (read != entries) row.fail(fmt::format("{} entries, where its head promises {}", read, entries));
-    return {DomainKind::graph, int(count), {}, edges.edges()};
+    return {DomainKind::graph, int(count), {}, edges.edges(), false};
+}
+
+/// The edges of a mesh as wires.
+DomainFile graph_from_mesh(const std::string& path) {
+    const TriangleMesh mesh = read_mesh(path);
+    require_plain_faces(mesh, path);
+    DomainFile file{DomainKind::graph, mesh.vertex_count(), mesh.vertices, {}, false};
+    for (const auto& [a, b] : find_edges(mesh).vertices) file.edges.push_back(edge_between(a, b));
+    require_distinct(file.positions, path);
+    measure(file);
+    return file;
+}
+
+bool is_mesh(const std::string& end) {
+    return end == "off" || end == "ply" || end == "stl" || end == "obj";
 }
 
 DomainFile read_as(const std::string& path, DomainKind kind) {
     if (kind == DomainKind::graph)
-        return ending(path) == "mtx" ? graph_from_matrix_market(path) : graph_from_rows(path);
+        return is_mesh(ending(path))   ? graph_from_mesh(path)
+               : ending(path) == "mtx" ? graph_from_matrix_market(path)
+                                       : graph_from_rows(path);
     if (kind == DomainKind::polyline)
         return ending(path) == "obj" ? polyline_from_obj(path) : polyline_from_rows(path);
     const Points points = read_positions(path);
-    return {DomainKind::points, int(points.rows()), points, {}};
+    return {DomainKind::points, int(points.rows()), points, {}, false};
 }
 
 }  // namespace
@@ -260,7 +281,7 @@ DomainFile read_domain_file(const std::string& path, DomainKind kind) {
     require_enough(file.count, path);
     if (file.kind == DomainKind::polyline) {
         require_distinct(file.positions, path);
-        measure(file.edges, file.positions);
+        measure(file);
     }
     return file;
 }

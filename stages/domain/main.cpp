@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     Stage stage("domain", "A point set, curve or weighted graph, ready to be mapped as a surface is");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     const std::string& in =
-        stage.input("points", "rows of coordinates, OBJ with lines, rows of edges, or MatrixMarket");
+        stage.input("points", "rows of coordinates, OBJ with lines, rows of edges, MatrixMarket, or a mesh");
     const std::string& positions_in =
         stage.input_option("positions", "coordinates of a graph's points, row by row");
     const std::string& out =

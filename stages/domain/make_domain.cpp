@@ -95,8 +95,8 @@ std::vector<DomainEdge> joined(const DomainFile& file, const DomainParams& param
     if (file.kind == DomainKind::graph) {
         for (DomainEdge& edge : edges)
             edge.length = ambient ? (file.positions.row(edge.a) - file.positions.row(edge.b)).norm()
-                          : params.weights == EdgeWeights::similarity ? 1 / edge.length
-                                                                      : edge.length;
+                          : !file.measured && params.weights == EdgeWeights::similarity ? 1 / edge.length
+                                                                                        : edge.length;
     } else if (ambient || file.kind == DomainKind::points) {
         join_neighbours(file.positions, params.neighbours, edges);
         require_connected(file.count, edges, path, "more --neighbours may join them");

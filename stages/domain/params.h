@@ -46,7 +46,7 @@ struct DomainParams {
                  "what the file holds; auto: a graph in .mtx and .edges, polylines in .obj, points in others");
         list.add("distances", distances,
                  "intrinsic: along the curve, the graph, or from neighbour to neighbour; ambient: in space");
-        list.add("weights", weights, "of a graph's edges: similarity (length 1 / weight), or length");
+        list.add("weights", weights, "of a list of edges: similarity (length 1 / weight), or length");
         list.add("neighbours", neighbours, "points joined to each point (points; polylines in space)", 1,
                  1000);
         list.add("dimensions", dimensions, "of intrinsic coordinates at most", 1, 64);
