@@ -12,7 +12,9 @@ install(DIRECTORY common/varimap pipelines/in_memory/varimap TYPE INCLUDE FILES_
 install(PROGRAMS pipelines/varimap TYPE BIN)
 set(share ${CMAKE_INSTALL_DATADIR}/varimap)
 install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/script.sh DESTINATION ${share})
-install(PROGRAMS pipelines/bench pipelines/scaling pipelines/selftest pipelines/torus DESTINATION ${share})
+install(PROGRAMS pipelines/bench pipelines/debian-meshes pipelines/gallery pipelines/plot pipelines/scaling pipelines/selftest
+  pipelines/torus DESTINATION ${share})
+install(DIRECTORY pipelines/experiments DESTINATION ${share} USE_SOURCE_PERMISSIONS)
 install(DIRECTORY pipelines/help DESTINATION ${share})
 # The viewer's page, where it has been built: pipelines/view/build build/view/frame.html
 install(FILES ${PROJECT_BINARY_DIR}/view/frame.html DESTINATION ${share}/view OPTIONAL)
