@@ -9,10 +9,10 @@ namespace {
 
 /// A ball, and half a ring that stands on it.
 Body ball_with_handle(double size, bool has_handle) {
-    const double ring = 0.18 + 0.45 * size, tube = std::max(0.07, 0.28 * ring);
+    const double ring = 0.32 + 0.35 * size, tube = 0.2 * ring;
     constexpr double half = 0.01;  // of the axis that tells directions
     std::vector<Limb> limbs{{{-half, 0, 0}, {half, 0, 0}, 1, 1}};
-    constexpr int pieces = 12;
+    constexpr int pieces = 8;
     const auto at = [&](int piece) {
         const double angle = std::numbers::pi * piece / pieces;
         return Vec3(ring * std::cos(angle), 0, 1 - tube + 1.15 * ring * std::sin(angle));

@@ -16,6 +16,17 @@ void require_point(int point, const Domain& domain) {
         throw UsageError(fmt::format("--point {}: there are {} points", point, domain.mesh.vertex_count()));
 }
 
+/// Whether a vertex is on the near side; points of no surface always are.
+class FacesViewer {
+  public:
+    FacesViewer(const Domain& domain, const Points& seen)
+        : normals_(domain.is_surface() ? vertex_normals({seen, domain.mesh.faces}) : Points()) {}
+    bool operator()(int v) const { return normals_.rows() == 0 || normals_(v, 2) > 0; }
+
+  private:
+    Points normals_;
+};
+
 const std::string purple = "#7020a0", green = "#108030", black = "#202020";
 
 }  // namespace
@@ -31,12 +42,13 @@ std::string show_weights(const Domain& domain, const Basis& basis, int point, do
                                         2 * kernel.cwiseQuotient((own + diagonal.array()).matrix())};
     const char* names[3] = {"K / max K", "K / sqrt(K K)", "2 K / (K + K), Eq. 7"};
     const Points seen = domain.mesh.vertices * viewing_axes(domain.mesh.vertices);
+    const FacesViewer faces_viewer(domain, seen);
     Drawing drawing;
     for (int k = 0; k < 3; ++k) {
         const Frame frame(seen, k);
         drawing.domain(domain, colours_by_value(weights[k]), seen, frame);
-        for (Eigen::Index v = 0; v < kernel.size(); v += 5)
-            if (weights[k][v] > .5) drawing.dot(seen.row(v), 1.8 * weights[k][v], green, frame);
+        for (Eigen::Index v = 0; v < kernel.size(); v += 3)
+            if (weights[k][v] > .5 && faces_viewer(int(v))) drawing.dot(seen.row(v), 1.8 * weights[k][v], green, frame);
         drawing.dot(seen.row(point), 4, purple, frame);
         drawing.label(k, names[k]);
     }
@@ -49,9 +61,9 @@ std::string show_samples(const Domain& domain, const Hierarchy& hierarchy) {
     const std::vector<int>& samples = hierarchy.last_diffusion_level().samples;
     Drawing drawing;
     drawing.domain(domain, colours_by_value(Eigen::VectorXd::Zero(seen.rows())), seen, frame);
-    const Points normals = domain.is_surface() ? vertex_normals({seen, domain.mesh.faces}) : Points();
+    const FacesViewer faces_viewer(domain, seen);
     for (const int v : samples)
-        if (normals.rows() == 0 || normals(v, 2) > 0) drawing.dot(seen.row(v), 1.8, black, frame);
+        if (faces_viewer(v)) drawing.dot(seen.row(v), 1.8, black, frame);
     drawing.label(0, fmt::format("{} samples", samples.size()));
     return drawing.svg(1);
 }

@@ -12,20 +12,29 @@ namespace varimap {
 
 namespace {
 
+bool is_moderate(double value) {
+    return value >= 1 / largest_ratio && value <= largest_ratio;
+}
+
+bool are_moderate(const RowMatrix& values) {
+    return values.allFinite() && (values.size() == 0 || values.cwiseAbs().maxCoeff() <= largest_ratio);
+}
+
 void require_complete(const Domain& domain) {
     const Points& points = domain.mesh.vertices;
     const auto count = points.rows();
-    require<Domain>(count > 0 && points.allFinite(), "points");
+    require<Domain>(count > 0 && are_moderate(points), "points");
     require<Domain>(domain.mass.size() == count && are_masses(domain.mass), "masses");
     for (const DomainEdge& edge : domain.edges) {
         require<Domain>(0 <= edge.a && edge.a < edge.b && edge.b < count, "edges");
-        require<Domain>(std::isfinite(edge.length) && edge.length > 0, "lengths");
-        require<Domain>(std::isfinite(edge.conductance) && edge.conductance > 0, "conductances");
+        require<Domain>(is_moderate(edge.length), "lengths");
+        require<Domain>(is_moderate(edge.conductance), "conductances");
     }
+    require<Domain>(Eigen::Index(domain.edges.size()) >= count - 1, "edges");
     const std::vector<int> part = components(int(count), domain.edges);
     require<Domain>(std::all_of(part.begin(), part.end(), [](int p) { return p == 0; }), "edges");
     const RowMatrix& x = domain.coordinates;
-    require<Domain>(x.size() == 0 || (x.rows() == count && x.allFinite()), "coordinates");
+    require<Domain>(x.size() == 0 || (x.rows() == count && are_moderate(x)), "coordinates");
 }
 
 }  // namespace

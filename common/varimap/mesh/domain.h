@@ -47,6 +47,9 @@ void decode(const std::string& payload, Domain& domain);
 template <>
 Artifact<Domain> read_artifact<Domain>(const std::string& path);
 
+/// Lengths and conductances of a domain are within this factor of its size, lest squares overflow or vanish.
+inline constexpr double largest_ratio = 1e9;
+
 /// Per point, from 0: which of the parts that edges join it belongs to, numbered by their first points.
 std::vector<int> components(int points, const std::vector<DomainEdge>& edges);
 
