@@ -4,6 +4,7 @@
 #include "stages/show/show.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/results/plan.h"
 #include "varimap/spectral/spectral_check.h"
 #include "varimap/stage/stage_main.h"
 
@@ -40,6 +41,16 @@ std::string row(Stage& stage, const std::vector<std::string>& paths, const ShowP
     return show_row(A, B, diffusion.plan, params.point);
 }
 
+std::string centres(Stage& stage, const std::vector<std::string>& paths) {
+    const Surface A = read_surface_or_domain(stage, "A.surface", only(paths, 3, "centres")).value,
+                  B = read_surface_or_domain(stage, "B.surface", paths[1]).value;
+    const Plan plan = stage.read<Plan>("plan", paths[2]).value;
+    require_surfaces(plan, A, B);
+    if (plan.centre_A.rows() != A.mesh.vertex_count())
+        throw ArtifactError("'" + paths[2] + "' is of another surface than '" + paths[0] + "'");
+    return show_centres(A, B, plan.centre_A);
+}
+
 std::string wires(const std::vector<std::string>& paths) {
     const TriangleMesh mesh = read_mesh(only(paths, 1, "wires"));
     require_plain_faces(mesh, paths[0]);
@@ -54,14 +65,15 @@ int main(int argc, char** argv) {
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     const auto& what = stage.word("what",
                                   "weights (files: surface, basis), samples (surface, hierarchy), row (both "
-                                  "surfaces, diffusion) or wires (mesh)");
+                                  "surfaces, diffusion), centres (both surfaces, plan) or wires (mesh)");
     const auto& paths = stage.input_list("files", "what is shown");
     return stage.main(argc, argv, [&] {
         fmt::print("{}", what == "weights"   ? weights(stage, paths, params)
                          : what == "samples" ? samples(stage, paths)
                          : what == "row"     ? row(stage, paths, params)
+                         : what == "centres" ? centres(stage, paths)
                          : what == "wires"
                              ? wires(paths)
-                             : throw UsageError("show what? weights, samples, row or wires"));
+                             : throw UsageError("show what? weights, samples, row, centres or wires"));
     });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "varimap/core/error.h"
+#include "varimap/core/parallel.h"
 #include "varimap/picture/drawing.h"
 
 namespace varimap {
@@ -89,6 +90,20 @@ std::string show_row(const Domain& A, const Domain& B, const SamplePlan& plan, i
     drawing.label(0, fmt::format("one of {} samples", plan.samples_A.size()));
     drawing.label(1, fmt::format("{} entries among {} samples", entries, plan.samples_B.size()));
     return drawing.svg(2);
+}
+
+std::string show_centres(const Domain& A, const Domain& B, const Points& centres) {
+    const Points& b = B.mesh.vertices;
+    Eigen::VectorXd nearest(b.rows());
+    parallel_for_each_index(b.rows(), Eigen::Index(64), [&](Eigen::Index v) {
+        nearest[v] = std::sqrt((centres.rowwise() - b.row(v)).rowwise().squaredNorm().minCoeff());
+    });
+    const Eigen::Matrix3d axes = viewing_axes(b);
+    const Points seen = centres * axes;
+    Drawing drawing;
+    drawing.wires({centres, A.mesh.faces}, seen, {b * axes, 0});
+    drawing.label(0, fmt::format("mean distance to the nearest vertex {:.4f}", B.mass.dot(nearest)));
+    return drawing.svg(1);
 }
 
 std::string show_wires(const TriangleMesh& mesh) {

@@ -20,7 +20,11 @@ std::string show_samples(const Domain& domain, const Hierarchy& hierarchy);
 /// to which its row has entries, larger for more mass.
 std::string show_row(const Domain& A, const Domain& B, const SamplePlan& plan, int point);
 
-/// A mesh as wires (Fig. 5, 11, 19).
+/// A's mesh as wires, its vertices at their centres near B (Fig. 11), and how far B's vertices are from the
+/// nearest of them in the mean, in units of sqrt(area).
+std::string show_centres(const Domain& A, const Domain& B, const Points& centres);
+
+/// A mesh as wires (Fig. 5, 19).
 std::string show_wires(const TriangleMesh& mesh);
 
 }  // namespace varimap
