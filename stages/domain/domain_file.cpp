@@ -108,9 +108,8 @@ void require_distinct(const Points& points, const std::string& path) {
     std::sort(order.begin(), order.end(), [&](int i, int k) { return key(i) < key(k); });
     for (std::size_t n = 1; n < order.size(); ++n)
         if (points.row(order[n]) == points.row(order[n - 1]))
-            throw InputError(
-                fmt::format("{}: points {} and {} (from 0) lie at the same place; leave one out", path,
-                            order[n - 1], order[n]));
+            throw InputError(fmt::format("{}: points {} and {} (from 0) lie at the same place; leave one out",
+                                         path, order[n - 1], order[n]));
 }
 
 void measure(DomainFile& file) {
@@ -168,12 +167,14 @@ class EdgeCollector {
   public:
     void add(const TextScanner& row, int a, int b, double weight) {
         if (!(weight > 0))
-            row.fail(fmt::format("the weight {} of the edge {} {} is not positive; a graph needs positive weights",
-                                 weight, a, b));
+            row.fail(
+                fmt::format("the weight {} of the edge {} {} is not positive; a graph needs positive weights",
+                            weight, a, b));
         if (a == b) return;
         const auto [known, is_new] = weight_.emplace(std::minmax(a, b), weight);
         if (!is_new && known->second != weight)
-            row.fail(fmt::format("the edge {} {} has weight {} here and {} before", a, b, weight, known->second));
+            row.fail(
+                fmt::format("the edge {} {} has weight {} here and {} before", a, b, weight, known->second));
     }
     std::vector<DomainEdge> edges() const {
         std::vector<DomainEdge> result;
@@ -227,7 +228,8 @@ DomainFile graph_from_matrix_market(const std::string& path) {
         row.fail("entries of a graph are real, integer or pattern");
     if (row.words()[4] != "symmetric" && row.words()[4] != "general")
         row.fail("the matrix of a graph is symmetric, or general with equal halves");
-    if (!next_row() || row.words().size() != 3) row.fail("the numbers of rows, columns and entries are missing");
+    if (!next_row() || row.words().size() != 3)
+        row.fail("the numbers of rows, columns and entries are missing");
     const long long count = row.integer(0, "number of rows"), entries = row.integer(2, "number of entries");
     if (count != row.integer(1, "number of columns")) row.fail("the matrix of a graph is square");
     if (count < 1 || count > 10'000'000) row.fail(fmt::format("{} points are none or too many", count));

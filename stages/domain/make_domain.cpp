@@ -48,7 +48,8 @@ void join_neighbours(const Points& points, int count, std::vector<DomainEdge>& e
 void require_connected(int points, const std::vector<DomainEdge>& edges, const std::string& path,
                        const char* advice) {
     if (points > int(edges.size()) + 1)
-        throw InputError(fmt::format("{}: {} edges cannot join {} points; {}", path, edges.size(), points, advice));
+        throw InputError(
+            fmt::format("{}: {} edges cannot join {} points; {}", path, edges.size(), points, advice));
     const std::vector<int> part = components(points, edges);
     const auto other = std::find_if(part.begin(), part.end(), [](int p) { return p > 0; });
     if (other != part.end())
@@ -110,8 +111,8 @@ void require_moderate(const Domain& domain, const std::string& path) {
     for (const DomainEdge& edge : domain.edges)
         if (!(edge.length >= 1 / largest_ratio && edge.length <= largest_ratio))
             throw InputError(fmt::format(
-                "{}: the edge {} {} is {:.3g} times as long as all is large; lengths may differ by {:.0e}", path,
-                edge.a, edge.b, edge.length, largest_ratio));
+                "{}: the edge {} {} is {:.3g} times as long as all is large; lengths may differ by {:.0e}",
+                path, edge.a, edge.b, edge.length, largest_ratio));
 }
 
 /// Where the file names no places: those of the first intrinsic coordinates.

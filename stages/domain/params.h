@@ -42,8 +42,9 @@ struct DomainParams {
     int dimensions = 16;
 
     void describe(ParameterList& list) {
-        list.add("kind", kind,
-                 "what the file holds; auto: a graph in .mtx and .edges, polylines in .obj, points in others");
+        list.add(
+            "kind", kind,
+            "what the file holds; auto: a graph in .mtx and .edges, polylines in .obj, points in others");
         list.add("distances", distances,
                  "intrinsic: along the curve, the graph, or from neighbour to neighbour; ambient: in space");
         list.add("weights", weights, "of a list of edges: similarity (length 1 / weight), or length");

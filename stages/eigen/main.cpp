@@ -7,7 +7,8 @@ int main(int argc, char** argv) {
     EigenSolverOptions options;
     Stage stage("eigen", "Smallest eigenpairs of a surface's Laplacian (Sec. 3.1)");
     stage.parameters([&](ParameterList& list) { describe(list, options); });
-    const std::string& in = stage.input("surface", "surface of varimap-coarsen or varimap-preprocess, or domain of varimap-domain");
+    const std::string& in = stage.input(
+        "surface", "surface of varimap-coarsen or varimap-preprocess, or domain of varimap-domain");
     const std::string& out =
         stage.output(ArtifactType<Basis>::kind, ArtifactType<Basis>::schema, "basis to write");
     return stage.main(argc, argv, [&] {

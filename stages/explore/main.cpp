@@ -43,7 +43,8 @@ Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::str
 void require_surface(const Surface& surface) {
     if (!surface.is_surface())
         throw InputError(
-            "varimap-explore looks for maps between surfaces only; for other domains give varimap-diffuse landmarks, "
+            "varimap-explore looks for maps between surfaces only; for other domains give varimap-diffuse "
+            "landmarks, "
             "or --start wasserstein");
 }
 

@@ -127,8 +127,8 @@ GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& param
 }
 
 /// The same bodies for every seed, differently tessellated.
-GeneratedPair merged_pair(const std::string& name, std::pair<shapes::Body, shapes::Body> bodies, unsigned seed,
-                          const GenerateParams& params) {
+GeneratedPair merged_pair(const std::string& name, std::pair<shapes::Body, shapes::Body> bodies,
+                          unsigned seed, const GenerateParams& params) {
     shapes::Random random(seed);
     const auto meshed = [&](shapes::Body& body) {
         const int vertices = vertices_of(params, random);

@@ -52,8 +52,9 @@ class GromovCost {
 void require_few(const Domain& domain) {
     constexpr int most_points = 4000;
     if (domain.mass.size() > most_points)
-        throw UsageError(fmt::format("{} points are too many for all distances, {} are allowed; coarsen the surface",
-                                     domain.mass.size(), most_points));
+        throw UsageError(
+            fmt::format("{} points are too many for all distances, {} are allowed; coarsen the surface",
+                        domain.mass.size(), most_points));
 }
 
 std::vector<int> all_points(const Domain& domain) {
@@ -96,8 +97,8 @@ Plan gromov_wasserstein(const Domain& A, const Domain& B, const GromovParams& pa
                      potentials, coupling);
         plan = coupling.value.reshaped<Eigen::RowMajor>(plan.rows(), plan.cols());
         const double energy = costs.of(plan).cwiseProduct(plan).sum();
-        trace.push_back({0, 1, n, int(plan.rows()), int(plan.cols()), report.iterations, double(plan.size()), gamma,
-                         energy, report.marginal_error});
+        trace.push_back({0, 1, n, int(plan.rows()), int(plan.cols()), report.iterations, double(plan.size()),
+                         gamma, energy, report.marginal_error});
         if (std::abs(before - energy) <= params.tolerance * energy) break;
         before = energy;
     }

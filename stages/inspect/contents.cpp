@@ -246,8 +246,9 @@ std::pair<const std::string, Kind> kind_of() {
 
 const std::map<std::string, Kind>& kinds() {
     static const std::map<std::string, Kind> table{
-        kind_of<Surface>(),   kind_of<Domain>(), kind_of<Basis>(), kind_of<Hierarchy>(),  kind_of<Candidates>(),
-        kind_of<Diffusion>(), kind_of<Plan>(),  kind_of<SurfaceMap>(), kind_of<QualityNumbers>()};
+        kind_of<Surface>(),   kind_of<Domain>(),     kind_of<Basis>(),
+        kind_of<Hierarchy>(), kind_of<Candidates>(), kind_of<Diffusion>(),
+        kind_of<Plan>(),      kind_of<SurfaceMap>(), kind_of<QualityNumbers>()};
     return table;
 }
 

@@ -82,7 +82,8 @@ int main(int argc, char** argv) {
         stage.write_file(folder + "/source_partners.csv", table(of_A, A, B));
         stage.write_file(folder + "/target_partners.csv", table(of_B, B, A));
         stage.write_file(folder + "/partners.json", both.dump(1) + "\n");
-        stage.write_file(folder + "/partners.svg", picture_of({A, of_A}, {B, of_B}, plan.centre_A, params.layout));
+        stage.write_file(folder + "/partners.svg",
+                         picture_of({A, of_A}, {B, of_B}, plan.centre_A, params.layout));
         log("{}", both.dump());
     });
 }

@@ -36,8 +36,7 @@ std::string together(const PicturedDomain& source, const PicturedDomain& target,
     both << seen_a, seen_b;
     const Frame frame(both, 0);
     Drawing drawing;
-    for (Eigen::Index i = 0; i < a.rows(); ++i)
-        drawing.line(seen_a.row(i), images.row(i), "#bbb", .6, frame);
+    for (Eigen::Index i = 0; i < a.rows(); ++i) drawing.line(seen_a.row(i), images.row(i), "#bbb", .6, frame);
     drawing.domain(source.domain, colours, seen_a, frame);
     drawing.domain(target.domain, carried(colours, target.partners), seen_b, frame);
     return drawing.svg(1);

@@ -8,8 +8,9 @@ namespace varimap {
 
 /// Where the first level that is solved begins.
 enum class RefineStart : int {
-    diffusion = 0,    ///< with the plan of varimap-diffuse
-    wasserstein = 1,  ///< with the Wasserstein-2 plan, on all points at once: Alg. 1 alone, as in Fig. 2 and 3
+    diffusion = 0,  ///< with the plan of varimap-diffuse
+    wasserstein =
+        1,  ///< with the Wasserstein-2 plan, on all points at once: Alg. 1 alone, as in Fig. 2 and 3
 };
 template <>
 struct EnumNames<RefineStart> {
@@ -23,7 +24,7 @@ struct RefineParams {
     double last_metric_weight = 0;  ///< mu on the last level
     double shape_weight = 0.25;     ///< of add_shape_term beside Eq. (3), as in varimap-diffuse
     RefineStart start = RefineStart::diffusion;
-    int levels = 0;                 ///< stop after this many Euclidean levels; 0: all
+    int levels = 0;  ///< stop after this many Euclidean levels; 0: all
 
     RefineParams() {
         // Chosen by hand on the known pairs, not swept: sliding along the surface in small steps is left to

@@ -65,9 +65,10 @@ int first_level(const PairContext& context, const RefineParams& params) {
     const int points = std::max(int(context.A().surface.mass.size()), int(context.B().surface.mass.size()));
     constexpr int most_points = 3000;  // every pair of points has an entry
     if (points > most_points)
-        throw UsageError(fmt::format("--start wasserstein: {} points are too many for a plan with all entries, "
-                                     "{} are allowed; start from the diffusion",
-                                     points, most_points));
+        throw UsageError(
+            fmt::format("--start wasserstein: {} points are too many for a plan with all entries, "
+                        "{} are allowed; start from the diffusion",
+                        points, most_points));
     return context.euclidean_levels() -
            std::min(context.A().hierarchy.full_levels(), context.B().hierarchy.full_levels());
 }
@@ -86,20 +87,20 @@ Plan refine(const PairContext& context, const Diffusion& diffusion, const Refine
     for (int l = first; l < levels; ++l) {
         descent.enter(level_with_terms(l, context, params));
         const bool anew = l == first && params.start == RefineStart::wasserstein;
-        const Start start =
-            anew ? Start{wasserstein_centres(descent.level(), context, params.alternation), {}}
-                 : descent.hand_down(solution.plan);
-        solution = descent.solve(start,
-                                 {.index = first_index + l,
-                                  // Neighbourhoods of the last level are too small to move a patch.
-                                  .ironed = l + 1 < all,
-                                  .last = l + 1 == levels});
+        const Start start = anew
+                                ? Start{wasserstein_centres(descent.level(), context, params.alternation), {}}
+                                : descent.hand_down(solution.plan);
+        solution = descent.solve(start, {.index = first_index + l,
+                                         // Neighbourhoods of the last level are too small to move a patch.
+                                         .ironed = l + 1 < all,
+                                         .last = l + 1 == levels});
     }
     Plan plan;
     plan.plan = to_sample_plan(descent.level(), solution.plan, params.alternation.area_bound);
-    const Centres centres = levels < all               ? spread(solution.plan, descent, context, params)
-                            : has_coordinates(context) ? centres_in_space(descent.level(), solution.plan, context)
-                                                       : solution.step.centres;
+    const Centres centres = levels < all ? spread(solution.plan, descent, context, params)
+                            : has_coordinates(context)
+                                ? centres_in_space(descent.level(), solution.plan, context)
+                                : solution.step.centres;
     plan.centre_A = space_part(centres.row);
     plan.centre_B = space_part(centres.column);
     if (!plan.centre_A.allFinite() || !plan.centre_B.allFinite())

@@ -14,7 +14,8 @@ using namespace varimap;
 
 const std::string& only(const std::vector<std::string>& paths, std::size_t wanted, const std::string& what) {
     if (paths.size() != wanted)
-        throw UsageError(fmt::format("{} needs {} files, not {}; --help explains", what, wanted, paths.size()));
+        throw UsageError(
+            fmt::format("{} needs {} files, not {}; --help explains", what, wanted, paths.size()));
     return paths.front();
 }
 

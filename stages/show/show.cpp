@@ -49,7 +49,8 @@ std::string show_weights(const Domain& domain, const Basis& basis, int point, do
         const Frame frame(seen, k);
         drawing.domain(domain, colours_by_value(weights[k]), seen, frame);
         for (Eigen::Index v = 0; v < kernel.size(); v += 3)
-            if (weights[k][v] > .5 && faces_viewer(int(v))) drawing.dot(seen.row(v), 1.8 * weights[k][v], green, frame);
+            if (weights[k][v] > .5 && faces_viewer(int(v)))
+                drawing.dot(seen.row(v), 1.8 * weights[k][v], green, frame);
         drawing.dot(seen.row(point), 4, purple, frame);
         drawing.label(k, names[k]);
     }

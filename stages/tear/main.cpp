@@ -17,11 +17,13 @@ TriangleMesh read_plain(const std::string& path) {
     return mesh;
 }
 
-void require_whole(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to, const std::string& path) {
+void require_whole(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to,
+                   const std::string& path) {
     if (int(map.size()) != from.vertex_count() || !are_points(map, to.face_count()))
         throw InputError(path + ": is no map between these meshes; give the tables of their own varimap map");
     for (const SurfacePoint& image : map)
-        if (image.face < 0) throw InputError(path + ": a vertex has no image; varimap-tear judges whole maps");
+        if (image.face < 0)
+            throw InputError(path + ": a vertex has no image; varimap-tear judges whole maps");
 }
 
 }  // namespace
@@ -30,8 +32,10 @@ int main(int argc, char** argv) {
     TearOptions options;
     Stage stage("tear", "Where a map tears, and what it is like elsewhere (Fig. 17)");
     stage.parameters([&](ParameterList& list) {
-        list.add("stretch", options.stretch, "an edge is torn where it becomes so many times as long", 1.0, 1e6);
-        list.add("distance", options.distance, "elsewhere is farther from there; units of sqrt(area)", 0.0, 10.0);
+        list.add("stretch", options.stretch, "an edge is torn where it becomes so many times as long", 1.0,
+                 1e6);
+        list.add("distance", options.distance, "elsewhere is farther from there; units of sqrt(area)", 0.0,
+                 10.0);
     });
     const auto& source_path = stage.input("source-mesh", "mesh the map starts from");
     const auto& target_path = stage.input("target-mesh", "mesh the map leads to");

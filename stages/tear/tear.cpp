@@ -56,7 +56,8 @@ TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target
     TearReport report;
     const auto edges = find_edges(source).vertices;
     const auto stretch_of = [&](int a, int b) {
-        return (images.row(a) - images.row(b)).norm() / (source.vertices.row(a) - source.vertices.row(b)).norm();
+        return (images.row(a) - images.row(b)).norm() /
+               (source.vertices.row(a) - source.vertices.row(b)).norm();
     };
     std::vector<int> torn;
     std::vector<char> is_torn(std::size_t(source.vertex_count()), 0);
@@ -71,7 +72,8 @@ TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target
     report.near_area_percent = area_percent(source, near);
     const auto is_near = [&](int v) { return near[std::size_t(v)] != 0; };
     for (const auto& [a, b] : edges)
-        if (!is_near(a) && !is_near(b)) report.largest_stretch = std::max(report.largest_stretch, stretch_of(a, b));
+        if (!is_near(a) && !is_near(b))
+            report.largest_stretch = std::max(report.largest_stretch, stretch_of(a, b));
     for (const int f : verify_map(there, source, target).reversed_faces)
         report.reversed_elsewhere +=
             !is_near(source.faces(f, 0)) && !is_near(source.faces(f, 1)) && !is_near(source.faces(f, 2));

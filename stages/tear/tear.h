@@ -6,16 +6,16 @@
 
 namespace varimap {
 
-/// Where a map tears, as one between surfaces of different genus must (Fig. 17), and what it is like elsewhere.
-/// All lengths are in units of the square root of the area of the surface they are on.
+/// Where a map tears, as one between surfaces of different genus must (Fig. 17), and what it is like
+/// elsewhere. All lengths are in units of the square root of the area of the surface they are on.
 struct TearReport {
-    int torn_edges = 0;               ///< stretched to more than `stretch` times their length
-    double torn_area_percent = 0;     ///< of the triangles that have such an edge
-    double near_area_percent = 0;     ///< of those within `distance` of such an edge, in space
-    int reversed_elsewhere = 0;       ///< reversed triangles (verification.h) farther from it
-    double largest_stretch = 0;       ///< of edges farther from it
-    double returned_percent = 0;      ///< of the target's vertices whose image is farther from it: those that come
-                                      ///< back to within `distance` through both maps, so are covered once
+    int torn_edges = 0;            ///< stretched to more than `stretch` times their length
+    double torn_area_percent = 0;  ///< of the triangles that have such an edge
+    double near_area_percent = 0;  ///< of those within `distance` of such an edge, in space
+    int reversed_elsewhere = 0;    ///< reversed triangles (verification.h) farther from it
+    double largest_stretch = 0;    ///< of edges farther from it
+    double returned_percent = 0;   ///< of the target's vertices whose image is farther from it: those that
+                                  ///< come back to within `distance` through both maps, so are covered once
 };
 
 struct TearOptions {

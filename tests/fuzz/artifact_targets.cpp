@@ -126,8 +126,8 @@ Target domain_file() {
                 for (const char* ending : {".xyz", ".edges", ".mtx", ".obj"}) {
                     const ScratchFile file(bytes, ending);
                     try {
-                        const Domain made =
-                            make_domain(read_domain_file(file.path(), DomainKind::automatic), {}, file.path());
+                        const Domain made = make_domain(read_domain_file(file.path(), DomainKind::automatic),
+                                                        {}, file.path());
                         Domain back;
                         decode(encode(made), back);
                     } catch (const InputError&) {

@@ -101,8 +101,9 @@ TEST_F(DomainFiles, EdgesAndMatrixMarketGiveTheSameGraph) {
 TEST_F(DomainFiles, AMeshIsAGraphOfItsEdges) {
     DomainParams params;
     params.kind = DomainKind::graph;
-    const Domain wires = make("tetrahedron.off",
-                              "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n", params);
+    const Domain wires =
+        make("tetrahedron.off",
+             "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n", params);
     EXPECT_EQ(wires.edges.size(), 6u);
     EXPECT_FALSE(wires.is_surface());
 }
@@ -142,7 +143,8 @@ TEST_F(DomainFiles, ArtifactsComeBackAsTheyWere) {
 
 TEST_F(DomainFiles, BadInputIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refusal("two.edges", "0 1\n1 2\n2 0\n3 4\n"), HasSubstr("falls into 2 parts: point 3"));
-    EXPECT_THAT(refusal("far.edges", "0 1\n1 2\n2 999999\n"), HasSubstr("3 edges cannot join 1000000 points"));
+    EXPECT_THAT(refusal("far.edges", "0 1\n1 2\n2 999999\n"),
+                HasSubstr("3 edges cannot join 1000000 points"));
     EXPECT_THAT(refusal("tiny.edges", "0 1 1\n1 2 1\n2 3 1e-300\n"), HasSubstr("times as long"));
     EXPECT_THAT(refusal("negative.edges", "0 1 1\n1 2 -3\n"), HasSubstr("negative.edges:2: the weight -3"));
     EXPECT_THAT(refusal("zero.edges", "0 1 0\n"), HasSubstr("not positive"));
@@ -158,7 +160,8 @@ TEST_F(DomainFiles, BadInputIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refusal("far.edges", "0 1\n1 99999999999\n"), HasSubstr("there is no point 99999999999"));
     EXPECT_THAT(refusal("cut.mtx", "%%MatrixMarket matrix coordinate real symmetric\n4 4 3\n2 1 1\n"),
                 HasSubstr("1 entries, where its head promises 3"));
-    EXPECT_THAT(refusal("array.mtx", "%%MatrixMarket matrix array real general\n2 2\n"), HasSubstr("array.mtx:1"));
+    EXPECT_THAT(refusal("array.mtx", "%%MatrixMarket matrix array real general\n2 2\n"),
+                HasSubstr("array.mtx:1"));
     EXPECT_THAT(refusal("no_lines.obj", "v 0 0 0\nv 1 0 0\n"), HasSubstr("has no lines"));
     DomainParams ambient;
     ambient.distances = Distances::ambient;

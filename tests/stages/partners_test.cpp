@@ -50,7 +50,8 @@ SurfaceData data_of(const Domain& domain, int neighbours) {
 double kept(Distances distances) {
     DomainParams params;
     params.distances = distances;
-    const Domain line = make_domain(curve(true), params, "line"), round = make_domain(curve(false), params, "round");
+    const Domain line = make_domain(curve(true), params, "line"),
+                 round = make_domain(curve(false), params, "round");
     const PairContext context(data_of(line, 25), data_of(round, 25), {});
     DiffuseParams diffuse_params;
     diffuse_params.start = FirstCentres::wasserstein;

@@ -107,8 +107,8 @@ PairInputs::PairInputs(Stage& stage, const std::string& kind)
     : kind_(kind), A_(declare(stage, "A." + kind)), B_(declare(stage, "B." + kind)) {}
 
 PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& role) {
-    const std::string& surface =
-        stage.input(role + "surface", "surface of varimap-coarsen or varimap-preprocess, or domain of varimap-domain");
+    const std::string& surface = stage.input(
+        role + "surface", "surface of varimap-coarsen or varimap-preprocess, or domain of varimap-domain");
     const std::string& basis = stage.input(role + "basis", "basis of varimap-eigen");
     const std::string& hierarchy = stage.input(role + "hierarchy", "hierarchy of varimap-hierarchy");
     return {surface, basis, hierarchy};

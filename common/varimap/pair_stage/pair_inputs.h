@@ -15,8 +15,8 @@ namespace varimap {
 /// A surface, or another domain as SurfaceData holds it.
 Artifact<Surface> read_surface_or_domain(Stage& stage, const std::string& role, const std::string& path);
 
-/// The six per-surface (or per-domain) artifacts a solving stage reads, as its positional arguments, with their lineage
-/// checked.
+/// The six per-surface (or per-domain) artifacts a solving stage reads, as its positional arguments, with
+/// their lineage checked.
 class PairInputs {
   public:
     /// `kind`: what their roles begin with, behind the side: "" or "sketch.".

@@ -116,12 +116,13 @@ void Drawing::faces(const TriangleMesh& seen, const Colours* colours, const Fram
         }
         const double light = .55 + .45 * face_normal(seen, f).normalized().z();
         const std::string fill = colours ? hex(light * colour) : "#fff", stroke = colours ? fill : "#445";
-        print(text_, "<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>\n", corners, fill,
-              stroke, colours ? 1 : .4);
+        print(text_, "<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\"/>\n", corners,
+              fill, stroke, colours ? 1 : .4);
     }
 }
 
-void Drawing::dot(const Eigen::RowVector3d& point, double radius, const std::string& colour, const Frame& frame) {
+void Drawing::dot(const Eigen::RowVector3d& point, double radius, const std::string& colour,
+                  const Frame& frame) {
     const Eigen::Array2d at = frame(point);
     print(text_, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\"/>\n", at.x(), at.y(), radius,
           colour);
@@ -130,19 +131,24 @@ void Drawing::dot(const Eigen::RowVector3d& point, double radius, const std::str
 void Drawing::line(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const std::string& colour,
                    double width, const Frame& frame) {
     const Eigen::Array2d from = frame(a), to = frame(b);
-    print(text_, "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-          from.x(), from.y(), to.x(), to.y(), colour, width);
+    print(
+        text_,
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
+        from.x(), from.y(), to.x(), to.y(), colour, width);
 }
 
 void Drawing::label(int column, const std::string& text) {
-    print(text_, "<text x=\"{}\" y=\"16\" font-family=\"sans-serif\" font-size=\"13\" text-anchor=\"middle\">{}</text>\n",
+    print(text_,
+          "<text x=\"{}\" y=\"16\" font-family=\"sans-serif\" font-size=\"13\" "
+          "text-anchor=\"middle\">{}</text>\n",
           (column + .5) * panel, text);
 }
 
 std::string Drawing::svg(int columns) const {
-    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-                       "viewBox=\"0 0 {0} {1}\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
-                       columns * panel, panel, text_);
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+        "viewBox=\"0 0 {0} {1}\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
+        columns * panel, panel, text_);
 }
 
 }  // namespace varimap

@@ -10,8 +10,8 @@ namespace varimap {
 /// Colours, one per row: red, green and blue from 0 to 1.
 using Colours = RowMatrix;
 
-/// Directions to the right, up, and towards the viewer (columns). What lies in the plane of x and y is seen as
-/// it is, all else from where it is broadest.
+/// Directions to the right, up, and towards the viewer (columns). What lies in the plane of x and y is seen
+/// as it is, all else from where it is broadest.
 Eigen::Matrix3d viewing_axes(const Points& points);
 
 /// Colours by place: along a curve those of the rainbow, else one for each of the first three directions.
@@ -39,8 +39,8 @@ class Drawing {
     /// A white surface with its edges as wires.
     void wires(const TriangleMesh& mesh, const Points& seen, const Frame& frame);
     void dot(const Eigen::RowVector3d& point, double radius, const std::string& colour, const Frame& frame);
-    void line(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const std::string& colour, double width,
-              const Frame& frame);
+    void line(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const std::string& colour,
+              double width, const Frame& frame);
     void label(int column, const std::string& text);
     std::string svg(int columns) const;
 

@@ -25,7 +25,7 @@ class LevelBuilder {
   public:
     LevelBuilder(const Domain& domain, const Basis& basis, const GeodesicGraph& graph,
                  const HierarchyOptions& options)
-          : domain_(domain), basis_(basis), graph_(graph), options_(options) {}
+        : domain_(domain), basis_(basis), graph_(graph), options_(options) {}
 
     /// Seeds, then farthest vertices in diffusion distance until the level is dense or has `limit` samples;
     /// with no seeds from the most extreme vertex.

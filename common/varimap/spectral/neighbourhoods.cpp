@@ -30,7 +30,8 @@ struct BallSamples {
     std::vector<int> index;  ///< per vertex: its number among the samples, or -1
     Points normals;          ///< per vertex of a surface
 
-    BallSamples(const std::vector<int>& all, const Domain& domain) : samples(all), index(domain.mass.size(), -1) {
+    BallSamples(const std::vector<int>& all, const Domain& domain)
+        : samples(all), index(domain.mass.size(), -1) {
         if (domain.is_surface()) normals = vertex_normals(domain.mesh);
         for (size_t k = 0; k < samples.size(); ++k) index[samples[k]] = int(k);
     }
