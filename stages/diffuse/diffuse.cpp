@@ -11,32 +11,11 @@
 #include "varimap/multilevel/matching.h"
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/multilevel/vertex_images.h"
+#include "varimap/multilevel/wasserstein_centres.h"
 
 namespace varimap {
 
 namespace {
-
-/// Centres of the Wasserstein-2 plan between positions in space (Sec. 5, Initialization).
-Centres wasserstein_centres(const LevelPair& pair, const PairContext& context,
-                            const AlternationOptions& options) {
-    const RowMatrix a = sample_positions(context.A().surface, pair.A.level);
-    const RowMatrix b = sample_positions(context.B().surface, pair.B.level);
-    Coupling plan;
-    plan.support = Support::dense(int(a.rows()), int(b.rows()));
-    Eigen::VectorXd cost(plan.support.entries());
-    for (Eigen::Index i = 0; i < a.rows(); ++i)
-        for (Eigen::Index j = 0; j < b.rows(); ++j)
-            cost[i * b.rows() + j] = (a.row(i) - b.row(j)).squaredNorm();
-    Potentials potentials = Potentials::zero(int(a.rows()), int(b.rows()));
-    const TransportProblem problem{plan.support,
-                                   cost,
-                                   pair.A.side.mass,
-                                   pair.B.side.mass,
-                                   cost.maxCoeff() / options.gamma_divisor,
-                                   cost.maxCoeff() * options.background_factor};
-    sinkhorn(problem, {options.marginal_tolerance, options.sinkhorn_iterations}, potentials, plan);
-    return update_centres(pair.A.side, pair.B.side, plan).centres;
-}
 
 /// Coarsest level: the full plan, from centres at the origin unless the surfaces are aligned.
 Start coarsest_start(const LevelPair& pair, const PairContext& context, const DiffuseParams& params) {

@@ -7,11 +7,12 @@ int main(int argc, char** argv) {
     EigenSolverOptions options;
     Stage stage("eigen", "Smallest eigenpairs of a surface's Laplacian (Sec. 3.1)");
     stage.parameters([&](ParameterList& list) { describe(list, options); });
-    const std::string& in = stage.input("surface", "surface of varimap-coarsen or varimap-preprocess");
+    const std::string& in = stage.input(
+        "surface", "surface of varimap-coarsen or varimap-preprocess, or domain of varimap-domain");
     const std::string& out =
         stage.output(ArtifactType<Basis>::kind, ArtifactType<Basis>::schema, "basis to write");
     return stage.main(argc, argv, [&] {
-        const auto surface = stage.read<Surface>("surface", in);
+        const auto surface = stage.read<Domain>("surface", in);
         log("computing {} eigenpairs of {} vertices", options.count, surface.value.mesh.vertex_count());
         const Basis basis = compute_eigenbasis(surface.value, options);
         log("{} eigenpairs, lambda_2 {:.4g}, lambda_max {:.4g}, largest residual {:.2g}",

@@ -39,6 +39,15 @@ Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::str
     return std::move(self_maps.value);
 }
 
+/// Maps are judged by how they carry faces.
+void require_surface(const Surface& surface) {
+    if (!surface.is_surface())
+        throw InputError(
+            "varimap-explore looks for maps between surfaces only; for other domains give varimap-diffuse "
+            "landmarks, "
+            "or --start wasserstein");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -55,6 +64,8 @@ int main(int argc, char** argv) {
         2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
+        require_surface(A.surface);
+        require_surface(B.surface);
         Candidates self_maps_A, self_maps_B;
         if (!self_map_files.empty()) {
             self_maps_A = read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input);

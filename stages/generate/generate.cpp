@@ -9,11 +9,13 @@
 
 #include "stages/generate/families.h"
 #include "stages/generate/isometric.h"
+#include "stages/generate/merged.h"
 #include "stages/generate/meshes.h"
 #include "stages/generate/partner.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
+#include "varimap/mesh/coarsening.h"
 #include "varimap/mesh/io/mesh_file.h"
 
 namespace varimap {
@@ -101,11 +103,9 @@ Shape draw_member(int family, const GenerateParams& params, shapes::Random& rand
     throw InputError("limbs touch in every member that was drawn: take less variation or relief");
 }
 
-GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& params) {
-    shapes::Random random(16 * seed + unsigned(family));
-    const Shape source = draw_member(family, params, random), target = draw_member(family, params, random);
-    const Placement placed(random);
-    const std::string& name = shapes::family_names()[std::size_t(family)];
+/// What is known of the way from one posed body to another with the same limbs.
+GeneratedPair pair_of(const std::string& name, const Shape& source, const Shape& target, unsigned seed,
+                      const Placement& placed) {
     GeneratedPair pair{name, source.posed(), shapes::shuffled(placed(target.posed()), seed), {}};
     const shapes::Partner partner(source.body, target.body);
     std::vector<int> vertices;
@@ -118,6 +118,25 @@ GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& param
     const Shape images{target.body, shapes::make_mesh(partners, {})};
     pair.truth = true_pairs(vertices, placed(images.posed()).vertices, pair.target);
     return pair;
+}
+
+GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& params) {
+    shapes::Random random(16 * seed + unsigned(family));
+    const Shape source = draw_member(family, params, random), target = draw_member(family, params, random);
+    return pair_of(shapes::family_names()[std::size_t(family)], source, target, seed, Placement(random));
+}
+
+/// The same bodies for every seed, differently tessellated.
+GeneratedPair merged_pair(const std::string& name, std::pair<shapes::Body, shapes::Body> bodies,
+                          unsigned seed, const GenerateParams& params) {
+    shapes::Random random(seed);
+    const auto meshed = [&](shapes::Body& body) {
+        const int vertices = vertices_of(params, random);
+        const TriangleMesh fine = body.mesh(3 * vertices, random.rotation());
+        return Shape{std::move(body), coarsen(fine, vertices).mesh};
+    };
+    const Shape source = meshed(bodies.first), target = meshed(bodies.second);
+    return pair_of(name, source, target, seed, Placement(random));
 }
 
 void require_default(double value, double usual, const char* name) {
@@ -146,7 +165,8 @@ std::string landmarks(const GeneratedPair& pair) {
 
 std::vector<std::string> generated_families() {
     std::vector<std::string> names{"isometric"};
-    names.insert(names.end(), shapes::family_names().begin(), shapes::family_names().end());
+    for (const auto& others : {shapes::family_names(), shapes::merged_names()})
+        names.insert(names.end(), others.begin(), others.end());
     return names;
 }
 
@@ -162,6 +182,8 @@ GeneratedPair generate(const std::string& family, unsigned seed, const GenerateP
         require_default(params.relief, usual.relief, "relief");
         return isometric_pair(seed, params);
     }
+    if (auto bodies = shapes::merged_pair(family, params))
+        return merged_pair(family, std::move(*bodies), seed, params);
     const auto& names = shapes::family_names();
     const auto found = std::find(names.begin(), names.end(), family);
     if (found == names.end())

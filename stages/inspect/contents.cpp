@@ -49,6 +49,24 @@ void visit(const Surface& surface, ContentsVisitor& visitor) {
     visit_points("on_input", surface.on_input, visitor);
 }
 
+void visit(const Domain& domain, ContentsVisitor& visitor) {
+    std::vector<int> ends;
+    Eigen::VectorXd lengths(Eigen::Index(domain.edges.size()));
+    for (const DomainEdge& edge : domain.edges) {
+        lengths[Eigen::Index(ends.size() / 2)] = edge.length;
+        ends.push_back(edge.a);
+        ends.push_back(edge.b);
+    }
+    visitor.fact("points", fmt::format("{}", domain.mass.size()));
+    visitor.fact("edges", fmt::format("{}", domain.edges.size()));
+    visitor.fact("intrinsic coordinates", fmt::format("{}", domain.coordinates.cols()));
+    visitor.array("positions", view(domain.mesh.vertices));
+    visitor.array("mass", view(domain.mass));
+    visitor.array("edge_ends", view(ends));
+    visitor.array("edge_lengths", view(lengths));
+    visitor.array("coordinates", view(domain.coordinates));
+}
+
 void visit(const Basis& basis, ContentsVisitor& visitor) {
     visitor.fact("vertices", fmt::format("{}", basis.functions.rows()));
     visitor.fact("eigenpairs", fmt::format("{}", basis.functions.cols()));
@@ -228,8 +246,9 @@ std::pair<const std::string, Kind> kind_of() {
 
 const std::map<std::string, Kind>& kinds() {
     static const std::map<std::string, Kind> table{
-        kind_of<Surface>(),   kind_of<Basis>(), kind_of<Hierarchy>(),  kind_of<Candidates>(),
-        kind_of<Diffusion>(), kind_of<Plan>(),  kind_of<SurfaceMap>(), kind_of<QualityNumbers>()};
+        kind_of<Surface>(),   kind_of<Domain>(),     kind_of<Basis>(),
+        kind_of<Hierarchy>(), kind_of<Candidates>(), kind_of<Diffusion>(),
+        kind_of<Plan>(),      kind_of<SurfaceMap>(), kind_of<QualityNumbers>()};
     return table;
 }
 

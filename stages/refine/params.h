@@ -1,8 +1,21 @@
 #pragma once
 
+#include <array>
+
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {
+
+/// Where the first level that is solved begins.
+enum class RefineStart : int {
+    diffusion = 0,  ///< with the plan of varimap-diffuse
+    wasserstein =
+        1,  ///< with the Wasserstein-2 plan, on all points at once: Alg. 1 alone, as in Fig. 2 and 3
+};
+template <>
+struct EnumNames<RefineStart> {
+    static constexpr std::array names{"diffusion", "wasserstein"};
+};
 
 struct RefineParams {
     AlternationOptions alternation;
@@ -10,7 +23,8 @@ struct RefineParams {
     double metric_weight = 1;       ///< mu of the mixed metric on all but the last level
     double last_metric_weight = 0;  ///< mu on the last level
     double shape_weight = 0.25;     ///< of add_shape_term beside Eq. (3), as in varimap-diffuse
-    int levels = 0;                 ///< stop after this many Euclidean levels; 0: all
+    RefineStart start = RefineStart::diffusion;
+    int levels = 0;  ///< stop after this many Euclidean levels; 0: all
 
     RefineParams() {
         // Chosen by hand on the known pairs, not swept: sliding along the surface in small steps is left to
@@ -28,6 +42,9 @@ struct RefineParams {
         list.add("shape_weight", shape_weight,
                  "how strongly places of like bending and shape diameter attract each other (0: not at all)",
                  0.0, 100.0);
+        list.add("start", start,
+                 "diffusion: the plan of varimap-diffuse; wasserstein: only levels with all points, from the "
+                 "Wasserstein-2 plan of aligned, small domains (Fig. 2)");
         list.add("levels", levels, "stop after this many Euclidean levels (0: all)", 0, 1000);
     }
 };

@@ -4,9 +4,12 @@
 #include "fixtures/shapes.h"
 #include "fuzz/scratch_file.h"
 #include "fuzz/target.h"
+#include "stages/domain/make_domain.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/artifact/npy.h"
+#include "varimap/core/error.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/geodesic_graph.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/results/candidates.h"
@@ -49,6 +52,11 @@ void use(const Surface& read) {
         if (!there.allFinite() || closest(there).point.face < 0) throw std::logic_error("a point is nowhere");
     }
     if (!cotangent_laplacian(read.mesh).coeffs().isFinite().all()) throw std::logic_error("a bad Laplacian");
+}
+
+void use(const Domain& read) {
+    if (!laplacian(read).coeffs().isFinite().all()) throw std::logic_error("a bad Laplacian");
+    if (GeodesicGraph(read).vertex_count() != read.mass.size()) throw std::logic_error("a bad graph");
 }
 
 void use(const Basis& read) {
@@ -101,6 +109,33 @@ Target artifact(const T& seed) {
                 decode(bytes, value);
                 use(value);
                 if (encode(value).empty()) throw std::logic_error("nothing is written");
+            }};
+}
+
+Domain domain() {
+    const std::string text = "0 0\n1 0\n1 2\n0 2\n-3 2\n";
+    const ScratchFile file(text, ".xyz");
+    return make_domain(read_domain_file(file.path(), DomainKind::polyline), {}, file.path());
+}
+
+/// Rows of points, edges and matrices; each is read as each.
+Target domain_file() {
+    return {"domain_file",
+            {"x,y\n0,0\n1,0\n1,2\n0,2\n", "0 1 2\n1 2 .5\n2 3 1e-3\n",
+             "%%MatrixMarket matrix coordinate real symmetric\n4 4 3\n2 1 1\n3 2 1\n4 3 2\n",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nl 1 2 3 4\n"},
+            {"%%MatrixMarket", "pattern", "general", "l ", "v ", "nan", "-1"},
+            [](const std::string& bytes) {
+                for (const char* ending : {".xyz", ".edges", ".mtx", ".obj"}) {
+                    const ScratchFile file(bytes, ending);
+                    try {
+                        const Domain made = make_domain(read_domain_file(file.path(), DomainKind::automatic),
+                                                        {}, file.path());
+                        Domain back;
+                        decode(encode(made), back);
+                    } catch (const InputError&) {
+                    }
+                }
             }};
 }
 
@@ -191,6 +226,8 @@ Target map_file() {
 
 std::vector<Target> artifact_targets() {
     return {artifact(surface()),
+            artifact(domain()),
+            domain_file(),
             artifact(basis()),
             artifact(build_hierarchy(surface(), basis(), {})),
             artifact(diffusion()),

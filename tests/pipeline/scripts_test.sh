@@ -77,7 +77,7 @@ check_front_end "$varimap"
 # From an installed prefix, and through a link to it.
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
-cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,script.sh,progress.sh,bench,register,scaling,selftest,torus} prefix/share/varimap
+cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,script.sh,progress.sh,bench,debian-meshes,gallery,plot,register,scaling,selftest,torus} prefix/share/varimap
 cp -r "$VARIMAP_SOURCE/pipelines/batch" prefix/share/varimap
 cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap

@@ -177,6 +177,26 @@ std::string refusal(const std::string& family, const GenerateParams& params) {
     return "none";
 }
 
+TEST(Generate, HandlesAreThereAtEverySizeAndContactGrowsTogether) {
+    GenerateParams params;
+    params.vertices = 3000;
+    for (const double size : {0.0, 0.1, 0.6, 1.0}) {
+        params.variation = size;
+        const GeneratedPair pair = generate("handle", 1, params);
+        EXPECT_TRUE(is_closed(pair.source));
+        EXPECT_TRUE(is_closed(pair.target));
+        EXPECT_EQ(summarise_topology(pair.source).genus, 0);
+        EXPECT_EQ(summarise_topology(pair.target).genus, 1) << size;
+        EXPECT_GT(pair.truth.size(), 200u);
+    }
+    const GeneratedPair contact = generate("contact", 1, params);
+    EXPECT_TRUE(is_closed(contact.target));
+    const auto per_size = [](const TriangleMesh& mesh) {  // what has grown together has less surface
+        return surface_area(mesh) / std::pow(std::abs(signed_volume(mesh)), 2.0 / 3);
+    };
+    EXPECT_LT(per_size(contact.target), .97 * per_size(contact.source));
+}
+
 TEST(Generate, SaysWhatFamiliesThereAre) {
     EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, biped"));
     GenerateParams varied;

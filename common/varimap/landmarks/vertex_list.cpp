@@ -287,7 +287,7 @@ SurfacePoint place_of(const Named& named, const TriangleMesh& mesh) {
 
 void require_distinct_used(const std::vector<Named>& list, const std::string& path, const char* role,
                            const TriangleMesh& mesh) {
-    std::vector<bool> used(size_t(mesh.vertex_count()), false);
+    std::vector<bool> used(size_t(mesh.vertex_count()), mesh.face_count() == 0);  // points of no surface
     for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
     std::map<int, int> lines;
     for (const auto& [line, vertex, name, point] : list) {

@@ -45,40 +45,61 @@ double diagonal_length(const TriangleMesh& mesh, const HalfEdge& e, const HalfEd
     return crossing > 0 && crossing < edge ? std::hypot(xe - xf, ye + yf) : -1;
 }
 
-}  // namespace
+struct Arc {
+    int from, to;
+    double length;
+};
 
-GeodesicGraph::GeodesicGraph(const TriangleMesh& mesh) {
-    struct Arc {
-        int from, to;
-        double length;
-    };
+void connect(int a, int b, double length, std::vector<Arc>& arcs) {
+    arcs.push_back({a, b, length});
+    arcs.push_back({b, a, length});
+}
+
+std::vector<Arc> arcs_of(const TriangleMesh& mesh) {
     std::vector<Arc> arcs;
-    const auto connect = [&](int a, int b, double l) {
-        arcs.push_back({a, b, l});
-        arcs.push_back({b, a, l});
-    };
     const auto edges = half_edges_by_edge(mesh);
     arcs.reserve(2 * edges.size());
     for (size_t i = 0; i < edges.size(); ++i) {
         const HalfEdge& e = edges[i];
         const bool paired = i + 1 < edges.size() && edges[i + 1].low == e.low && edges[i + 1].high == e.high;
-        connect(e.low, e.high, (mesh.vertex(e.high) - mesh.vertex(e.low)).norm());
+        connect(e.low, e.high, (mesh.vertex(e.high) - mesh.vertex(e.low)).norm(), arcs);
         if (!paired) continue;
         const double diagonal = diagonal_length(mesh, e, edges[i + 1]);
-        if (diagonal > 0 && e.apex != edges[i + 1].apex) connect(e.apex, edges[i + 1].apex, diagonal);
+        if (diagonal > 0 && e.apex != edges[i + 1].apex) connect(e.apex, edges[i + 1].apex, diagonal, arcs);
         ++i;
     }
+    return arcs;
+}
+
+std::vector<Arc> arcs_of(const Domain& domain) {
+    if (domain.is_surface()) return arcs_of(domain.mesh);
+    std::vector<Arc> arcs;
+    for (const DomainEdge& edge : domain.edges) connect(edge.a, edge.b, edge.length, arcs);
+    return arcs;
+}
+
+GeodesicGraph graph_of(std::vector<Arc> arcs, int vertices) {
+    GeodesicGraph graph;
     std::sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
         return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
     });
-    offset.assign(mesh.vertex_count() + 1, 0);
+    graph.offset.assign(vertices + 1, 0);
     for (const Arc& a : arcs) {
-        ++offset[a.from + 1];
-        target.push_back(a.to);
-        length.push_back(a.length);
+        ++graph.offset[a.from + 1];
+        graph.target.push_back(a.to);
+        graph.length.push_back(a.length);
     }
-    for (size_t v = 0; v + 1 < offset.size(); ++v) offset[v + 1] += offset[v];
+    for (int v = 0; v < vertices; ++v) graph.offset[v + 1] += graph.offset[v];
+    return graph;
 }
+
+}  // namespace
+
+GeodesicGraph::GeodesicGraph(const TriangleMesh& mesh)
+    : GeodesicGraph(graph_of(arcs_of(mesh), mesh.vertex_count())) {}
+
+GeodesicGraph::GeodesicGraph(const Domain& domain)
+    : GeodesicGraph(graph_of(arcs_of(domain), domain.mesh.vertex_count())) {}
 
 void GeodesicBall::reset() {
     for (int v : touched_) distance_[v] = std::numeric_limits<double>::infinity();

@@ -4,13 +4,15 @@
 #include <utility>
 #include <vector>
 
+#include "varimap/mesh/domain.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
 
 /// Graph whose shortest paths approximate geodesics: mesh edges plus, for each interior edge, the diagonal
 /// that flipping it would give, with its length in the unfolded pair of triangles. Shortest paths
-/// overestimate by a few per cent, which is enough for neighbourhoods; `geodesic.h` measures distances.
+/// overestimate by a few per cent, which is enough for neighbourhoods; `geodesic.h` measures distances. Of a
+/// domain that is no surface: its edges.
 struct GeodesicGraph {
     std::vector<int> offset;  ///< vertices + 1
     std::vector<int> target;
@@ -18,6 +20,7 @@ struct GeodesicGraph {
 
     GeodesicGraph() = default;
     explicit GeodesicGraph(const TriangleMesh& mesh);
+    explicit GeodesicGraph(const Domain& domain);
     int vertex_count() const { return int(offset.size()) - 1; }
 };
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/mesh/domain.h"
 #include "varimap/mesh/file_link.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/mesh/vertex_index.h"
@@ -12,23 +13,21 @@ namespace varimap {
 
 /// A surface ready for the method: the artifact of varimap-preprocess and of varimap-coarsen.
 ///
-/// `mesh` has unit area and its area centroid at the origin. Of varimap-preprocess, its edges are no longer
-/// than the target length (Sec. 5, Limitations: recursive longest-edge bisection), each of its faces lies
-/// inside one input face, and the used input vertices are its first vertices, in input order. Where the input
-/// has faces too thin for the method (thin_faces.h), these have no counterpart, input vertices that are the
-/// same for all purposes share one of `mesh`, and a face may lie off its input face by that little. Of
-/// varimap-coarsen, `mesh` has some of those vertices (coarsening.h), and its faces lie near the input.
-struct Surface {
-    TriangleMesh mesh;     ///< normalised and bisected
-    Eigen::VectorXd mass;  ///< per vertex of mesh: Voronoi area, sums to 1 (Sec. 2.1)
-    TriangleMesh input;    ///< the input in its own coordinates, polygons fanned, vertex order kept; repaired
-    FileLink link;         ///< from `input`, not mirrored, to the file it was read from
-    PointMap on_mesh;      ///< per input vertex: where it lies on mesh, one to one; nowhere without a face
+/// Masses are Voronoi areas (mass.h), edges and coordinates there are none. `mesh` has unit area and its area
+/// centroid at the origin. Of varimap-preprocess, its edges are no longer than the target length (Sec. 5,
+/// Limitations: recursive longest-edge bisection), each of its faces lies inside one input face, and the used
+/// input vertices are its first vertices, in input order. Where the input has faces too thin for the method
+/// (thin_faces.h), these have no counterpart, input vertices that are the same for all purposes share one of
+/// `mesh`, and a face may lie off its input face by that little. Of varimap-coarsen, `mesh` has some of those
+/// vertices (coarsening.h), and its faces lie near the input.
+struct Surface : Domain {
+    TriangleMesh input;  ///< the input in its own coordinates, polygons fanned, vertex order kept; repaired
+    FileLink link;       ///< from `input`, not mirrored, to the file it was read from
+    PointMap on_mesh;    ///< per input vertex: where it lies on mesh, one to one; nowhere without a face
     std::vector<int> input_face;  ///< per face of mesh: the input face it lies in; none where mesh is coarser
     PointMap on_input;            ///< per vertex of mesh: where it lies on the input
     Vec3 centre = Vec3::Zero();   ///< x_mesh = (x_input - centre) * scale
     double scale = 1;
-    bool mirrored = false;  ///< all faces have their last two corners exchanged
 };
 
 template <>

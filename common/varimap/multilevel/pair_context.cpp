@@ -16,15 +16,16 @@ RowMatrix normalised_embedding(const Basis& basis, double time) {
 }
 
 /// c with c^2 = sum over edges m_i |x_i - x_j|^2 / sum m_i |psi_i - psi_j|^2.
-double edge_scale(const Surface& surface, const RowMatrix& psi) {
+double edge_scale(const Domain& domain, const RowMatrix& psi) {
+    const TriangleMesh& mesh = domain.mesh;
     double in_space = 0, in_psi = 0;
-    for (int f = 0; f < surface.mesh.face_count(); ++f)
-        for (int c = 0; c < 3; ++c) {
-            const int i = surface.mesh.faces(f, c), j = surface.mesh.faces(f, (c + 1) % 3);
-            in_space +=
-                surface.mass[i] * (surface.mesh.vertices.row(i) - surface.mesh.vertices.row(j)).squaredNorm();
-            in_psi += surface.mass[i] * (psi.row(i) - psi.row(j)).squaredNorm();
-        }
+    const auto add = [&](int i, int j) {
+        in_space += domain.mass[i] * (mesh.vertices.row(i) - mesh.vertices.row(j)).squaredNorm();
+        in_psi += domain.mass[i] * (psi.row(i) - psi.row(j)).squaredNorm();
+    };
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int c = 0; c < 3; ++c) add(mesh.faces(f, c), mesh.faces(f, (c + 1) % 3));
+    for (const DomainEdge& edge : domain.edges) add(edge.a, edge.b);
     return std::sqrt(in_space / in_psi);
 }
 
@@ -37,6 +38,7 @@ RowMatrix principal_coordinates(const RowMatrix& points, const Eigen::VectorXd& 
 }
 
 RowMatrix mixed_points(const SurfaceData& data, double mu) {
+    if (data.surface.coordinates.size() > 0) return data.surface.coordinates;
     const RowMatrix x = data.surface.mesh.vertices;
     if (mu == 0) return x;
     const Level& last = data.hierarchy.last_diffusion_level();
@@ -61,8 +63,8 @@ using Landmark = VertexPairs<MeshVertex>::value_type;
 
 }  // namespace
 
-RowMatrix sample_positions(const Surface& surface, const Level& level) {
-    return surface.mesh.vertices(level.samples, Eigen::all);
+RowMatrix sample_positions(const Domain& domain, const Level& level) {
+    return domain.mesh.vertices(level.samples, Eigen::all);
 }
 
 const Level& PairContext::Side::diffusion_source(int index) const {

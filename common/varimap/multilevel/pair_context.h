@@ -9,7 +9,7 @@
 namespace varimap {
 
 /// samples x 3: where a level's samples lie in space.
-RowMatrix sample_positions(const Surface& surface, const Level& level);
+RowMatrix sample_positions(const Domain& domain, const Level& level);
 
 /// Two surfaces with their landmarks and these' weight (cost.h): builds the level pairs that the solving
 /// stages work on.
@@ -38,7 +38,7 @@ class PairContext {
     /// Levels in the mixed metric (x, mu c psi): positions in R^3 beside normalised diffusion coordinates
     /// psi = Phi / sqrt(1 + K) at the last diffusion level's time, scaled by c so that short edges measure
     /// alike in both, reduced to its principal directions. The second part keeps apart limbs that are close
-    /// in space. mu = 0: R^3 alone.
+    /// in space. mu = 0: R^3 alone. Of a domain with intrinsic coordinates: these, whatever mu is.
     LevelPair euclidean_level(int index, double mu) const;
 
   private:
@@ -48,7 +48,7 @@ class PairContext {
         std::vector<int> landmarks;  ///< vertices of the mesh
 
         Side(SurfaceData own, std::vector<int> vertices)
-            : data(std::move(own)), graph(data.surface.mesh), landmarks(std::move(vertices)) {}
+            : data(std::move(own)), graph(data.surface), landmarks(std::move(vertices)) {}
         const Level& diffusion_source(int index) const;
         Level with_landmarks(const Level& source) const;
         LevelSide embedded(const Level& source, RowMatrix vertex_points) const;

@@ -30,6 +30,7 @@ void warn_of_part(double own, double other, const char* which, const char* whole
 }  // namespace
 
 void warn_of_part(const Surface& A, const Surface& B) {
+    if (!A.is_surface() || !B.is_surface()) return;
     const double a = opening(A), b = opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");

@@ -16,7 +16,7 @@ namespace varimap {
 namespace {
 
 bool is_at_vertex(const Surface& surface, InputVertex vertex) {
-    return vertex_of(surface.mesh, surface.on_mesh[std::size_t(vertex.index)]) >= 0;
+    return !surface.is_surface() || vertex_of(surface.mesh, surface.on_mesh[std::size_t(vertex.index)]) >= 0;
 }
 
 /// The mesh's vertices for the landmarks of one side.
@@ -27,6 +27,7 @@ class VertexChoice {
     /// The vertex at the landmark. A repair makes one vertex of several; a landmark each would ask it to go
     /// to several places.
     void take_exact(InputVertex landmark) {
+        if (!surface_.is_surface()) return;  // its points are the vertices
         const SurfacePoint& at = surface_.on_mesh[std::size_t(landmark.index)];
         if (at.face < 0)
             throw InputError(
@@ -43,6 +44,7 @@ class VertexChoice {
     }
     /// That, or the nearest corner around it that no other landmark has.
     MeshVertex operator()(InputVertex landmark) {
+        if (!surface_.is_surface()) return {landmark.index};
         const SurfacePoint& at = surface_.on_mesh[std::size_t(landmark.index)];
         if (const int vertex = vertex_of(surface_.mesh, at); vertex >= 0) return {vertex};
         std::array<int, 3> corner{0, 1, 2};
@@ -92,12 +94,21 @@ std::string finer_surface(const Header& surface) {
 
 }  // namespace
 
+Artifact<Surface> read_surface_or_domain(Stage& stage, const std::string& role, const std::string& path) {
+    if (read_header(path).kind != ArtifactType<Domain>::kind) return stage.read<Surface>(role, path);
+    Artifact<Domain> domain = stage.read<Domain>(role, path);
+    Artifact<Surface> surface{std::move(domain.header), {}};
+    static_cast<Domain&>(surface.value) = std::move(domain.value);
+    surface.value.input = surface.value.mesh;
+    return surface;
+}
+
 PairInputs::PairInputs(Stage& stage, const std::string& kind)
     : kind_(kind), A_(declare(stage, "A." + kind)), B_(declare(stage, "B." + kind)) {}
 
 PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& role) {
-    const std::string& surface =
-        stage.input(role + "surface", "surface of varimap-coarsen or varimap-preprocess");
+    const std::string& surface = stage.input(
+        role + "surface", "surface of varimap-coarsen or varimap-preprocess, or domain of varimap-domain");
     const std::string& basis = stage.input(role + "basis", "basis of varimap-eigen");
     const std::string& hierarchy = stage.input(role + "hierarchy", "hierarchy of varimap-hierarchy");
     return {surface, basis, hierarchy};
@@ -105,7 +116,7 @@ PairInputs::Paths PairInputs::declare(Stage& stage, const std::string& role) {
 
 SurfaceData PairInputs::read(Stage& stage, const std::string& side, const Paths& paths) {
     const std::string role = side + "." + kind_;
-    auto surface = stage.read<Surface>(role + "surface", paths.surface);
+    auto surface = read_surface_or_domain(stage, role + "surface", paths.surface);
     auto basis = stage.read<Basis>(role + "basis", paths.basis);
     auto hierarchy = stage.read<Hierarchy>(role + "hierarchy", paths.hierarchy);
     Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);

@@ -12,8 +12,11 @@
 
 namespace varimap {
 
-/// The six per-surface artifacts a solving stage reads, as its positional arguments, with their lineage
-/// checked.
+/// A surface, or another domain as SurfaceData holds it.
+Artifact<Surface> read_surface_or_domain(Stage& stage, const std::string& role, const std::string& path);
+
+/// The six per-surface (or per-domain) artifacts a solving stage reads, as its positional arguments, with
+/// their lineage checked.
 class PairInputs {
   public:
     /// `kind`: what their roles begin with, behind the side: "" or "sketch.".

@@ -144,28 +144,29 @@ Eigen::VectorXd relative_residuals(const Eigen::SparseMatrix<double>& L, const E
 
 }  // namespace
 
-Basis compute_eigenbasis(const Surface& surface, const EigenSolverOptions& options) {
-    const int n = surface.mesh.vertex_count();
+Basis compute_eigenbasis(const Domain& domain, const EigenSolverOptions& options) {
+    const int n = domain.mesh.vertex_count();
     // One pair more than wanted tells whether the last eigenspace is complete.
     const int computed = std::min(options.count + 1, n - 1);
     if (computed < 3)
-        throw InputError("a surface of " + std::to_string(n) +
-                         " vertices has too few eigenfunctions; refine the mesh");
-    const Eigen::SparseMatrix<double> L = cotangent_laplacian(surface.mesh);
-    ShiftInvert op(L, surface.mass);
+        throw InputError(domain.is_surface() ? "a surface of " + std::to_string(n) +
+                                                   " vertices has too few eigenfunctions; refine the mesh"
+                                             : std::to_string(n) + " points have too few eigenfunctions");
+    const Eigen::SparseMatrix<double> L = laplacian(domain);
+    ShiftInvert op(L, domain.mass);
     EigenPairs pairs = smallest_pairs(op, computed, options);
-    add_missed_pairs(op, L, surface.mass, options, pairs);
+    add_missed_pairs(op, L, domain.mass, options, pairs);
 
     const int count = complete_eigenspaces(pairs.values, std::min(options.count, computed));
     Basis basis;
     basis.eigenvalues = pairs.values.head(count);
-    basis.functions = surface.mass.cwiseSqrt().cwiseInverse().asDiagonal() * pairs.vectors.leftCols(count);
+    basis.functions = domain.mass.cwiseSqrt().cwiseInverse().asDiagonal() * pairs.vectors.leftCols(count);
     // The kernel of L is known exactly for a connected surface.
     basis.eigenvalues[0] = 0;
-    basis.functions.col(0).setConstant(1 / std::sqrt(surface.mass.sum()));
+    basis.functions.col(0).setConstant(1 / std::sqrt(domain.mass.sum()));
     if (!(basis.eigenvalues[1] > 0))
         throw ConvergenceError("the second eigenvalue is not positive; is the surface connected?");
-    basis.residuals = relative_residuals(L, surface.mass, basis);
+    basis.residuals = relative_residuals(L, domain.mass, basis);
     if (!(basis.residuals.maxCoeff() <= options.maximum_residual))
         throw ConvergenceError("an eigenpair has residual " + std::to_string(basis.residuals.maxCoeff()) +
                                "; check the mesh for degenerate triangles");

@@ -5,12 +5,12 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/mesh/domain.h"
 
 namespace varimap {
 
-/// The smallest eigenpairs of L phi = lambda M phi on a surface of unit area (L: cotangent Laplacian,
-/// M: diagonal Voronoi masses). phi' M phi = 1, eigenvalues ascending, lambda_1 = 0 with phi_1 = 1.
+/// The smallest eigenpairs of L phi = lambda M phi on a domain (L: laplacian.h, of a surface of unit area by
+/// cotangents; M: diagonal masses). phi' M phi = 1, eigenvalues ascending, lambda_1 = 0 with phi_1 = 1.
 ///
 /// The signs of the functions and the bases of multiple eigenvalues are arbitrary; everything built on them
 /// uses inner products over complete eigenspaces only: the count is cut where a gap follows.
@@ -39,7 +39,7 @@ struct EigenSolverOptions {
 
 /// Shift-invert Lanczos (Spectra) on the Cholesky factors of L - shift M. Deterministic.
 /// Throws ConvergenceError if the solver fails or a residual is too large.
-Basis compute_eigenbasis(const Surface& surface, const EigenSolverOptions& options);
+Basis compute_eigenbasis(const Domain& domain, const EigenSolverOptions& options);
 
 /// Diffusion embedding Phi_t (Eq. 4) of the given vertices: row v holds exp(-lambda_k t / 2) phi_k(v).
 RowMatrix diffusion_embedding(const Basis& basis, double time, const std::vector<int>& vertices);

@@ -68,10 +68,10 @@ int Hierarchy::sampled_euclidean_levels() const {
     return int(levels.size()) - diffusion_levels() - full_levels();
 }
 
-Hierarchy build_hierarchy(const Surface& surface, const Basis& basis, const HierarchyOptions& options) {
-    const GeodesicGraph graph(surface.mesh);
-    const LevelBuilder builder(surface, basis, graph, options);
-    Hierarchy hierarchy{options, {}, local_shape(surface, basis)};
+Hierarchy build_hierarchy(const Domain& domain, const Basis& basis, const HierarchyOptions& options) {
+    const GeodesicGraph graph(domain);
+    const LevelBuilder builder(domain, basis, graph, options);
+    Hierarchy hierarchy{options, {}, local_shape(domain, basis)};
     append_diffusion_levels(hierarchy.levels, basis, options.growth, builder);
     append_euclidean_levels(hierarchy.levels, graph, options, builder);
     return hierarchy;

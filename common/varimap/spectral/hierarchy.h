@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/mesh/domain.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/level_builder.h"
 #include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
-/// What all pairs of a surface share: its levels, and what its places look like.
+/// What all pairs of a domain share: its levels, and what its places look like.
 struct Hierarchy {
     HierarchyOptions options;   ///< what it was built with
     std::vector<Level> levels;  ///< coarse to fine; samples are nested. Diffusion levels, then Euclidean
@@ -33,8 +33,8 @@ struct ArtifactType<Hierarchy> {
 std::string encode(const Hierarchy& hierarchy);
 void decode(const std::string& payload, Hierarchy& hierarchy);
 
-/// Builds all levels of a surface (Sec. 4.2 and 4.5) and describes its local shape. Near-linear in the number
+/// Builds all levels of a domain (Sec. 4.2 and 4.5) and describes its local shape. Near-linear in the number
 /// of vertices.
-Hierarchy build_hierarchy(const Surface& surface, const Basis& basis, const HierarchyOptions& options);
+Hierarchy build_hierarchy(const Domain& domain, const Basis& basis, const HierarchyOptions& options);
 
 }  // namespace varimap

@@ -22,25 +22,40 @@ std::array<double, 3> corner_cotangents(const TriangleMesh& mesh, int f) {
     return cot;
 }
 
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+/// The energy weight (f_i - f_j)^2.
+void join(int i, int j, double weight, Entries& entries) {
+    entries.emplace_back(i, j, -weight);
+    entries.emplace_back(j, i, -weight);
+    entries.emplace_back(i, i, weight);
+    entries.emplace_back(j, j, weight);
+}
+
+Eigen::SparseMatrix<double> matrix_of(const Entries& entries, int size) {
+    Eigen::SparseMatrix<double> L(size, size);
+    L.setFromTriplets(entries.begin(), entries.end());
+    return L;
+}
+
 }  // namespace
 
 Eigen::SparseMatrix<double> cotangent_laplacian(const TriangleMesh& mesh) {
-    std::vector<Eigen::Triplet<double>> entries;
+    Entries entries;
     entries.reserve(12 * size_t(mesh.face_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         const auto cot = corner_cotangents(mesh, f);
-        for (int c = 0; c < 3; ++c) {
-            const int i = mesh.faces(f, (c + 1) % 3), j = mesh.faces(f, (c + 2) % 3);
-            const double half = cot[c] / 2;
-            entries.emplace_back(i, j, -half);
-            entries.emplace_back(j, i, -half);
-            entries.emplace_back(i, i, half);
-            entries.emplace_back(j, j, half);
-        }
+        for (int c = 0; c < 3; ++c)
+            join(mesh.faces(f, (c + 1) % 3), mesh.faces(f, (c + 2) % 3), cot[c] / 2, entries);
     }
-    Eigen::SparseMatrix<double> L(mesh.vertex_count(), mesh.vertex_count());
-    L.setFromTriplets(entries.begin(), entries.end());
-    return L;
+    return matrix_of(entries, mesh.vertex_count());
+}
+
+Eigen::SparseMatrix<double> laplacian(const Domain& domain) {
+    if (domain.is_surface()) return cotangent_laplacian(domain.mesh);
+    Entries entries;
+    for (const DomainEdge& edge : domain.edges) join(edge.a, edge.b, edge.conductance, entries);
+    return matrix_of(entries, domain.mesh.vertex_count());
 }
 
 }  // namespace varimap

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "varimap/mesh/domain.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -10,5 +11,8 @@ namespace varimap {
 /// L_ij = -(cot a + cot b) / 2 for an edge with opposite angles a and b, so that f' L f = integral |grad
 /// f|^2. Dimensionless (invariant under scaling). Triangles without area contribute nothing.
 Eigen::SparseMatrix<double> cotangent_laplacian(const TriangleMesh& mesh);
+
+/// That of a surface; of another domain L_ij = -(conductance of the edge ij).
+Eigen::SparseMatrix<double> laplacian(const Domain& domain);
 
 }  // namespace varimap

@@ -63,7 +63,7 @@ class GeodesicGrowth {
     const GeodesicGraph& graph_;
 };
 
-/// The surface's most extreme vertex: largest diagonal heat kernel; independent of numbering but for exact
+/// The domain's most extreme vertex: largest diagonal heat kernel; independent of numbering but for exact
 /// ties.
 int most_extreme_vertex(const RowMatrix& embedding) {
     int best = 0;
@@ -90,23 +90,23 @@ Level level_from(const FarthestPointSampling<Grow>& sampling, LevelKind kind, do
 
 Level LevelBuilder::diffusion(double time, const std::vector<int>& seeds, int limit) const {
     const RowMatrix embedding = diffusion_embedding(basis_, time);
-    FarthestPointSampling sampling(surface_.mesh.vertex_count(), DiffusionGrowth(embedding, graph_));
+    FarthestPointSampling sampling(domain_.mesh.vertex_count(), DiffusionGrowth(embedding, graph_));
     if (seeds.empty()) sampling.insert(most_extreme_vertex(embedding));
     for (int s : seeds) sampling.insert(s);
     sampling.cover(1 - options_.density, limit);
-    Level level = level_from(sampling, LevelKind::diffusion, time, surface_.mass);
+    Level level = level_from(sampling, LevelKind::diffusion, time, domain_.mass);
     level.weights = diffusion_weights(embedding(level.samples, Eigen::all), options_.truncation);
     return level;
 }
 
 Level LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int limit) const {
-    FarthestPointSampling sampling(surface_.mesh.vertex_count(), GeodesicGrowth(graph_));
+    FarthestPointSampling sampling(domain_.mesh.vertex_count(), GeodesicGrowth(graph_));
     for (int s : seeds) sampling.insert(s);
     sampling.cover(sigma * gaussian_distance(options_.density), limit);
-    Level level = level_from(sampling, LevelKind::euclidean, sigma, surface_.mass);
+    Level level = level_from(sampling, LevelKind::euclidean, sigma, domain_.mass);
     const BallRule rule{sigma * gaussian_distance(options_.truncation), options_.minimum_neighbours,
                         options_.truncation};
-    level.weights = geodesic_weights(level.samples, surface_, graph_, rule);
+    level.weights = geodesic_weights(level.samples, domain_, graph_, rule);
     return level;
 }
 
@@ -114,11 +114,11 @@ Level LevelBuilder::full(int neighbours) const {
     Level level;
     level.kind = LevelKind::euclidean;
     level.full = true;
-    level.samples.resize(surface_.mesh.vertex_count());
+    level.samples.resize(domain_.mesh.vertex_count());
     std::iota(level.samples.begin(), level.samples.end(), 0);
     level.cell = level.samples;
-    level.mass = surface_.mass;
-    level.weights = geodesic_weights(level.samples, surface_, graph_, {0, neighbours, options_.truncation});
+    level.mass = domain_.mass;
+    level.weights = geodesic_weights(level.samples, domain_, graph_, {0, neighbours, options_.truncation});
     return level;
 }
 

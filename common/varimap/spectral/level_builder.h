@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "varimap/mesh/domain.h"
 #include "varimap/mesh/geodesic_graph.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/level.h"
 
@@ -20,12 +20,12 @@ struct HierarchyOptions {
     int last_neighbours = 12;     ///< neighbours on the last level
 };
 
-/// Makes levels of one surface. Refers to what it is given.
+/// Makes levels of one domain. Refers to what it is given.
 class LevelBuilder {
   public:
-    LevelBuilder(const Surface& surface, const Basis& basis, const GeodesicGraph& graph,
+    LevelBuilder(const Domain& domain, const Basis& basis, const GeodesicGraph& graph,
                  const HierarchyOptions& options)
-        : surface_(surface), basis_(basis), graph_(graph), options_(options) {}
+        : domain_(domain), basis_(basis), graph_(graph), options_(options) {}
 
     /// Seeds, then farthest vertices in diffusion distance until the level is dense or has `limit` samples;
     /// with no seeds from the most extreme vertex.
@@ -40,7 +40,7 @@ class LevelBuilder {
     Level with_samples(const Level& level, const std::vector<int>& vertices) const;
 
   private:
-    const Surface& surface_;
+    const Domain& domain_;
     const Basis& basis_;
     const GeodesicGraph& graph_;
     const HierarchyOptions& options_;

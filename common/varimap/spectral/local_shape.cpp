@@ -18,12 +18,12 @@ constexpr double largest_descriptor = 2.5;
 
 /// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that
 /// of the file.
-bool looks_inward(const Surface& surface) {
+bool looks_inward(const Domain& surface) {
     if (!is_closed(surface.mesh)) return surface.mirrored;
     return signed_volume(surface.mesh) < 0;
 }
 
-Points outward_normals(const Surface& surface) {
+Points outward_normals(const Domain& surface) {
     const Points normals = vertex_normals(surface.mesh);
     return looks_inward(surface) ? Points(-normals) : normals;
 }
@@ -70,13 +70,13 @@ double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, 
 
 }  // namespace
 
-Eigen::VectorXd bending(const Surface& surface, const Basis& basis, double time) {
+Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time) {
     const RowMatrix phi = diffusion_embedding(basis, time);  // exp(-lambda t / 2) phi
     const RowMatrix smoothed = phi * (phi.transpose() * (surface.mass.asDiagonal() * surface.mesh.vertices));
     return (surface.mesh.vertices - smoothed).cwiseProduct(outward_normals(surface)).rowwise().sum();
 }
 
-Eigen::VectorXd shape_diameter(const Surface& surface) {
+Eigen::VectorXd shape_diameter(const Domain& surface) {
     constexpr double lift = 1e-4;    // units of sqrt(area): past the faces around the vertex itself
     constexpr double longest = 0.6;  // units of sqrt(area): a little more than through a sphere, .564
     const RayMesh rays(surface.mesh);
@@ -90,9 +90,11 @@ Eigen::VectorXd shape_diameter(const Surface& surface) {
     return result;
 }
 
-LocalShape local_shape(const Surface& surface, const Basis& basis) {
+LocalShape local_shape(const Domain& surface, const Basis& basis) {
     // Times chosen by hand on the known pairs, not swept.
     constexpr double tenth = 4e-3;  // units of area: smooths over about a tenth of sqrt(area)
+    if (!surface.is_surface())
+        return {RowMatrix::Zero(surface.mass.size(), 3), Eigen::VectorXd::Zero(surface.mass.size())};
     const double t0 = coarsest_time(basis);
     const Eigen::VectorXd& mass = surface.mass;
     LocalShape shape{RowMatrix(mass.size(), 3), bending(surface, basis, tenth)};

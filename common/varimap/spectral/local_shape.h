@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/mesh/domain.h"
 #include "varimap/spectral/eigenbasis.h"
 
 namespace varimap {
@@ -12,12 +12,12 @@ namespace varimap {
 /// surface less its heat flow (by the eigenbasis) at a time in units of area. Positive on ridges, negative in
 /// hollows. Isometries do not keep it, so it tells a toe from a heel where distances on the surface hardly
 /// do.
-Eigen::VectorXd bending(const Surface& surface, const Basis& basis, double time);
+Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time);
 
 /// Shape diameter (Shapira, Shamir, Cohen-Or 2008): how far it is through the shape from each vertex, along
 /// the inward normal and around it, units of sqrt(area). Rays that leave through a hole count as long ones,
 /// as do those of vertices without a normal.
-Eigen::VectorXd shape_diameter(const Surface& surface);
+Eigen::VectorXd shape_diameter(const Domain& surface);
 
 /// What tells parts of a surface apart by their look, not by where they are.
 struct LocalShape {
@@ -28,6 +28,7 @@ struct LocalShape {
     RowMatrix descriptors;
     Eigen::VectorXd bending;  ///< per vertex: smoothed over about a tenth of sqrt(area)
 };
-LocalShape local_shape(const Surface& surface, const Basis& basis);
+/// Of what is no surface all are 0: nothing attracts.
+LocalShape local_shape(const Domain& surface, const Basis& basis);
 
 }  // namespace varimap

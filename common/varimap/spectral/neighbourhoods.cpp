@@ -24,17 +24,20 @@ SparseMatrix to_matrix(const std::vector<Neighbourhood>& rows) {
     return matrix;
 }
 
-/// Samples of a surface as the balls around them see each other.
+/// Samples of a domain as the balls around them see each other.
 struct BallSamples {
     const std::vector<int>& samples;
     std::vector<int> index;  ///< per vertex: its number among the samples, or -1
-    Points normals;          ///< per vertex
+    Points normals;          ///< per vertex of a surface
 
-    BallSamples(const std::vector<int>& all, const TriangleMesh& mesh)
-        : samples(all), index(mesh.vertex_count(), -1), normals(vertex_normals(mesh)) {
+    BallSamples(const std::vector<int>& all, const Domain& domain)
+        : samples(all), index(domain.mass.size(), -1) {
+        if (domain.is_surface()) normals = vertex_normals(domain.mesh);
         for (size_t k = 0; k < samples.size(); ++k) index[samples[k]] = int(k);
     }
-    bool normals_agree(int v, int w) const { return v == w || normals.row(v).dot(normals.row(w)) > 0; }
+    bool normals_agree(int v, int w) const {
+        return v == w || normals.rows() == 0 || normals.row(v).dot(normals.row(w)) > 0;
+    }
 };
 
 /// The ball around a sample: its members with their weights, sorted.
@@ -93,9 +96,9 @@ SparseMatrix diffusion_weights(const RowMatrix& embedding, double truncation) {
     return to_matrix(rows);
 }
 
-SparseMatrix geodesic_weights(const std::vector<int>& samples, const Surface& surface,
+SparseMatrix geodesic_weights(const std::vector<int>& samples, const Domain& domain,
                               const GeodesicGraph& graph, const BallRule& rule) {
-    const BallSamples all(samples, surface.mesh);
+    const BallSamples all(samples, domain);
     std::vector<Neighbourhood> rows(samples.size());
     tbb::parallel_for(tbb::blocked_range<size_t>(0, samples.size(), 256), [&](const auto& range) {
         GeodesicBall ball(graph);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "varimap/core/linear_algebra.h"
+#include "varimap/mesh/domain.h"
 #include "varimap/mesh/geodesic_graph.h"
-#include "varimap/mesh/surface.h"
 
 namespace varimap {
 
@@ -30,9 +30,9 @@ struct BallRule {
     double truncation = 0.5;     ///< epsilon
 };
 
-/// Gaussian weights along the surface (Eq. 11 with geodesic distances), among samples whose normals agree:
-/// balls in R^3, or across a thin sheet, would bridge limbs that only touch.
-SparseMatrix geodesic_weights(const std::vector<int>& samples, const Surface& surface,
+/// Gaussian weights along the surface (Eq. 11 with geodesic distances), on a surface among samples whose
+/// normals agree: balls in R^3, or across a thin sheet, would bridge limbs that only touch.
+SparseMatrix geodesic_weights(const std::vector<int>& samples, const Domain& domain,
                               const GeodesicGraph& graph, const BallRule& rule);
 
 /// Average over samples of the geodesic distance to the farthest member of their neighbourhoods.

@@ -115,8 +115,8 @@ void require_complete(const Hierarchy& hierarchy) {
         "local shape");
 }
 
-void require_fit(const Basis& basis, const Surface& surface) {
-    require<Basis>(basis.functions.rows() == surface.mesh.vertex_count(), "vertices");
+void require_fit(const Basis& basis, const Domain& domain) {
+    require<Basis>(basis.functions.rows() == domain.mesh.vertex_count(), "vertices");
 }
 
 void require_fit(const SurfaceData& data) {

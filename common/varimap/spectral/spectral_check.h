@@ -13,7 +13,7 @@ void require_complete(const Hierarchy& hierarchy);
 
 // Check that what was read belongs to one surface. Throw ArtifactError.
 
-void require_fit(const Basis& basis, const Surface& surface);
+void require_fit(const Basis& basis, const Domain& domain);
 void require_fit(const SurfaceData& data);
 
 }  // namespace varimap

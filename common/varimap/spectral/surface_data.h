@@ -1,10 +1,12 @@
 #pragma once
 
+#include "varimap/mesh/surface.h"
 #include "varimap/spectral/hierarchy.h"
 
 namespace varimap {
 
-/// What the solving stages read of one surface.
+/// What the solving stages read of one surface, or of another domain: then `surface` is its Domain, with the
+/// points as `input`.
 struct SurfaceData {
     Surface surface;
     Basis basis;
