@@ -94,7 +94,7 @@ std::string short_header(const Header& header) {
     std::string line = " ";
     for (const auto& [name, value] : header.parameters) {
         const std::string word = fmt::format(" {}={}", name, value);
-        if (line.size() + word.size() > width) text += line + "\n", line = " ";
+        if (line.size() + word.size() > width) text += line + "\n", line.assign(1, ' ');
         line += word;
     }
     return line == " " ? text : text + line + "\n";
