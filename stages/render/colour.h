@@ -9,8 +9,9 @@ namespace varimap {
 using Colour = Vec3;  ///< linear red, green, blue, from 0 to 1
 
 /// Colours the points of the source: from dark blue to yellow along its longest axis, with a checkerboard in
-/// space that is faint on one half of the second axis, and stripes on one half of the third, such as the left (pattern_axes.h). Lightness alone tells all of it
-/// apart, which holds for eyes that do not see red and green as two.
+/// space that is faint on one half of the second axis, and stripes on one half of the third, such as the left
+/// (pattern_axes.h). Lightness alone tells all of it apart, which holds for eyes that do not see red and
+/// green as two.
 class SourceColour {
   public:
     /// `cell` is the edge of the checkerboard's cells, in the mesh's unit.
