@@ -39,8 +39,17 @@ map meshes/a.off meshes/b.off -o alone "${coarse[@]}"
 same all/pairs/a--b/source_to_target.csv alone/source_to_target.csv
 same all/artifacts/a--b.plan alone/artifacts/a--b.plan
 
+# As far as a stage, and then on.
+map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse
+[[ -s part/artifacts/a--b.diffusion && ! -e part/artifacts/a--b.plan && ! -e part/quality.json ]] || fail "--until diffuse"
+map meshes/a.off meshes/b.off -o part "${coarse[@]}"
+expect_ran "refine relax remesh render"
+same_results alone part
+expect_exit 2 "$varimap" map meshes/a.off meshes/b.off -o part --until plan
+
 # One job at a time where memory is for one only, and the same bytes.
-batch --all-pairs meshes -o narrow -j 2 --memory 60
+batch --all-pairs meshes -o "out of \$HOME & 'more'" -j 2 --memory 60
+mv out\ of* narrow
 same_batch all narrow
 
 # A list of pairs, with names, landmarks, quotes and folders; a mesh that is none fails alone, and says why.
@@ -149,11 +158,15 @@ nothing_left killed all
 # Ended by an interrupt: all that it started ends with it, and it says so.
 setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &
 session=$!
-sleep 1
+for ((i = 0; i < 600; ++i)); do
+    ! pgrep -s $session varimap- >/dev/null || break
+    sleep .1
+done
 kill -TERM $session
 code=0
 wait $session || code=$?
 ((code == 143)) || fail "exit $code after an interrupt"
+# shellcheck disable=SC2009  # pgrep counts those that have ended, too
 [[ -z $(ps -o stat= -s $session | grep -v Z || true) ]] || fail "jobs go on after an interrupt"
 grep -q 'interrupted; what is finished is kept' log || fail "an interrupt is not said"
 [[ -z $(find stopped/pairs -name result.json -exec grep -l failed {} +) ]] || fail "an interrupted pair is called failed"
