@@ -15,7 +15,7 @@ struct TearReport {
     int reversed_elsewhere = 0;    ///< reversed triangles (verification.h) farther from it
     double largest_stretch = 0;    ///< of edges farther from it
     double returned_percent = 0;   ///< of the target's vertices whose image is farther from it: those that
-                                  ///< come back to within `distance` through both maps, so are covered once
+                                   ///< come back to within `distance` through both maps, so are covered once
 };
 
 struct TearOptions {
