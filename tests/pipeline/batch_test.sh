@@ -48,9 +48,9 @@ same_results alone part
 expect_exit 2 "$varimap" map meshes/a.off meshes/b.off -o part --until plan
 
 # One job at a time where memory is for one only, and the same bytes.
-batch --all-pairs meshes -o "out of \$HOME & 'more'" -j 2 --memory 60
-mv out\ of* narrow
-same_batch all narrow
+narrow="out of \$HOME & 'more'"
+batch --all-pairs meshes -o "$narrow" -j 2 --memory 60
+same_batch all "$narrow"
 
 # A list of pairs, with names, landmarks, quotes and folders; a mesh that is none fails alone, and says why.
 echo nonsense >meshes/broken.off
@@ -96,7 +96,7 @@ batch --star meshes/b.off meshes -o star --landmarks-from points -j 2
 head -c 100 all/artifacts/b.basis >short
 cp short all/artifacts/b.basis
 batch --all-pairs meshes -o all --check -j 2
-same_batch narrow all
+same_batch "$narrow" all
 grep -q "b.basis' is damaged.*making it anew" all/batch/surfaces/b/log.txt || fail "a damaged artifact is not said"
 
 # Loops of three: these close with the first maps, which stay.
