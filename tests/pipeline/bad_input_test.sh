@@ -4,7 +4,7 @@
 . "$(dirname "$0")/common.sh"
 figure a.off 6
 figure b.off 6 .5
-map() { "$varimap" map "${small_picture[@]}" "$@"; }
+map() { "$varimap" map -v "${small_picture[@]}" "$@"; }
 
 refuse() {  # CODE ARGUMENTS
     local code=$1

@@ -101,12 +101,12 @@ coarse_pair() {
 }
 
 # map ARGUMENTS: runs the front end, with a small picture; what the stages say goes to the file log.
-small_picture=(-v --set render.width=64 --set render.samples=1)
+small_picture=(--set render.width=64 --set render.samples=1)
 # Besides, where the map itself does not matter: a few hundred vertices instead of 2500, which takes a second.
 # shellcheck disable=SC2034
 coarse=(--set preprocess.target_edge_length=.2 --set explore.random_starts=4)
 map() {
-    "$varimap" map "${small_picture[@]}" "$@" >out.txt 2>log || fail "varimap map $* (exit $?)"
+    "$varimap" map -v "${small_picture[@]}" "$@" >out.txt 2>log || fail "varimap map $* (exit $?)"
 }
 
 # ran: which stages ran since the last map, sorted, with how often.

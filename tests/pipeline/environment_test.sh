@@ -18,13 +18,13 @@ while read -r variable; do
 done < <(grep -ohE '^[A-Za-z_]+ *[:?+]?=' "$VARIMAP_SOURCE/pipelines/Makefile" | grep -oE '^[A-Za-z_]+')
 [[ " ${hostile[*]} " == *" AREA_BOUND=9 "* && " ${hostile[*]} " == *" DIFFUSE_FLAGS=9 "* ]] || fail "the Makefile's names were not found"
 hostile+=(VARIMAP_SOURCE=/absent VARIMAP_TARGET=/absent VARIMAP_LANDMARKS_1=/absent "VARIMAP_BIN=$VARIMAP_BIN")
-env "${hostile[@]}" "$varimap" map "${small_picture[@]}" "${options[@]}" -o hostile >out.txt 2>log || fail "a hostile environment"
+env "${hostile[@]}" "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o hostile >out.txt 2>log || fail "a hostile environment"
 same_results plain hostile
 expect_ran "$(map "${options[@]}" -o count; ran)"
 env "${hostile[@]}" MAKEFLAGS= make -s -f "$VARIMAP_SOURCE/pipelines/Makefile" -j1 SOURCE=a.off TARGET=b.off OUT=made LANDMARKS=tips.txt \
     PREPROCESS_FLAGS="--target_edge_length .2" EIGEN_FLAGS="--count 40" REFINE_FLAGS="--tolerance .01" RENDER_FLAGS="--width 64 --samples 1" 2>log || fail "make"
 same plain/source_to_target.csv made/source_to_target.csv
-env -i PATH="$PATH" VARIMAP_BIN="$VARIMAP_BIN" "$varimap" map "${small_picture[@]}" "${options[@]}" -o empty >out.txt 2>log ||
+env -i PATH="$PATH" VARIMAP_BIN="$VARIMAP_BIN" "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o empty >out.txt 2>log ||
     fail "an empty environment"
 same_results plain empty
 
@@ -36,14 +36,14 @@ if command -v localedef >/dev/null && localedef -i tr_TR -f UTF-8 "$work/tr_TR.U
 fi
 mapfile -t -O ${#locales[@]} locales < <(locale -a | grep -vE '^(C|POSIX|C\.utf8)$' | head -n 10)
 for locale in "${locales[@]}"; do
-    LC_ALL=$locale LANGUAGE=tr "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain >out.txt 2>log || fail "locale $locale"
+    LC_ALL=$locale LANGUAGE=tr "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o plain >out.txt 2>log || fail "locale $locale"
     expect_ran ""
 done
 echo "locales: ${locales[*]}"
 unset LOCPATH
 
 # Descriptors that are closed or full.
-"$varimap" map "${small_picture[@]}" "${options[@]}" -o closed <&- >/dev/null 2>&- || fail "closed stdin and stderr"
+"$varimap" map -v "${small_picture[@]}" "${options[@]}" -o closed <&- >/dev/null 2>&- || fail "closed stdin and stderr"
 same_results plain closed
 exits() {  # CODE COMMAND...
     local code=0
@@ -57,8 +57,8 @@ exits 4 "$VARIMAP_BIN/varimap-eigen" a.off x.basis 2>&- || fail "$(cat codes)"
 exits 4 "$VARIMAP_BIN/varimap-eigen" a.off x.basis 2>/dev/full || fail "$(cat codes)"
 exits 6 "$varimap" map a.off absent.off -o none 2>&- || fail "$(cat codes)"
 exits 2 "$varimap" map a.off b.off -o none --set eigen.count=x 2>/dev/full || fail "$(cat codes)"
-exits 6 "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain >/dev/full 2>log || fail "$(cat codes)"
-exits 6 "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain >&- 2>log || fail "$(cat codes)"
+exits 6 "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o plain >/dev/full 2>log || fail "$(cat codes)"
+exits 6 "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o plain >&- 2>log || fail "$(cat codes)"
 exits 6 "$VARIMAP_BIN/varimap-inspect" $artifact >/dev/full 2>log || fail "$(cat codes)"
 exits 6 "$VARIMAP_BIN/varimap-inspect" $artifact >&- 2>log || fail "$(cat codes)"
 # With all of them closed the artifact is still whole.

@@ -8,7 +8,7 @@ coarse_pair
 
 # start OUT OPTION...: a run in the background; ended waits for it.
 start() {
-    "$varimap" map "${small_picture[@]}" a.off b.off -o "$@" >out.txt 2>log </dev/null &
+    "$varimap" map -v "${small_picture[@]}" a.off b.off -o "$@" >out.txt 2>log </dev/null &
     run=$!
 }
 after() {  # FILE: waits until the run has made it, or has ended
@@ -48,13 +48,13 @@ same_results good kept
 if (($(id -u) != 0)); then
     mkdir locked
     chmod a-w locked
-    expect_exit 6 "$varimap" map "${small_picture[@]}" a.off b.off -o locked
+    expect_exit 6 "$varimap" map -v "${small_picture[@]}" a.off b.off -o locked
     expect_exit 6 "$VARIMAP_BIN/varimap-preprocess" a.off locked/a.surface
     chmod u+w locked
 fi
 [[ -n $mounted ]] || { echo "no read-only disk: mounting is not permitted here"; exit 0; }
 mount -o remount,ro disk
-expect_exit 6 "$varimap" map "${small_picture[@]}" a.off b.off -o disk/out
+expect_exit 6 "$varimap" map -v "${small_picture[@]}" a.off b.off -o disk/out
 expect_exit 6 "$VARIMAP_BIN/varimap-preprocess" a.off disk/a.surface
 for artifact in "${made[@]}"; do
     mount -o remount,rw disk

@@ -15,7 +15,7 @@ whole() {  # FOLDER: every artifact in it passes its check
 for limit in 1 8 32 64 128; do
     for signal in '' "trap '' XFSZ;"; do
         code=0
-        bash -c "$signal ulimit -f $limit; exec \"\$@\"" limited "$varimap" map "${small_picture[@]}" a.off b.off -o limited >out.txt 2>log || code=$?
+        bash -c "$signal ulimit -f $limit; exec \"\$@\"" limited "$varimap" map -v "${small_picture[@]}" a.off b.off -o limited >out.txt 2>log || code=$?
         ((code == 6 || code == 0)) || fail "exit $code with a limit of $limit kB on files"
         ((code == 0)) || [[ $(grep -c 'error: ' log) == 1 ]] || fail "not one error line"
         [[ ! -d limited/artifacts ]] || whole limited/artifacts/
@@ -39,7 +39,7 @@ refusals=0
 for ((free = 0; ; free += 40)); do
     leave_free $free
     code=0
-    "$varimap" map "${small_picture[@]}" a.off b.off -o disk/out >out.txt 2>log || code=$?
+    "$varimap" map -v "${small_picture[@]}" a.off b.off -o disk/out >out.txt 2>log || code=$?
     ((code != 0)) || break
     ((code == 6)) || fail "exit $code with $free kB free"
     [[ $(grep -c 'error: ' log) == 1 ]] || fail "not one error line with $free kB free"

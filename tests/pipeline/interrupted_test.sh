@@ -36,7 +36,7 @@ done
 
 # The whole pipeline, ended by an interrupt (which it answers) and by a kill (which it cannot).
 for moment in .1 .4 .8 1.2; do
-    "$varimap" map "${small_picture[@]}" a.off b.off -o out -j 2 >/dev/null 2>log &
+    "$varimap" map -v "${small_picture[@]}" a.off b.off -o out -j 2 >/dev/null 2>log &
     front_end=$!
     sleep $moment
     kill -TERM $front_end 2>/dev/null || true
@@ -53,7 +53,7 @@ for artifact in reference/artifacts/*.{surface,coarse,basis,hierarchy,candidates
 done
 
 # Two runs at the same time in one folder.
-"$varimap" map "${small_picture[@]}" a.off b.off -o twice >/dev/null 2>first &
+"$varimap" map -v "${small_picture[@]}" a.off b.off -o twice >/dev/null 2>first &
 first=$!
 map b.off a.off -o twice
 wait $first || fail "the first of two runs"

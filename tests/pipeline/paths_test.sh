@@ -23,7 +23,7 @@ ln -s "$VARIMAP_SOURCE" "$odd/the project"
 cp -r plain.off bent.off tips.txt "$odd"
 (
     cd "$odd"
-    "the project/pipelines/varimap" map "${small_picture[@]}" ./plain.off bent.off -o ../linked --landmarks tips.txt >/dev/null 2>log ||
+    "the project/pipelines/varimap" map -v "${small_picture[@]}" ./plain.off bent.off -o ../linked --landmarks tips.txt >/dev/null 2>log ||
         fail "through a link"
 )
 same plain/source_to_target.csv linked/source_to_target.csv

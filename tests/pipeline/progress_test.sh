@@ -67,4 +67,4 @@ LIST
 "$varimap" bench list/pairs.csv -o benched "${coarse[@]}" >out.txt 2>log && fail "bench succeeded with a bad pair"
 grep -q '^bad .*failed (3): .*error: .*text.off' out.txt || fail "bench does not tell the reason: $(grep ^bad out.txt)"
 grep -q '^good .*0.0' out.txt || fail "bench does not take two files of landmarks"
-jq -e '.provenance.landmarks | length == 2' benched/good/a--b/quality.json >/dev/null || fail "bench used one file of landmarks"
+jq -e '.provenance.landmarks | length == 2' benched/pairs/good.a--b/quality.json >/dev/null || fail "bench used one file of landmarks"

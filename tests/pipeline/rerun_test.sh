@@ -64,15 +64,15 @@ step "" --set diffuse.area_bound=1.5 --set refine.area_bound=1.5
 jq -e '.area_bound == 1.5 and .mass_ratio.source.max < 1.226 and .mass_ratio.target.min > .815' out/quality.json >/dev/null ||
     fail "the bound in quality.json"
 step "$pair" --area-bound 1.5 --area-energy paper
-step "$pair" --landmarks tips.txt
+step "$explored" --landmarks tips.txt
 step "" --landmarks tips.txt
-step "$pair" --landmarks tips.txt --landmark-weight .2
+step "$explored" --landmarks tips.txt --landmark-weight .2
 jq -e '.landmark_weight == .2' out/quality.json >/dev/null || fail "the weight in quality.json"
 head -n 3 tips.txt >three.txt
 touch -d 2001-01-01 three.txt
-step "$pair" --landmarks three.txt
+step "$explored" --landmarks three.txt
 awk '{ print $1 }' tips.txt >list.txt
-step "$pair" --landmarks list.txt list.txt
+step "$explored" --landmarks list.txt list.txt
 # The candidates of before are still those of the two surfaces.
 step "$pair"
 step "$pair" --candidate 1 --set diffuse.tolerance=0.002

@@ -83,8 +83,8 @@ cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap
 (
     unset VARIMAP_BIN VARIMAP_SOURCE
-    prefix/bin/varimap map "${small_picture[@]}" a.off b.off -o installed >/dev/null 2>log || fail "from the prefix"
-    elsewhere/varimap map "${small_picture[@]}" a.off b.off -o installed >/dev/null 2>log || fail "through a link"
+    prefix/bin/varimap map -v "${small_picture[@]}" a.off b.off -o installed >/dev/null 2>log || fail "from the prefix"
+    elsewhere/varimap map -v "${small_picture[@]}" a.off b.off -o installed >/dev/null 2>log || fail "through a link"
     expect_ran ""
 )
 check_front_end elsewhere/varimap

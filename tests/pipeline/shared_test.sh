@@ -14,7 +14,7 @@ milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 2000))  # of one run
 
 # run OUT OPTION...: in the background, in a session of its own
 run() {
-    setsid "$varimap" map "${small_picture[@]}" "${@:2}" -o "$1" >"$1.out" 2>"$1.log" </dev/null &
+    setsid "$varimap" map -v "${small_picture[@]}" "${@:2}" -o "$1" >"$1.out" 2>"$1.log" </dev/null &
 }
 finish() {  # OUT PROCESS
     local code=0
