@@ -92,14 +92,14 @@ Json add_distortion(const PointMap& map, TriangleMesh from, const TriangleMesh& 
 /// there is no way there or back.
 std::vector<std::uint8_t> way_back(const PointMap& map, const TriangleMesh& from, const PointCarrier& back) {
     const double unit = std::sqrt(surface_area(from));
-    std::vector<std::uint8_t> steps(map.size());
+    std::vector<std::uint8_t> quantised(map.size());
     parallel_for_each_index(int(map.size()), 256, [&](int v) {
         const SurfacePoint returned = back(map[std::size_t(v)]);
         if (returned.face < 0) return;
         const double distance = (position(from, returned) - from.vertex(v)).norm() / unit;
-        steps[std::size_t(v)] = std::uint8_t(1 + std::lround(254 * std::min(1., distance / far_back)));
+        quantised[std::size_t(v)] = std::uint8_t(1 + std::lround(254 * std::min(1., distance / far_back)));
     });
-    return steps;
+    return quantised;
 }
 
 /// Vertices round which the map winds more than once (verification.h); none where the surfaces cannot be
