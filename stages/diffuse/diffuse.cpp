@@ -56,7 +56,7 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
     const Candidates* candidates = found && !found->list.empty() ? &*found : nullptr;
     if (found && !candidates && params.candidate > 1)
         throw UsageError(
-            fmt::format("candidate {}: the landmarks lead to a good map, and no other was looked for; "
+            fmt::format("candidate {}: the landmarks decide, and no other map was kept; "
                         "explore in any case (varimap map --explore)",
                         params.candidate));
     const int all = context.diffusion_levels();

@@ -74,16 +74,16 @@ std::vector<PooledMap> led_by_landmarks(const PairContext& context, const Explor
 /// That map and those that explorations found, composed with self-maps.
 std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
                               int composed, const ExploreParams& params, const SelfMaps& self_maps) {
-    std::vector<PooledMap> pool;
+    std::vector<PooledMap> pool = led_by_landmarks(context, params);
+    int found = 0;
     for (const ExplorationOptions& options : explorations) {
         Exploration exploration(context, options, params.alternation, params.ironing);
         for (PooledMap& map : explored(exploration)) {
-            map.origin.explored = int(pool.size()) + 1;
+            map.origin.explored = ++found;
             add_if_new(pool, std::move(map), context);
         }
     }
     compose(pool, composed, self_maps.A, self_maps.B, context);
-    for (PooledMap& map : led_by_landmarks(context, params)) add_if_new(pool, std::move(map), context);
     return pool;
 }
 
@@ -100,7 +100,7 @@ std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::v
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
     // Where landmarks lead is given up for what is clearly better only. Chosen by hand on half of the known
     // pairs.
-    constexpr double preference = 0.03;
+    constexpr double preference = 0.05;
     const auto rank = [](const Candidate& c) {
         return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0));
     };
@@ -215,6 +215,9 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         found < (if_needed ? plausible_with_landmarks : plausible)) {
         log("the best of these maps is not good (plausible by {:.2f}): looking further", found);
         list = thoroughly_found(context, params, self_maps);
+    } else if (if_needed && list.front().candidate.explored == 0) {
+        log("none of {} maps is clearly better than where the landmarks lead", list.size());
+        return {};
     }
     Candidates found;
     for (const Appraised& one : list) {

@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
         if (params.self_maps)
             report_self_maps(found.list);
         else if (found.list.empty())
-            log("the landmarks lead to a good map");
+            log("varimap-diffuse follows the landmarks");
         else
             report(found.list);
         found.sketched_A = inputs.sketched("A");

@@ -25,7 +25,8 @@ namespace varimap {
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
 ///       conformal_distortion {the same}, dirichlet_energy, coverage          (definitions: quality.h)
-///       verification      reversed_count, reversed_area_percent, cutting_count, branch_points, signed_area_ratio; degree
+///       verification      reversed_count, reversed_area_percent, cutting_count, branch_points,
+///       signed_area_ratio; degree
 ///                         between closed surfaces (definitions: verification.h)
 ///       untangling        flipped_before, flipped_area_percent_before, flipped_after,
 ///                         flipped_area_percent_after, global_steps, sweeps, parts_tried,

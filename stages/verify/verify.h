@@ -18,8 +18,8 @@ Verification verify_files(const std::string& source_mesh, const std::string& tar
 
 /// The numbers, one per line.
 std::string as_text(const Verification& found);
-/// An object: reversed_count, reversed_area_percent, cutting_count, branch_points, signed_area_ratio, degree (absent if it
-/// has none), left_out_count, reversed_faces and branch_vertices (0-based, of the source).
+/// An object: reversed_count, reversed_area_percent, cutting_count, branch_points, signed_area_ratio, degree
+/// (absent if it has none), left_out_count, reversed_faces and branch_vertices (0-based, of the source).
 std::string as_json(const Verification& found);
 
 }  // namespace varimap

@@ -7,8 +7,8 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/topology.h"
 #include "varimap/mesh/log_map.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/verification/map_degree.h"
 
 namespace varimap {
