@@ -31,8 +31,9 @@ struct Round {
 constexpr double first_inverse = 0.03;
 /// The first leaves crumpled parts to their replacement; its e swept: 0.15 to 0.6.
 constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150, 1}}};
-constexpr int reconciliations = 2;  ///< swept: 1 to 3
-constexpr double large = 20'000;    ///< vertices from which on fewer global steps are taken
+constexpr double last_fold_visits = 30;  ///< as in the first round
+constexpr int reconciliations = 2;       ///< swept: 1 to 3
+constexpr double large = 20'000;         ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
 /// Share of the energy that a step must win to be followed by another. Swept, same bytes: 1e-6 to 1e-4.
 constexpr double least_gain = 1e-5;
@@ -216,6 +217,8 @@ class Untangling {
         std::vector<int> left = agreement.improve(disagreeing, stays);
         ChartRepair repair(sliding_, agreement);
         const std::vector<int> touched = repair(stays);
+        // What is upright along the target may still be reversed by the normals at its corners.
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, last_fold_visits}(sliding_, stays);
         left.insert(left.end(), touched.begin(), touched.end());
         make_set(left);
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
