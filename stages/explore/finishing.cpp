@@ -124,10 +124,13 @@ std::vector<FinishedMap> finish(const PairContext& context, const std::vector<Ve
         FinishedMap map{one.start,
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy()};
-        if (std::none_of(finished.begin(), finished.end(), [&](const FinishedMap& better) {
-                return are_the_same(better.maps, map.maps, context, options.distinct);
-            }))
+        const auto same = std::find_if(finished.begin(), finished.end(), [&](const FinishedMap& better) {
+            return are_the_same(better.maps, map.maps, context, options.distinct);
+        });
+        if (same == finished.end())
             finished.push_back(std::move(map));
+        else
+            same->start = std::min(same->start, map.start);
     }
     log("finished {} of {} maps", finished.size(), starts.size());
     parallel_for_each_index(finished.size(), std::size_t(1), [&](std::size_t n) {

@@ -11,7 +11,7 @@ namespace varimap {
 
 /// A map solved for on all levels and relaxed on the meshes, which are meant to be coarse.
 struct FinishedMap {
-    int start = 0;      ///< which of the starts it was
+    int start = 0;      ///< which of the starts it was; of several that became the same, the first
     MapPair maps;       ///< per vertex of either mesh, on faces of the other
     double energy = 0;  ///< Eq. (3) on the last level, of every vertex
 };

@@ -6,7 +6,7 @@ using namespace varimap;
 
 namespace {
 
-void report(const std::vector<Candidate>& candidates) {
+void report(const std::vector<Candidate>& candidates, bool has_landmarks) {
     for (size_t k = 0; k < candidates.size(); ++k)
         log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, score {:.4f}, {:.1f}% "
             "reversed; {}",
@@ -20,9 +20,9 @@ void report(const std::vector<Candidate>& candidates) {
             "candidates.png");
     else if (!confidence.confident)
         warn(
-            "the choice among the candidates is not sure ({}): look at candidates.png, try --candidate 2, or "
-            "give landmarks",
-            doubt(candidates));
+            "the choice among the candidates is not sure ({}): look at candidates.png, {}or give {}landmarks",
+            doubt(candidates), candidates.size() > 1 ? "try --candidate 2, " : "",
+            has_landmarks ? "more " : "");
 }
 
 void report_self_maps(const std::vector<Candidate>& self_maps) {
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
         else if (found.list.empty())
             log("varimap-diffuse follows the landmarks");
         else
-            report(found.list);
+            report(found.list, !landmark_files.empty());
         found.sketched_A = inputs.sketched("A");
         found.sketched_B = inputs.sketched("B");
         stage.record_number("candidates", double(found.list.size()));
