@@ -59,8 +59,10 @@ PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
     return to_file(std::move(result), from, to);
 }
 
-struct SelfMaps {
-    std::vector<VertexImages> A, B;
+/// What is known of a pair before it is explored.
+struct Known {
+    std::vector<PooledMap> led;  ///< the map that landmarks lead to; none without landmarks
+    std::vector<VertexImages> self_maps_A, self_maps_B;
 };
 
 /// The map that landmarks lead to; none without landmarks.
@@ -73,8 +75,8 @@ std::vector<PooledMap> led_by_landmarks(const PairContext& context, const Explor
 
 /// That map and those that explorations found, composed with self-maps.
 std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
-                              int composed, const ExploreParams& params, const SelfMaps& self_maps) {
-    std::vector<PooledMap> pool = led_by_landmarks(context, params);
+                              int composed, const ExploreParams& params, const Known& known) {
+    std::vector<PooledMap> pool = known.led;
     int found = 0;
     for (const ExplorationOptions& options : explorations) {
         Exploration exploration(context, options, params.alternation, params.ironing);
@@ -83,7 +85,7 @@ std::vector<PooledMap> pooled(const PairContext& context, const std::vector<Expl
             add_if_new(pool, std::move(map), context);
         }
     }
-    compose(pool, composed, self_maps.A, self_maps.B, context);
+    compose(pool, composed, known.self_maps_A, known.self_maps_B, context);
     return pool;
 }
 
@@ -131,20 +133,16 @@ FinishingOptions quick_finishing(const ExploreParams& params) {
 
 /// What most pairs need: one exploration, and maps finished just well enough to be told apart.
 std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
-                                     const SelfMaps& self_maps) {
-    return finished(pooled(context, {params.exploration}, params.composed, params, self_maps), context,
+                                     const Known& known) {
+    return finished(pooled(context, {params.exploration}, params.composed, params, known), context,
                     quick_finishing(params));
 }
 
 /// Whether the map that landmarks lead to is so good that nothing else is looked for.
-bool landmarks_suffice(const PairContext& context, const ExploreParams& params) {
+bool suffices(const std::vector<PooledMap>& led, const PairContext& context, const ExploreParams& params) {
     constexpr double good = 0.985;  // chosen by hand on half of the known pairs
-    if (int(context.landmarks().size()) > params.few_landmarks) {
-        log("{} landmarks: nothing else is looked for", context.landmarks().size());
-        return true;
-    }
-    const auto led = finished(led_by_landmarks(context, params), context, quick_finishing(params));
-    const Candidate& map = led.front().candidate;
+    const std::vector<Appraised> list = finished(led, context, quick_finishing(params));
+    const Candidate& map = list.front().candidate;
     const double found = is_mirrored(map) ? 0 : plausibility(map);
     log("the landmarks lead to a map that is plausible by {:.3f} (Dirichlet energy {:.3f}, relief {:.3f})",
         found, map.dirichlet, map.relief);
@@ -154,7 +152,7 @@ bool landmarks_suffice(const PairContext& context, const ExploreParams& params) 
 /// For shapes that differ much: explorations with looser and with exact areas, more compositions, and maps
 /// finished with care.
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
-                                        const SelfMaps& self_maps) {
+                                        const Known& known) {
     std::vector<ExplorationOptions> explorations;
     for (const double factor : {1.0, 2.0, 0.5}) {
         ExplorationOptions options = params.exploration;
@@ -167,8 +165,7 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
     finishing.alternation = for_comparison(params.alternation, params.alternation.area_bound);
     finishing.iron_all = true;
     finishing.most += 3;
-    return finished(pooled(context, explorations, 2 * params.composed, params, self_maps), context,
-                    finishing);
+    return finished(pooled(context, explorations, 2 * params.composed, params, known), context, finishing);
 }
 
 }  // namespace
@@ -207,14 +204,19 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     // Chosen by hand on half of the known pairs. With landmarks, fewer maps are wrong.
     constexpr double plausible = 0.9, plausible_with_landmarks = 0.75;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
-    if (if_needed && landmarks_suffice(context, params)) return {};
+    if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
+        log("{} landmarks: nothing else is looked for", context.landmarks().size());
+        return {};
+    }
     const Surface &A = context.A().surface, &B = context.B().surface;
-    const SelfMaps self_maps{images_of(self_maps_A, A), images_of(self_maps_B, B)};
-    std::vector<Appraised> list = quickly_found(context, params, self_maps);
+    const Known known{led_by_landmarks(context, params), images_of(self_maps_A, A),
+                      images_of(self_maps_B, B)};
+    if (if_needed && suffices(known.led, context, params)) return {};
+    std::vector<Appraised> list = quickly_found(context, params, known);
     if (const double found = plausibility(list.front().candidate);
         found < (if_needed ? plausible_with_landmarks : plausible)) {
         log("the best of these maps is not good (plausible by {:.2f}): looking further", found);
-        list = thoroughly_found(context, params, self_maps);
+        list = thoroughly_found(context, params, known);
     } else if (if_needed && list.front().candidate.explored == 0) {
         log("none of {} maps is clearly better than where the landmarks lead", list.size());
         return {};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/private/disjoint_sets.h"
 
 namespace varimap {
@@ -52,8 +53,7 @@ Adjacency vertex_neighbours(const TriangleMesh& mesh) {
         for (const int f : faces[v])
             for (int c = 0; c < 3; ++c)
                 if (mesh.faces(f, c) != v) around.push_back(mesh.faces(f, c));
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
+        make_set(around);
         result.item.insert(result.item.end(), around.begin(), around.end());
         result.begin.push_back(int(result.item.size()));
     }

@@ -80,8 +80,7 @@ double ChartRepair::badness(const std::vector<int>& faces) const {
     return sum + branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
 }
 
-std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part) {
-    const std::vector<int> rim = disc_boundary(part.mesh);
+std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std::vector<int>& rim) {
     const auto face = [&](std::size_t i) {
         return map_.point(part.vertex[std::size_t(rim[i % rim.size()])]).face;
     };
@@ -148,9 +147,13 @@ void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
 ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int rings,
                                           const VertexData<bool>& fixed) {
     const int most = most_faces(map_.source());
-    const std::vector<int> faces = source_.filled(source_.widened(cluster, rings), most);
+    std::vector<int> faces = source_.filled(source_.widened(cluster, rings), most);
     if (int(faces.size()) > most) return Outcome::no_disc;
-    const ChartedPart part(map_, faces, enclosed_on_target(SubMesh(map_.source(), faces)));
+    SubMesh disc(map_.source(), std::move(faces));
+    std::vector<int> rim = disc_boundary(disc.mesh);
+    if (rim.empty()) return Outcome::no_disc;
+    std::vector<int> goal = enclosed_on_target(disc, rim);
+    const ChartedPart part(map_, std::move(disc), std::move(rim), std::move(goal));
     if (!part.are_discs()) return Outcome::no_disc;
     if (!part.has_simple_rim()) return Outcome::no_simple_rim;
     const PointMap unfolded = part.unfolded(map_, fixed);

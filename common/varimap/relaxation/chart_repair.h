@@ -14,8 +14,8 @@ namespace varimap {
 /// Repairs what sliding cannot: folds around branch points, where the map covers the target twice, and
 /// vertices on the wrong side of a thin part. Defects are faces reversed along the target (laid_out.h) and
 /// branch points (branch_points.h); they are widened, ring by ring, to a disc that can be mapped anew in the
-/// plane (charted_part.h). What comes of it is relaxed on the target, no face of the chart turning over, and
-/// kept if there are fewer defects than before.
+/// plane (charted_part.h). What comes of it is relaxed on the target and kept if there are fewer defects
+/// than before.
 class ChartRepair {
   public:
     enum class Outcome { repaired, no_disc, no_simple_rim, folded, no_gain };
@@ -38,7 +38,7 @@ class ChartRepair {
     double badness(const std::vector<int>& faces) const;
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
     /// too much.
-    std::vector<int> enclosed_on_target(const SubMesh& part);
+    std::vector<int> enclosed_on_target(const SubMesh& part, const std::vector<int>& rim);
     /// Defects that hang together, with the faces around them, but for those that were tried in vain often
     /// enough.
     std::vector<std::vector<int>> clusters_of(const std::vector<int>& defects);

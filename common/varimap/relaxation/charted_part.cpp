@@ -40,12 +40,10 @@ bool clean(PointMap& images) {
 
 }  // namespace
 
-ChartedPart::ChartedPart(const SlidingMap& map, std::vector<int> part, std::vector<int> goal)
-    : part_(map.source(), std::move(part)),
-      goal_(map.target(), std::move(goal)),
-      rim_(disc_boundary(part_.mesh)) {
+ChartedPart::ChartedPart(const SlidingMap& map, SubMesh part, std::vector<int> rim, std::vector<int> goal)
+    : part_(std::move(part)), goal_(map.target(), std::move(goal)), rim_(std::move(rim)) {
     const std::vector<int> boundary = disc_boundary(goal_.mesh);
-    if (rim_.empty() || boundary.empty()) return;
+    if (boundary.empty()) return;
     for (const int v : part_.vertex)
         if (!map.has_image(v)) return;
     chart_ = circular_chart(goal_.mesh, boundary);
@@ -109,19 +107,6 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
         if (clean(images)) return images;
     }
     return {};
-}
-
-bool ChartedPart::is_upright_around(const SlidingMap& map, int v) const {
-    for (const int f : map.faces_of_vertex()[v]) {
-        Vec2 p[3];
-        for (int k = 0; k < 3; ++k) {
-            const SurfacePoint image = goal_.on_part(map.point(map.source().faces(f, k)));
-            if (image.face < 0) return false;
-            p[k] = position(chart_, image).head<2>();
-        }
-        if (!(cross(p[1] - p[0], p[2] - p[0]) > 0)) return false;
-    }
-    return true;
 }
 
 }  // namespace varimap

@@ -12,10 +12,11 @@ namespace varimap {
 /// so is the map that it stands for.
 class ChartedPart {
   public:
-    /// Copies what it needs of the map. `part`: faces of its source, `goal`: faces of its target, ascending.
-    ChartedPart(const SlidingMap& map, std::vector<int> part, std::vector<int> goal);
+    /// Copies what it needs of the map. `part`: of its source, a disc with that boundary (disc_boundary);
+    /// `goal`: faces of its target, ascending.
+    ChartedPart(const SlidingMap& map, SubMesh part, std::vector<int> rim, std::vector<int> goal);
 
-    bool are_discs() const { return !rim_.empty() && corners_.rows() > 0; }
+    bool are_discs() const { return corners_.rows() > 0; }
     /// Whether the images of the rim, joined by segments of the chart, touch themselves nowhere and go round
     /// counter-clockwise.
     bool has_simple_rim() const;
@@ -28,8 +29,6 @@ class ChartedPart {
     /// Maps the inside anew, without a reversed face in the chart: images of `vertices()`; none if that was
     /// not achieved. Vertices with fixed[v] stay, as does the rim.
     PointMap unfolded(const SlidingMap& map, const VertexData<bool>& fixed) const;
-    /// Whether the faces around a vertex of the source that is not on the rim are upright in the chart.
-    bool is_upright_around(const SlidingMap& map, int v) const;
 
   private:
     SubMesh part_, goal_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/local_relaxation.h"
@@ -37,8 +38,7 @@ class Patch {
         for (const int v : vertices_)
             for (const int f : map.faces_of_vertex()[v])
                 if (map.is_mapped(f)) faces_.push_back(f);
-        std::sort(faces_.begin(), faces_.end());
-        faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+        make_set(faces_);
         shapes_.resize(faces_.size());
         keep();
         measure();
