@@ -8,6 +8,7 @@ using namespace varimap;
 struct StartingMap {
     PairRecord record;
     VertexMaps images;
+    double area_bound;
 };
 
 /// From the plan of varimap-refine, or from that of varimap-diffuse.
@@ -15,7 +16,7 @@ template <class Solved>
 StartingMap read_start(Stage& stage, const std::string& path, const Surface& A, const Surface& B) {
     const Solved solved = stage.read<Solved>("plan", path).value;
     require_surfaces(solved, A, B);
-    return {solved.record, read_out(solved, A, B)};
+    return {solved.record, read_out(solved, A, B), solved.plan.area_bound};
 }
 
 }  // namespace
@@ -36,10 +37,10 @@ int main(int argc, char** argv) {
         const Header plan = read_header(plan_file);
         Stage::require_lineage(plan, plan_file, "A.surface", A.header, surface_A);
         Stage::require_lineage(plan, plan_file, "B.surface", B.header, surface_B);
-        auto [record, images] = plan.kind == ArtifactType<Diffusion>::kind
-                                    ? read_start<Diffusion>(stage, plan_file, A.value, B.value)
-                                    : read_start<Plan>(stage, plan_file, A.value, B.value);
+        auto [record, images, area_bound] = plan.kind == ArtifactType<Diffusion>::kind
+                                                ? read_start<Diffusion>(stage, plan_file, A.value, B.value)
+                                                : read_start<Plan>(stage, plan_file, A.value, B.value);
         log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
-        stage.write(out, relax(A.value, B.value, record, std::move(images), params));
+        stage.write(out, relax(A.value, B.value, record, std::move(images), area_bound, params));
     });
 }

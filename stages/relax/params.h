@@ -7,6 +7,7 @@ namespace varimap {
 
 struct RelaxParams {
     UntanglingOptions untangling;
+    bool keep_area_bound = true;
 
     void describe(ParameterList& list) {
         UntanglingOptions& o = untangling;
@@ -22,6 +23,12 @@ struct RelaxParams {
             "inverse_weight", o.inverse_weight,
             "weight of both directions' being each other's inverse against the isometry in the relaxation", 0,
             1e6);
+        list.add(
+            "settling_steps", o.settling_steps,
+            "relaxation steps at the end, in which both directions become each other's inverse and keep the "
+            "area bound",
+            0, 1000);
+        list.add("keep_area_bound", keep_area_bound, "keeps areas of the map within the plan's area bound");
         list.add("fold_sweeps", o.fold_sweeps, "sweeps that remove folds, per patch size", 0, 100'000);
         list.add("replace_parts", o.replace_parts,
                  "maps strained parts (mirrored, twisted, crumpled) anew (Sec. 4.4)");

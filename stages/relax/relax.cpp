@@ -120,9 +120,10 @@ UntanglingReport joined(const UntanglingReport& meshes, UntanglingReport inputs)
 }  // namespace
 
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
-                 const RelaxParams& params) {
+                 double area_bound, const RelaxParams& params) {
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
     UntanglingOptions options = params.untangling;
+    if (params.keep_area_bound) options.area_bound = area_bound;
     const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;
     if (is_apart(A) || is_apart(B)) {

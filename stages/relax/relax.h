@@ -13,6 +13,6 @@ namespace varimap {
 /// surfaces are untangled first: the input alone would be too coarse to find the way. Points lie on the faces
 /// of the mesh files, also where a surface is mirrored.
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
-                 const RelaxParams& params = {});
+                 double area_bound, const RelaxParams& params = {});
 
 }  // namespace varimap

@@ -91,7 +91,7 @@ Artifacts made() {
     all.diffusion = diffuse(context, {}, all.candidates);
     all.plan = refine(context, all.diffusion, {});
     all.map = relax(all.A.surface, all.B.surface, all.plan.record,
-                    read_out(all.plan, all.A.surface, all.B.surface));
+                    read_out(all.plan, all.A.surface, all.B.surface), all.plan.plan.area_bound);
     all.quality.json = quality_json(all.map, all.A.surface, all.B.surface, all.plan);
     return all;
 }
@@ -192,7 +192,7 @@ void run_relax(const Artifacts& all, const std::string& name) {
     const Surface &A = all.A.surface, &B = all.B.surface;
     const auto relaxed = [&](const auto& start) {
         require_surfaces(start, A, B);
-        encode(relax(A, B, start.record, read_out(start, A, B)));
+        encode(relax(A, B, start.record, read_out(start, A, B), start.plan.area_bound));
     };
     if (name == "diffusion") return relaxed(all.diffusion);
     relaxed(all.plan);

@@ -81,7 +81,7 @@ TEST(Relax, CarriesAMapOfCoarseMeshesOverToTheInputs) {
     record.landmarks = {{mesh_vertex_at(surface, {77}), mesh_vertex_at(surface, {77})}};
     record.landmark_points = {{point_at_vertex(surface.input, 77), point_at_vertex(surface.input, 77)}};
     const PointMap identity = points_at_vertices(surface.mesh);
-    const SurfaceMap map = relax(surface, surface, record, {identity, identity});
+    const SurfaceMap map = relax(surface, surface, record, {identity, identity}, 2);
     double sum = 0;
     for (int v = 0; v < surface.input.vertex_count(); ++v)
         sum += (position(surface.input, map.A_to_B[std::size_t(v)]) - surface.input.vertex(v)).norm();

@@ -27,6 +27,11 @@ struct FoldEnergy {
     double chi(double D) const;
     double value(double q, double D) const;
     Value derivatives(double q, double D) const;
+    /// What more of the area term, (1 + D^2) / (2 chi(D)), adds.
+    double area_value(double D) const { return (1 + D * D) / (2 * chi(D)); }
+    Value area_derivatives(double D) const;
+    /// With more weight of the area term.
+    FoldEnergy with(double area_weight) const { return {weight + area_weight, regularisation}; }
 };
 
 /// The excess x of a fold energy (per area) over an isometry's, and its robust function r log(1 + x / r), by
@@ -38,6 +43,7 @@ struct RobustEnergy {
 
     RobustEnergy(const FoldEnergy& e, double r) : energy(e), robustness(r), least(e.value(2, 1)) {}
     double value(double q, double D) const;
+    double area_value(double D) const { return energy.area_value(D); }
     /// Derivative of the value by the fold energy where that is `v`.
     double slope(double v) const { return robustness > 0 ? 1 / (1 + excess(v) / robustness) : 1; }
 
@@ -49,6 +55,9 @@ struct RobustEnergy {
 struct RestTriangle {
     double area = 0;
     Vec3 cotangent = Vec3::Zero();  ///< per corner
+    /// Of the area term, beyond that of the energy, and beyond robustness: where a bound presses
+    /// (area_bound.h).
+    double area_weight = 0;
 };
 FaceData<RestTriangle> rest_triangles(const TriangleMesh& source);
 
@@ -84,6 +93,12 @@ inline FoldEnergy::Value FoldEnergy::derivatives(double q, double D) const {
     v.f_qD = -r / (2 * c);
     v.f_DD = (weight - 2 * weight * D * r + N * (2 * r * r - c2 / c)) / c;
     v.convex_DD = (q * r * r + weight * (r * r + (1 - D * r) * (1 - D * r))) / c;
+    return v;
+}
+
+inline FoldEnergy::Value FoldEnergy::area_derivatives(double D) const {
+    Value v = FoldEnergy{1, regularisation}.derivatives(0, D);
+    v.f_q = v.f_qD = 0;
     return v;
 }
 

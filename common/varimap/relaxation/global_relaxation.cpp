@@ -17,7 +17,11 @@ constexpr double least_share = 1.0 / 64;  ///< of a step; swept: 0.002 to 1/16
 /// Of one vertex, in units of sqrt(area). Swept: from 0.02; at 0.2 a branch point is left.
 constexpr double longest_step = 0.05;
 constexpr double half_step = 0.75;  ///< share of a Newton step's fall that half of it has
-constexpr double shift = 1e-8;      ///< of the diagonal, relative; swept: 1e-10 to 1e-6
+/// Energy, per area, that a face may gain in a step that is walked with care. 0.3 and 3 did about the same.
+constexpr double tolerable = 1;
+constexpr int careful_trials = 5;
+constexpr double careful_share = 0.4;  ///< of the step before, where that was too long
+constexpr double shift = 1e-8;         ///< of the diagonal, relative; swept: 1e-10 to 1e-6
 
 /// A tangent frame turned into the plane with unit normal `up` the shortest way.
 TangentFrame turned(const TangentFrame& frame, const Vec3& up) {
@@ -84,6 +88,9 @@ struct GlobalRelaxation::State {
     void place(const PointMap& images);
     void set_steps(const Eigen::VectorXd& direction);
     void walk(double share);
+    void walk_with_care(const FoldEnergy& energy);
+    std::vector<double> densities(const FoldEnergy& energy) const;
+    std::vector<char> corners_of_worse(const FoldEnergy& energy, const std::vector<double>& before) const;
     PointMap best_images(const RobustEnergy& energy, double before, double promised, double& best);
     double total(const RobustEnergy& energy) const;
 };
@@ -131,6 +138,9 @@ void GlobalRelaxation::State::assemble(const RobustEnergy& energy) {
         const ImageTriangle image = map.image_triangle(faces[i]);
         const FoldEnergy::Value d = energy.energy.derivatives(image.q, image.D);
         add(i, face_derivatives(map, frames, faces[i], image, d), energy.slope(d.f));
+        if (const double more = map.rest(faces[i]).area_weight; more > 0)
+            add(i, face_derivatives(map, frames, faces[i], image, energy.energy.area_derivatives(image.D)),
+                more);
     }
     if (relief) add_relief();
     if (constraints) add_constraints();
@@ -195,13 +205,54 @@ void GlobalRelaxation::State::walk(double share) {
     for (int i = 0; i < int(free.size()); ++i) map.place(free[i], map.walk(start[i], share * steps[i]));
 }
 
-/// Images after the best share of the step, the start where none is better than `before`. Curved targets make
-/// full steps overshoot: the share is halved for as long as that helps, unless the full step wins what half
-/// of it could, of the `promised` fall.
+std::vector<double> GlobalRelaxation::State::densities(const FoldEnergy& energy) const {
+    std::vector<double> result;
+    result.reserve(faces.size());
+    for (const int f : faces)
+        result.push_back(density_with_area_weight(energy, map.rest(f), map.image_triangle(f)));
+    return result;
+}
+
+/// Marks of the free vertices of faces that gained more than is tolerable.
+std::vector<char> GlobalRelaxation::State::corners_of_worse(const FoldEnergy& energy,
+                                                            const std::vector<double>& before) const {
+    std::vector<char> marks(free.size(), 0);
+    const std::vector<double> now = densities(energy);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (now[i] > before[i] + tolerable)
+            for (int k = 0; k < 3; ++k)
+                if (const int u = unknown[map.source().faces(faces[i], k)]; u >= 0) marks[std::size_t(u)] = 1;
+    return marks;
+}
+
+/// Moves all free vertices from the start by their steps, shorter ones where faces would get far worse, and
+/// none where that does not help: a few corners that turn over do not hold up all others.
+void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy) {
+    const std::vector<double> before = densities(energy);
+    std::vector<double> shares(free.size(), 1);
+    walk(1);
+    for (int trial = 1; trial <= careful_trials; ++trial) {
+        const std::vector<char> worse = corners_of_worse(energy, before);
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            if (!worse[i]) continue;
+            shares[i] = trial < careful_trials ? careful_share * shares[i] : 0;
+            map.place(free[i], map.walk(start[i], shares[i] * steps[i]));
+        }
+    }
+}
+
+/// Images after the step, walked with care; where that does not lower the energy, after the best share of it
+/// for all, the start where none is better than `before`. Curved targets make full steps overshoot: the share
+/// is halved for as long as that helps, unless one wins what half of the step could, of the `promised` fall.
 PointMap GlobalRelaxation::State::best_images(const RobustEnergy& energy, double before, double promised,
                                               double& best) {
     best = before;
     PointMap result = start;
+    walk_with_care(energy.energy);
+    if (const double after = total(energy); after < before) {
+        best = after;
+        return images();
+    }
     for (double share = 1; share >= least_share; share /= 2) {
         walk(share);
         const double after = total(energy);

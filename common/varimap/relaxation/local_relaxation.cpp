@@ -34,10 +34,11 @@ void Star::gather(const SlidingMap& map, int v) {
         const auto corners = map.source().faces.row(f);
         const int i = map.corner_of(f, v), j = (i + 1) % 3, k = (i + 2) % 3;
         const RestTriangle& rest = map.rest(f);
-        faces_.push_back({{rest.area, {rest.cotangent[i], rest.cotangent[j], rest.cotangent[k]}},
-                          map.image(corners[j]),
-                          map.image(corners[k]),
-                          map.normal(corners[j]) + map.normal(corners[k])});
+        faces_.push_back(
+            {{rest.area, {rest.cotangent[i], rest.cotangent[j], rest.cotangent[k]}, rest.area_weight},
+             map.image(corners[j]),
+             map.image(corners[k]),
+             map.normal(corners[j]) + map.normal(corners[k])});
     }
 }
 
@@ -47,7 +48,7 @@ Star::Quadratic Star::quadratic(const Vec3& x, const Vec3& normal, const Tangent
     for (const Face& face : faces_) {
         const RestTriangle& rest = face.rest;
         const ImageTriangle image = face.image(x, normal);
-        const auto d = energy.derivatives(image.q, image.D);
+        const auto d = energy.with(rest.area_weight).derivatives(image.q, image.D);
         const double cj = rest.cotangent[1], ck = rest.cotangent[2];
         const CornerGradient gradient = corner_gradient(cj, ck, x, face.y, face.z, image.up);
         const Eigen::Vector2d q = frame.transpose() * gradient.q / rest.area;
@@ -65,7 +66,7 @@ double Star::energy(const Vec3& x, const Vec3& normal, const FoldEnergy& energy,
     for (const Face& face : faces_) {
         if (sum >= limit) break;
         const ImageTriangle image = face.image(x, normal);
-        sum += face.rest.area * energy.value(image.q, image.D);
+        sum += face.rest.area * energy.with(face.rest.area_weight).value(image.q, image.D);
     }
     return sum;
 }

@@ -52,6 +52,7 @@ class SlidingMap {
     void scale_rest(const std::vector<int>& faces, double factor) {
         for (const int f : faces) rest_[f].area *= factor;
     }
+    void set_area_weight(int f, double weight) { rest_[f].area_weight = weight; }
     /// Takes a vertex's image away.
     void clear(int v) { points_[v].face = -1; }
     /// Where a walk from a point of the target ends.

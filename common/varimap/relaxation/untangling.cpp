@@ -9,6 +9,7 @@
 #include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
 #include "varimap/quality/quality.h"
+#include "varimap/relaxation/area_bound.h"
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
@@ -20,17 +21,22 @@ namespace varimap {
 
 namespace {
 
-/// Two rounds of relaxation and removal of folds.
+/// A round of relaxation and removal of folds.
 struct Round {
     double regularisation;     ///< e; where it is large, folds pass through each other
     double robustness_factor;  ///< on the option
     double fold_visits;        ///< bounds the removal of folds (fold_removal.h)
-    double last_inverse;       ///< share of the option's inverse_weight in the last step
+    double first_inverse;      ///< share of the option's inverse_weight in the first step
+    double last_inverse;       ///< the same in the last
 };
-/// The same in the first; more would slow both directions down. Swept: 0.01 to 0.1.
+/// More in the first steps would slow both directions down. Swept: 0.01 to 0.1.
 constexpr double first_inverse = 0.03;
 /// The first leaves crumpled parts to their replacement; its e swept: 0.15 to 0.6.
-constexpr std::array<Round, 2> rounds{{{0.3, 3, 30, first_inverse}, {0.1, 1, 150, 1}}};
+constexpr std::array<Round, 2> rounds{
+    {{0.3, 3, 30, first_inverse, first_inverse}, {0.1, 1, 150, first_inverse, 1}}};
+/// The last, of an unfolded map, which settles into the other's inverse and the area bound.
+constexpr Round settling{0.1, 1, 30, 4, 4};
+constexpr int settling_sweeps = 3;       ///< local ones in each of its steps where there are no global ones
 constexpr double last_fold_visits = 30;  ///< as in the first round
 constexpr int reconciliations = 2;       ///< swept: 1 to 3
 constexpr double large = 20'000;         ///< vertices from which on fewer global steps are taken
@@ -52,19 +58,20 @@ std::vector<int> free_vertices(const SlidingMap& map, VertexData<bool> fixed,
 class Relaxation {
   public:
     Relaxation(SlidingMap& map, const VertexData<bool>& fixed, const ReliefAgreement* relief,
-               const std::vector<SoftConstraint>& landmarks, const Round& round,
+               const std::vector<SoftConstraint>& landmarks, const Round& round, int steps,
                const UntanglingOptions& options)
         : map_(map),
           options_(options),
           landmarks_(landmarks),
           energy_({options.area_weight, round.regularisation}, round.robustness_factor * options.robustness),
-          last_inverse_(round.last_inverse),
+          round_(round),
+          asked_(steps),
           vertices_(free_vertices(map, fixed, landmarks)),
           global_(map, fixed, relief),
           local_(map, 99) {
         // A factorisation takes more than linear time; the first steps are those that matter.
-        const double affordable = options.global_steps * large / double(vertices_.size() + 1);
-        most_ = std::min(options.global_steps, std::max(least_steps, int(affordable)));
+        const double affordable = steps * large / double(vertices_.size() + 1);
+        most_ = std::min(steps, std::max(least_steps, int(affordable)));
     }
 
     /// `back`: the other direction, whose inverse the map is drawn to.
@@ -86,15 +93,16 @@ class Relaxation {
   private:
     /// Where few steps are taken the directions cannot follow each other as far.
     double inverse_share() const {
-        const double progress = (steps_ + 1.0) / options_.global_steps;
-        return first_inverse + (last_inverse_ - first_inverse) * progress * progress;
+        const double progress = (steps_ + 1.0) / asked_;
+        return round_.first_inverse + (round_.last_inverse - round_.first_inverse) * progress * progress;
     }
 
     SlidingMap& map_;
     const UntanglingOptions& options_;
     const std::vector<SoftConstraint>& landmarks_;
     RobustEnergy energy_;
-    double last_inverse_;
+    Round round_;
+    int asked_;  ///< steps
     std::vector<int> vertices_;
     GlobalRelaxation global_;
     LocalRelaxation local_;
@@ -152,13 +160,31 @@ class Untangling {
     void start_relaxation(const Round& round) {
         fixed_ = stay(sliding_, pinned_, options_.gate, report_);
         sweep(round);
-        if (options_.global_steps > 0)
-            relaxation_ =
-                std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, options_);
+        relaxation_ = relaxation(round, options_.global_steps);
     }
     bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
     void relax(const PointMap& back) {
         if (!is_relaxed()) relaxation_->step(back);
+    }
+    /// The last round begins with `start_settling` instead, and takes steps of `settle`.
+    void start_settling() {
+        settling_steps_ = 0;
+        relaxation_ = relaxation(settling, options_.settling_steps);
+        if (options_.area_bound > 0)
+            bound_ = std::make_unique<AreaBound>(sliding_, options_.area_bound, exempt());
+    }
+    bool is_settled() const {
+        return settling_steps_ >= options_.settling_steps || (relaxation_ ? relaxation_->done() : !bound_);
+    }
+    void settle(const PointMap& back) {
+        if (is_settled()) return;
+        ++settling_steps_;
+        std::vector<int> pressed;
+        if (bound_) pressed = bound_->press();
+        if (relaxation_)
+            relaxation_->step(back);
+        else
+            sweep(free_among(std::move(pressed)), settling, settling_sweeps);
     }
     void end_relaxation(const Round& round) {
         if (relaxation_) report_.global_steps += relaxation_->steps();
@@ -194,12 +220,30 @@ class Untangling {
     }
 
   private:
+    std::unique_ptr<Relaxation> relaxation(const Round& round, int steps) {
+        if (options_.global_steps == 0 || steps == 0) return nullptr;
+        return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, steps,
+                                            options_);
+    }
     void sweep(const Round& round) {
-        if (options_.local_sweeps == 0) return;
-        std::vector<int> vertices = free_vertices(sliding_, fixed_, landmarks_);
+        if (options_.local_sweeps > 0)
+            sweep(free_vertices(sliding_, fixed_, landmarks_), round, options_.local_sweeps);
+    }
+    void sweep(std::vector<int> vertices, const Round& round, int sweeps) {
         LocalRelaxation local(sliding_, 99);
-        for (int i = 0; i < options_.local_sweeps; ++i)
+        for (int i = 0; i < sweeps; ++i)
             local.sweep(vertices, {options_.area_weight, round.regularisation}, false);
+    }
+    std::vector<int> free_among(std::vector<int> vertices) const {
+        const std::vector<int> free = free_vertices(sliding_, fixed_, landmarks_);
+        std::erase_if(vertices, [&](int v) { return !std::binary_search(free.begin(), free.end(), v); });
+        return vertices;
+    }
+    /// Vertices whose surroundings cannot keep the area bound: those of landmarks.
+    VertexData<bool> exempt() const {
+        VertexData<bool> exempt = pinned_;
+        for (const SoftConstraint& landmark : landmarks_) mark_corners(source_, landmark.from.face, exempt);
+        return exempt;
     }
     /// The fixed vertices, and those that hold a landmark in place, unless their triangle is reversed.
     VertexData<bool> held() const {
@@ -235,6 +279,8 @@ class Untangling {
     VertexData<bool> fixed_;
     std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
+    std::unique_ptr<AreaBound> bound_;
+    int settling_steps_ = 0;
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;
 };
@@ -252,6 +298,14 @@ void run(Untangling& there, Untangling& back, const Round& round) {
     while (!there.is_relaxed() || !back.is_relaxed())
         with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.relax(inverse); });
     tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
+}
+
+/// The last round.
+void settle(Untangling& there, Untangling& back) {
+    tbb::parallel_invoke([&] { there.start_settling(); }, [&] { back.start_settling(); });
+    while (!there.is_settled() || !back.is_settled())
+        with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.settle(inverse); });
+    tbb::parallel_invoke([&] { there.end_relaxation(settling); }, [&] { back.end_relaxation(settling); });
 }
 
 PointPairs swapped(const PointPairs& points) {
@@ -275,6 +329,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
             map.reconcile(inverse, round == 0);
         });
     run(there, back, rounds[1]);
+    if (options.settling_steps > 0) settle(there, back);
     UntanglingReports reports;
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;

@@ -29,6 +29,9 @@ struct UntanglingOptions {
     /// Over the whole map, before folds are removed: for a map that was relaxed at a lower resolution. With
     /// any, there is one round.
     int local_sweeps = 0;
+    /// Of relaxation in the end, with more weight of the other direction's inverse, and the area bound.
+    int settling_steps = 15;
+    double area_bound = 0;  ///< that areas around vertices are to keep (area_bound.h); 0: none
     int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
     MirrorGate gate;
     PartReplacementOptions parts;
@@ -53,7 +56,8 @@ struct PinnedPair {
 ///  2. strained parts, which are mirrored, twisted or crumpled, mapped anew (part_replacement.h), as their
 ///     surroundings or the other direction's inverse have it;
 ///  3. the first step once more, with less regularisation;
-///  4. faces that cut through thin features turned the target's way (normal_agreement.h).
+///  4. the maps settled into each other's inverse and the area bound (area_bound.h);
+///  5. faces that cut through thin features turned the target's way (normal_agreement.h).
 /// Parts that are mirrored in the end stay so: a map that is made flip-free there would be wrong all the
 /// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic: the
 /// two directions run side by side, each serial.

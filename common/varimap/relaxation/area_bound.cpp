@@ -1,0 +1,51 @@
+#include "varimap/relaxation/area_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "varimap/core/index_set.h"
+
+namespace varimap {
+
+namespace {
+
+// Chosen on a pair of people, one of cats, and a gorilla and a man: a first weight of 1 that doubles costs
+// accuracy (0.0370 instead of 0.0359 on the last).
+constexpr double first_weight = 0.3, growth = 1.3, most_weight = 100;
+/// Exponent of the bound that is aimed at: what follows, another mesh or the removal of folds, moves ratios.
+constexpr double margin = 0.9;
+
+}  // namespace
+
+AreaBound::AreaBound(SlidingMap& map, double bound, VertexData<bool> exempt)
+    : map_(map), bound_(std::pow(bound, margin)), exempt_(std::move(exempt)) {}
+
+bool AreaBound::is_kept(int v) const {
+    double area = 0, image = 0;
+    for (const int f : map_.faces_of_vertex()[v]) {
+        if (!map_.is_mapped(f)) continue;
+        area += map_.rest(f).area;
+        image += map_.rest(f).area * map_.image_triangle(f).D;
+    }
+    return image <= area * bound_ && image * bound_ >= area;
+}
+
+std::vector<int> AreaBound::press() {
+    std::vector<int> faces, corners;
+    for (int v = 0; v < exempt_.size(); ++v) {
+        if (exempt_[v] || is_kept(v)) continue;
+        const auto star = map_.faces_of_vertex()[v];
+        faces.insert(faces.end(), star.begin(), star.end());
+    }
+    make_set(faces);
+    for (const int f : faces) {
+        if (!map_.is_mapped(f) || !(map_.image_triangle(f).D > 0)) continue;
+        map_.set_area_weight(f, std::clamp(growth * map_.rest(f).area_weight, first_weight, most_weight));
+        for (int k = 0; k < 3; ++k) corners.push_back(map_.source().faces(f, k));
+    }
+    make_set(corners);
+    return corners;
+}
+
+}  // namespace varimap
