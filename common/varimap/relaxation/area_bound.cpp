@@ -21,6 +21,10 @@ constexpr double margin = 0.9;
 AreaBound::AreaBound(SlidingMap& map, double bound, VertexData<bool> exempt)
     : map_(map), bound_(std::pow(bound, margin)), exempt_(std::move(exempt)) {}
 
+AreaBound::~AreaBound() {
+    for (int f = 0; f < map_.source().face_count(); ++f) map_.set_area_weight(f, 0);
+}
+
 bool AreaBound::is_kept(int v) const {
     double area = 0, image = 0;
     for (const int f : map_.faces_of_vertex()[v]) {

@@ -35,7 +35,7 @@ constexpr double first_inverse = 0.03;
 constexpr std::array<Round, 2> rounds{
     {{0.3, 3, 30, first_inverse, first_inverse}, {0.1, 1, 150, first_inverse, 1}}};
 /// The last, of an unfolded map, which settles into the other's inverse and the area bound.
-constexpr Round settling{0.1, 1, 30, 4, 4};
+constexpr Round settling{0.1, 1, 30, 2, 2};
 constexpr int settling_sweeps = 3;       ///< local ones in each of its steps where there are no global ones
 constexpr double last_fold_visits = 30;  ///< as in the first round
 constexpr int reconciliations = 2;       ///< swept: 1 to 3
@@ -192,6 +192,11 @@ class Untangling {
         report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(sliding_, held());
     }
 
+    void end_settling() {
+        bound_.reset();
+        end_relaxation(settling);
+    }
+
     void replace_parts(const PointMap& back) {
         if (!options_.replace_parts) return;
         replacement_ = std::make_unique<PartReplacement>(sliding_, pinned_, options_.parts, landmarks_);
@@ -305,7 +310,7 @@ void settle(Untangling& there, Untangling& back) {
     tbb::parallel_invoke([&] { there.start_settling(); }, [&] { back.start_settling(); });
     while (!there.is_settled() || !back.is_settled())
         with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.settle(inverse); });
-    tbb::parallel_invoke([&] { there.end_relaxation(settling); }, [&] { back.end_relaxation(settling); });
+    tbb::parallel_invoke([&] { there.end_settling(); }, [&] { back.end_settling(); });
 }
 
 PointPairs swapped(const PointPairs& points) {
