@@ -9,8 +9,8 @@ namespace varimap {
 /// Keeps the areas of a map within the bound B of Sec. 3.4 where the plan has become a map: the faces around
 /// a vertex are together to have an image of 1/B to B times their area. A continuation: around vertices whose
 /// ratio lies outside, the faces' area weight (fold_energy.h) grows with each call of `press`, and what
-/// relaxes the map after each call does the rest. Weights stay for as long as this lives, so that nothing falls
-/// back; repairs that follow had better be without them.
+/// relaxes the map after each call does the rest. Weights stay for as long as this lives, so that nothing
+/// falls back; repairs that follow had better be without them.
 class AreaBound {
   public:
     /// Keeps a reference to the map. `exempt`: vertices that need not keep it, as landmarks, whose images are

@@ -43,9 +43,10 @@ std::vector<int> vertices_of(const TriangleMesh& mesh, const std::vector<int>& f
 
 }  // namespace
 
-ChartRepair::ChartRepair(SlidingMap& map, NormalAgreement& agreement)
+ChartRepair::ChartRepair(SlidingMap& map, NormalAgreement& agreement, const PointMap& back)
     : map_(map),
       agreement_(agreement),
+      inverse_(map, back),
       laid_out_(map.target()),
       source_(map.source()),
       target_(map.target()),
@@ -149,6 +150,7 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const int most = most_faces(map_.source());
     std::vector<int> faces = source_.filled(source_.widened(cluster, rings), most);
     if (int(faces.size()) > most) return Outcome::no_disc;
+    if (adopt_inverse(faces, fixed)) return Outcome::inverted;
     SubMesh disc(map_.source(), std::move(faces));
     std::vector<int> rim = disc_boundary(disc.mesh);
     if (rim.empty()) return Outcome::no_disc;
@@ -179,6 +181,29 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     return Outcome::no_gain;
 }
 
+std::vector<int> ChartRepair::free_within(const std::vector<int>& faces, const VertexData<bool>& fixed) {
+    const std::vector<int> wide = source_.widened(faces, 1), inside = vertices_of(map_.source(), faces);
+    std::vector<int> beyond, free;
+    std::set_difference(wide.begin(), wide.end(), faces.begin(), faces.end(), std::back_inserter(beyond));
+    const std::vector<int> outside = vertices_of(map_.source(), beyond);
+    std::set_difference(inside.begin(), inside.end(), outside.begin(), outside.end(),
+                        std::back_inserter(free));
+    std::erase_if(free, [&](int v) { return fixed[v] || !map_.has_image(v); });
+    return free;
+}
+
+bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const VertexData<bool>& fixed) {
+    const std::vector<int> free = free_within(faces, fixed), around = source_.widened(faces, 2);
+    const double before = badness(around);
+    const PointMap kept = points_of(free);
+    for (const int v : free)
+        if (const SurfacePoint image = inverse_(v); image.face >= 0) map_.place(v, image);
+    polish(free);
+    if (badness(around) < before) return true;
+    place(free, kept);
+    return false;
+}
+
 std::vector<std::vector<int>> ChartRepair::clusters_of(const std::vector<int>& defects) {
     std::vector<char> marks(std::size_t(map_.source().face_count()), 0);
     for (const int f : source_.widened(defects, 1)) marks[std::size_t(f)] = 1;
@@ -204,7 +229,7 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
             touched.insert(touched.end(), around.begin(), around.end());
             const Outcome outcome = attempt(cluster, rings, fixed);
             ++report_.outcomes[std::size_t(outcome)];
-            if (outcome == Outcome::repaired)
+            if (outcome == Outcome::repaired || outcome == Outcome::inverted)
                 for (const int f : around) strikes_[f] = 0;
             else if (outcome == Outcome::no_gain || outcome == Outcome::folded)
                 for (const int f : cluster) ++strikes_[f];

@@ -5,6 +5,7 @@
 
 #include "varimap/mesh/disc.h"
 #include "varimap/relaxation/charted_part.h"
+#include "varimap/relaxation/inverse_map.h"
 #include "varimap/relaxation/laid_out.h"
 #include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/sliding_map.h"
@@ -13,18 +14,18 @@ namespace varimap {
 
 /// Repairs what sliding cannot: folds around branch points, where the map covers the target twice, and
 /// vertices on the wrong side of a thin part. Defects are faces reversed along the target (laid_out.h) and
-/// branch points (branch_points.h); they are widened, ring by ring, to a disc that can be mapped anew in the
-/// plane (charted_part.h). What comes of it is relaxed on the target and kept if there are fewer defects
-/// than before.
+/// branch points (branch_points.h). They are widened, ring by ring; the part takes the images that the other
+/// direction, inverted, has for it, or, where it is a disc, is mapped anew in the plane (charted_part.h).
+/// What comes of it is relaxed on the target and kept if there are fewer defects than before.
 class ChartRepair {
   public:
-    enum class Outcome { repaired, no_disc, no_simple_rim, folded, no_gain };
+    enum class Outcome { inverted, repaired, no_disc, no_simple_rim, folded, no_gain };
     struct Report {
-        std::array<int, 5> outcomes{};  ///< attempts by how they ended
+        std::array<int, 6> outcomes{};  ///< attempts by how they ended
     };
 
-    /// Keeps references.
-    ChartRepair(SlidingMap& map, NormalAgreement& agreement);
+    /// Keeps references. `back`: the other direction.
+    ChartRepair(SlidingMap& map, NormalAgreement& agreement, const PointMap& back);
 
     /// Vertices with fixed[v] stay, and those on the source's boundary. Returns the faces that may have
     /// moved, ascending.
@@ -43,6 +44,9 @@ class ChartRepair {
     /// enough.
     std::vector<std::vector<int>> clusters_of(const std::vector<int>& defects);
     Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
+    /// The vertices of faces of which all lie among these, but for fixed ones.
+    std::vector<int> free_within(const std::vector<int>& faces, const VertexData<bool>& fixed);
+    bool adopt_inverse(const std::vector<int>& faces, const VertexData<bool>& fixed);
     void polish(std::vector<int> vertices);
     /// No vertex moves where more faces would be reversed.
     void polish_with_care(const std::vector<int>& vertices);
@@ -51,6 +55,7 @@ class ChartRepair {
 
     SlidingMap& map_;
     NormalAgreement& agreement_;
+    InverseMap inverse_;
     LaidOut laid_out_;  ///< on the target
     FaceSets source_, target_;
     FaceData<int> strikes_;  ///< attempts without gain

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "varimap/core/timing.h"
-#include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/quality/image_mesh.h"
 #include "varimap/relaxation/continuation.h"
 #include "varimap/relaxation/continuation_scale.h"
+#include "varimap/relaxation/inverse_map.h"
 
 namespace varimap {
 
@@ -108,14 +107,11 @@ void PartReplacement::continue_surroundings(const PointMap& back) {
 void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
     const Timer timer("parts, in all");
     judge_by(back, options_.inverse_weight);
-    const ImageMesh target_on_source(back, map_.target(), map_.source());
-    const ClosestPoint closest(target_on_source.image);
-    const Points normals = vertex_normals(map_.source());
+    InverseMap inverse_of_back(map_, back);
     const auto invert = [&](const VertexData<bool>& open) {
         for (int v = 0; v < open.size(); ++v) {
             if (!open[v] || !map_.has_image(v)) continue;
-            const SurfacePoint point = closest(map_.source().vertex(v), normals.row(v).transpose()).point;
-            if (target_on_source.is_mapped(point.face)) map_.place(v, point);
+            if (const SurfacePoint image = inverse_of_back(v); image.face >= 0) map_.place(v, image);
         }
     };
     const Proposals inverse = [&](const VertexData<bool>&) { return std::vector<Proposal>{invert}; };

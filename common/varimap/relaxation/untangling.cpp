@@ -130,10 +130,11 @@ void log_repair(const ChartRepair::Report& report) {
     const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
     using enum ChartRepair::Outcome;
     if (std::all_of(report.outcomes.begin(), report.outcomes.end(), [](int n) { return n == 0; })) return;
-    log("repair in charts: {} parts mapped anew; in vain: {} for want of a disc, {} of a simple rim, {} "
-        "folded, {} not "
-        "better",
-        count(repaired), count(no_disc), count(no_simple_rim), count(folded), count(no_gain));
+    log("repair: {} parts taken from the other direction, {} mapped anew in charts; in vain: {} for want of "
+        "a "
+        "disc, {} of a simple rim, {} folded, {} not better",
+        count(inverted), count(repaired), count(no_disc), count(no_simple_rim), count(folded),
+        count(no_gain));
 }
 
 /// One direction of a map while it is untangled.
@@ -209,8 +210,8 @@ class Untangling {
     }
 
     const UntanglingReport& report() const { return report_; }
-    UntanglingReport finish() {
-        if (options_.align_normals) align_normals();
+    UntanglingReport finish(const PointMap& back) {
+        if (options_.align_normals) align_normals(back);
         if (replacement_) {
             report_.parts_tried = replacement_->report().tried;
             report_.parts_replaced = replacement_->report().replaced;
@@ -258,13 +259,13 @@ class Untangling {
                 mark_corners(source_, landmark.from.face, held);
         return held;
     }
-    void align_normals() {
+    void align_normals(const PointMap& back) {
         NormalAgreement agreement(sliding_);
         const std::vector<int> disagreeing = agreement.disagreeing_faces();
         report_.disagreeing_before = int(disagreeing.size());
         const VertexData<bool> stays = held();
         std::vector<int> left = agreement.improve(disagreeing, stays);
-        ChartRepair repair(sliding_, agreement);
+        ChartRepair repair(sliding_, agreement, back);
         const std::vector<int> touched = repair(stays);
         // What is upright along the target may still be reversed by the normals at its corners.
         report_.sweeps += FoldRemoval{options_.fold_sweeps, last_fold_visits}(sliding_, stays);
@@ -336,7 +337,9 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     run(there, back, rounds[1]);
     if (options.settling_steps > 0) settle(there, back);
     UntanglingReports reports;
-    tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
+    const PointMap A_to_B = there.points(), B_to_A = back.points();
+    tbb::parallel_invoke([&] { reports.A_to_B = there.finish(B_to_A); },
+                         [&] { reports.B_to_A = back.finish(A_to_B); });
     return reports;
 }
 

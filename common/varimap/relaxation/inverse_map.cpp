@@ -1,0 +1,30 @@
+#include "varimap/relaxation/inverse_map.h"
+
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/quality/image_mesh.h"
+
+namespace varimap {
+
+struct InverseMap::Search {
+    ImageMesh target_on_source;
+    ClosestPoint closest;
+    Points normals;  ///< of the source
+
+    Search(const SlidingMap& map, const PointMap& back)
+        : target_on_source(back, map.target(), map.source()),
+          closest(target_on_source.image),
+          normals(vertex_normals(map.source())) {}
+};
+
+InverseMap::InverseMap(const SlidingMap& map, const PointMap& back) : map_(map), back_(back) {}
+InverseMap::~InverseMap() = default;
+
+SurfacePoint InverseMap::operator()(int v) {
+    if (!search_) search_ = std::make_unique<Search>(map_, back_);
+    const SurfacePoint point =
+        search_->closest(map_.source().vertex(v), search_->normals.row(v).transpose()).point;
+    return search_->target_on_source.is_mapped(point.face) ? point : SurfacePoint{};
+}
+
+}  // namespace varimap

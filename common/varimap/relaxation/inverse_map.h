@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "varimap/relaxation/sliding_map.h"
+
+namespace varimap {
+
+/// The inverse of the other direction, by which each direction of a map can learn from the other: a vertex of
+/// the source goes to the point of the target whose image, linear on faces, is nearest to it among those that
+/// face the same way.
+class InverseMap {
+  public:
+    /// `back`: from the target of `map` to its source. Keeps references; nothing is built before it is asked.
+    InverseMap(const SlidingMap& map, const PointMap& back);
+    ~InverseMap();
+
+    /// The image of a vertex; its face is -1 where the target's faces there have no image.
+    SurfacePoint operator()(int v);
+
+  private:
+    struct Search;
+    const SlidingMap& map_;
+    const PointMap& back_;
+    std::unique_ptr<Search> search_;
+};
+
+}  // namespace varimap
