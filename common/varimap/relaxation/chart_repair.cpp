@@ -21,11 +21,11 @@ namespace {
 constexpr std::array<int, 10> ring_counts{2, 3, 4, 5, 6, 8, 10, 13, 2, 4};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
-constexpr double most_tried = 3;      ///< faces in discs that are tried, by all: bounds the time
+constexpr double most_tried = 2;      ///< faces in discs that are tried, by all: bounds the time
 constexpr int polishing = 15;         ///< sweeps
 constexpr int careful_polishing = 6;
 constexpr int most_with_care = 200;  ///< vertices
-constexpr int patience = 4;          ///< attempts without gain after which defects are left as they are
+constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
 const FoldEnergy polish_energy{1, 0.03};
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
@@ -73,12 +73,12 @@ std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) const
     return defects;
 }
 
-double ChartRepair::badness(const std::vector<int>& faces) const {
+double ChartRepair::badness(const std::vector<int>& faces, double limit) const {
     // That a face cuts through the target is worth less than that it is reversed.
     constexpr double reversed = 4, branch = 12;
-    double sum = double(agreement_.disagreeing_among(faces).size());
-    for (const int f : faces) sum += reversed * is_reversed(f);
-    return sum + branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
+    double sum = branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
+    for (std::size_t i = 0; i < faces.size() && sum < limit; ++i) sum += reversed * is_reversed(faces[i]);
+    return sum < limit ? sum + double(agreement_.disagreeing_among(faces).size()) : sum;
 }
 
 std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std::vector<int>& rim) {
@@ -167,15 +167,15 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const std::vector<int> free = part.free_vertices(fixed);
     place(part.vertices(), unfolded);
     polish(free);
-    if (badness(around) < before) return Outcome::repaired;
+    if (badness(around, before) < before) return Outcome::repaired;
     VertexData<bool> held(map_.source().vertex_count(), true);
     for (const int v : free) held[v] = false;
     agreement_.improve(agreement_.disagreeing_among(part.faces()), held);
-    if (badness(around) < before) return Outcome::repaired;
+    if (badness(around, before) < before) return Outcome::repaired;
     if (int(free.size()) <= most_with_care) {
         place(part.vertices(), unfolded);
         polish_with_care(free);
-        if (badness(around) < before) return Outcome::repaired;
+        if (badness(around, before) < before) return Outcome::repaired;
     }
     place(part.vertices(), kept);
     return Outcome::no_gain;
@@ -199,7 +199,7 @@ bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const VertexData<
     for (const int v : free)
         if (const SurfacePoint image = inverse_(v); image.face >= 0) map_.place(v, image);
     polish(free);
-    if (badness(around) < before) return true;
+    if (badness(around, before) < before) return true;
     place(free, kept);
     return false;
 }

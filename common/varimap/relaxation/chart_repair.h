@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "varimap/mesh/disc.h"
@@ -36,7 +37,9 @@ class ChartRepair {
     bool is_reversed(int f) const;
     /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
     std::vector<int> defects_among(const std::vector<int>& faces) const;
-    double badness(const std::vector<int>& faces) const;
+    /// Once it gets to `limit`, the rest is left out.
+    double badness(const std::vector<int>& faces,
+                   double limit = std::numeric_limits<double>::infinity()) const;
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
     /// too much.
     std::vector<int> enclosed_on_target(const SubMesh& part, const std::vector<int>& rim);
