@@ -34,10 +34,13 @@ PointMap crumpled(const TriangleMesh& mesh, int centre, double radius) {
 }
 
 /// What is left of a map's faults after repair.
-Verification repaired(PointMap& images, const TriangleMesh& mesh, const VertexData<bool>& fixed) {
+/// `back`: the other direction; as it stands, one without images, which is no help.
+Verification repaired(PointMap& images, const TriangleMesh& mesh, const VertexData<bool>& fixed,
+                      PointMap back = {}) {
+    back.resize(images.size());
     SlidingMap map(images, mesh, mesh);
     NormalAgreement agreement(map);
-    ChartRepair(map, agreement)(fixed);
+    ChartRepair(map, agreement, back)(fixed);
     images = map.points();
     return verify_map(images, mesh, mesh);
 }
@@ -92,6 +95,36 @@ TEST(ChartRepair, MapsACrumpledPatchAnew) {
         EXPECT_EQ(after.degree.value(), 1);
         EXPECT_LT(shapes::mean_error(images, mesh), 0.3 * shapes::longest_edge(mesh));
     }
+}
+
+TEST(ChartRepair, TakesAPartFromTheOtherDirection) {
+    const TriangleMesh mesh = shapes::ellipsoid(4);
+    const PointMap back = shapes::at_vertices(mesh);
+    PointMap images = crumpled(mesh, 40, 0.25);
+    SlidingMap map(images, mesh, mesh);
+    NormalAgreement agreement(map);
+    ChartRepair repair(map, agreement, back);
+    repair(none(mesh));
+    using enum ChartRepair::Outcome;
+    EXPECT_GT(repair.report().outcomes[std::size_t(inverted)], 0);
+    EXPECT_EQ(repair.report().outcomes[std::size_t(repaired)], 0) << "none was left for a chart";
+    const Verification after = verify_map(map.points(), mesh, mesh);
+    EXPECT_TRUE(after.reversed_faces.empty()) << after.reversed_faces.size();
+    EXPECT_TRUE(after.branch_vertices.empty()) << after.branch_vertices.size();
+}
+
+TEST(InverseMap, LeadsBackWhereTheOtherDirectionCameFrom) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    const PointMap there = shapes::turned_identity(sphere, 0.3), back = shapes::turned_identity(sphere, -0.3);
+    const SlidingMap map(there, sphere, sphere);
+    InverseMap inverse(map, back);
+    double furthest = 0;
+    for (int v = 0; v < sphere.vertex_count(); ++v)
+        furthest = std::max(furthest,
+                            (position(sphere, inverse(v)) - position(sphere, there[std::size_t(v)])).norm());
+    EXPECT_LT(furthest, 0.2 * shapes::longest_edge(sphere));
+    InverseMap of_none(map, PointMap(there.size()));
+    EXPECT_LT(of_none(0).face, 0);
 }
 
 TEST(ChartRepair, DoesNoHarmAtABoundary) {

@@ -42,6 +42,17 @@ TEST(FoldEnergy, HasTheDerivativesOfItsValue) {
         }
 }
 
+TEST(FoldEnergy, HasMoreOfItsAreaTermWithAnAreaWeight) {
+    const FoldEnergy energy{0.7, 0.3};
+    const double h = 1e-5, more = 2.5;
+    for (const double D : {-0.8, 0.4, 1.5}) {
+        EXPECT_NEAR(energy.with(more).value(3, D), energy.value(3, D) + more * energy.area_value(D), 1e-9);
+        const auto d = energy.area_derivatives(D);
+        EXPECT_NEAR(d.f_D, (energy.area_value(D + h) - energy.area_value(D - h)) / (2 * h), 1e-6 * d.f);
+        EXPECT_EQ(d.f_q, 0);
+    }
+}
+
 /// Both directions of a map between meshes of the same connectivity, damaged alike: none helps the other.
 MapPair both_ways(const PointMap& map) {
     return {map, map};

@@ -1,0 +1,62 @@
+#include "varimap/relaxation/area_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/quality/quality.h"
+#include "varimap/relaxation/untangling.h"
+
+namespace varimap {
+namespace {
+
+VertexData<bool> none(const TriangleMesh& mesh) {
+    return VertexData<bool>(mesh.vertex_count());
+}
+
+/// A ball onto an egg, both ways: an isometry's energy trades areas for angles at the tips.
+MapPair ball_to_egg(const TriangleMesh& ball, const TriangleMesh& egg, double area_bound) {
+    MapPair maps{shapes::at_vertices(egg), shapes::at_vertices(ball)};
+    UntanglingOptions options;
+    options.area_bound = area_bound;
+    untangle(maps, ball, egg, {none(ball), none(egg)}, options);
+    return maps;
+}
+
+TEST(AreaBound, IsKeptByTheFinishedMap) {
+    const TriangleMesh ball = shapes::ellipsoid(4), egg = shapes::ellipsoid(4, {1, 1, 3});
+    const double bound = 1.15;
+    const MapPair without = ball_to_egg(ball, egg, 0), with = ball_to_egg(ball, egg, bound);
+    EXPECT_LT(share_within_area_bound(without.A_to_B, ball, egg, bound), 0.95);
+    EXPECT_GT(share_within_area_bound(with.A_to_B, ball, egg, bound), 0.999);
+    EXPECT_GT(share_within_area_bound(with.B_to_A, egg, ball, bound), 0.999);
+    EXPECT_EQ(measure_distortion(with.A_to_B, ball, egg).flipped_count, 0);
+}
+
+TEST(AreaBound, PressesWhereItIsNotKeptAndNowhereElse) {
+    const TriangleMesh ball = shapes::ellipsoid(3), egg = shapes::ellipsoid(3, {1, 1, 3});
+    SlidingMap map(shapes::at_vertices(egg), ball, egg);
+    VertexData<bool> exempt = none(ball);
+    const auto weighted = [&] {
+        int count = 0;
+        for (int f = 0; f < ball.face_count(); ++f) count += map.rest(f).area_weight > 0;
+        return count;
+    };
+    {
+        AreaBound bound(map, 1.2, exempt);
+        const std::vector<int> pressed = bound.press();
+        EXPECT_GT(pressed.size(), 10u);
+        EXPECT_LT(pressed.size(), std::size_t(ball.vertex_count()));
+        EXPECT_GT(weighted(), 0);
+        EXPECT_LT(weighted(), ball.face_count());
+    }
+    EXPECT_EQ(weighted(), 0) << "the weights go with the bound";
+    EXPECT_TRUE(AreaBound(map, 100, exempt).press().empty());
+    for (auto& e : exempt) e = true;
+    EXPECT_TRUE(AreaBound(map, 1.2, exempt).press().empty());
+}
+
+}  // namespace
+}  // namespace varimap
