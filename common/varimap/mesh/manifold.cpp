@@ -69,9 +69,10 @@ void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edge
         path, defect.count, a, b));
 }
 
-/// Fans of faces around v: faces that share an edge at v belong to the same one.
-int count_fans(const TriangleMesh& mesh, const Edges& edges, std::span<const int> faces, int v) {
-    std::vector<int> parent(faces.size());
+/// Fans of faces around v: faces that share an edge at v belong to the same one. `parent` is workspace.
+int count_fans(const TriangleMesh& mesh, const Edges& edges, std::span<const int> faces, int v,
+               std::vector<int>& parent) {
+    parent.resize(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) parent[i] = int(i);
     const auto root = [&](int i) {
         while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -96,8 +97,9 @@ int count_fans(const TriangleMesh& mesh, const Edges& edges, std::span<const int
 void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
     const Adjacency faces = vertex_faces(mesh);
     Defect defect;
+    std::vector<int> parent;
     for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (faces[v].size() > 1 && count_fans(mesh, edges, faces[v], v) > 1) defect.add(v);
+        if (faces[v].size() > 1 && count_fans(mesh, edges, faces[v], v, parent) > 1) defect.add(v);
     if (defect.count > 0)
         throw InputError(
             fmt::format("{}: at {} vertices the faces form more than one fan, the first is vertex {}; "
