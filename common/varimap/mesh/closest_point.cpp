@@ -182,8 +182,7 @@ bool is_plane_beyond(const Search& search, const Vec3& a, const Vec3& b, const V
     if (!(squared > 1e-8 * (b - a).squaredNorm() * (c - a).squaredNorm())) return false;
     const Vec3 way = search.query - a;
     const double along = way.dot(normal);
-    return along * along >
-           squared * (search.best.squared_distance * (1 + 1e-6) + 1e-16 * way.squaredNorm());
+    return along * along > squared * (search.best.squared_distance * (1 + 1e-6) + 1e-16 * way.squaredNorm());
 }
 
 /// Offers one face; true if it is the best so far.

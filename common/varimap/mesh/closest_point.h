@@ -11,7 +11,8 @@
 namespace varimap {
 
 /// Closest points on a mesh (Embree bounding volume hierarchy, distances in double precision).
-/// Thread-safe once built; holds a copy of what it needs, in an order of its own that keeps near faces together.
+/// Thread-safe once built; holds a copy of what it needs, in an order of its own that keeps near faces
+/// together.
 class ClosestPoint {
   public:
     explicit ClosestPoint(const TriangleMesh& mesh);

@@ -47,8 +47,7 @@ bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const 
     const auto near = on_image(centroid, face_normal(target, f), guess).point;
     guess = near.face;
     const Vec3 p = position(image, near);
-    const double limit =
-        std::max(sideways * (p - centroid).norm(), within_face * longest_edge(target, f));
+    const double limit = std::max(sideways * (p - centroid).norm(), within_face * longest_edge(target, f));
     // What lies closest to p is no farther from it than the centroid.
     const bool faces_p = face_normal(target, f).dot(face_normal(image, near.face)) > 0;
     if (faces_p && 2 * (p - centroid).norm() * (1 + 1e-9) <= limit) return true;

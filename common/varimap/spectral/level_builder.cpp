@@ -42,7 +42,6 @@ class DiffusionGrowth {
     }
 
   private:
-
     const RowMatrix& embedding_;
     const GeodesicGraph& graph_;
     Eigen::VectorXd kernel_;

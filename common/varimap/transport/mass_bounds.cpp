@@ -62,10 +62,8 @@ bool is_below_one(const Eigen::ArrayXd& log_a, const Scaled& scaled, double log_
                   const MassBounds& bounds) {
     constexpr double doubt = 1e-9;
     if (scaled.exists() && std::abs(log_phi + scaled.top) < widest) {
-        const double sum = (scaled.a * scaled.scale(log_phi))
-                               .max(bounds.lower.array())
-                               .min(bounds.upper.array())
-                               .sum();
+        const double sum =
+            (scaled.a * scaled.scale(log_phi)).max(bounds.lower.array()).min(bounds.upper.array()).sum();
         if (std::abs(sum - 1) > doubt) return sum < 1;
     }
     return clamped(log_a, log_phi, bounds).sum() < 1;
