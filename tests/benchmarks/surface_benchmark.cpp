@@ -2,6 +2,8 @@
 
 #include "benchmarks/example.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/mesh/triangle_strip.h"
 #include "varimap/spectral/sampling.h"
 
 namespace varimap::benchmarks {
@@ -41,6 +43,41 @@ void closest_point(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * e.mesh.vertex_count());
 }
 
+/// The same, told the face of the query before.
+void closest_point_from_near(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const ClosestPoint closest(e.mesh);
+    const Points normals = vertex_normals(e.mesh);
+    int near = -1;
+    for (auto _ : state)
+        for (int v = 0; v < e.mesh.vertex_count(); ++v) {
+            const Vec3 query = e.mesh.vertex(v) - .02 * normals.row(v).transpose();
+            near = closest(query, normals.row(v).transpose(), near).point.face;
+        }
+    benchmark::DoNotOptimize(near);
+    state.SetItemsProcessed(state.iterations() * e.mesh.vertex_count());
+}
+
+/// Items: sides of faces. Each is read three times and written twice: 12 bytes of its face and 16 of its own,
+/// 70 in all.
+void edges(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(find_edges(e.mesh).size());
+    state.SetItemsProcessed(state.iterations() * 3 * e.mesh.face_count());
+    state.SetBytesProcessed(state.iterations() * 3 * e.mesh.face_count() * 70);
+}
+
+/// Items: ways between faces a few apart, as the images of an edge's ends are.
+void strips(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const Edges edges = find_edges(e.mesh);
+    const int most = e.mesh.face_count(), apart = 7;
+    for (auto _ : state)
+        for (int f = 0; f + apart < most; ++f)
+            benchmark::DoNotOptimize(find_strip(e.mesh, edges, f, f + apart, most).faces.size());
+    state.SetItemsProcessed(state.iterations() * (most - apart));
+}
+
 void closest_point_tree(benchmark::State& state) {
     const Example& e = example(int(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(ClosestPoint(e.mesh));
@@ -49,7 +86,10 @@ void closest_point_tree(benchmark::State& state) {
 #define AT_SIZES Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime()
 BENCHMARK(sampling)->AT_SIZES;
 BENCHMARK(closest_point)->AT_SIZES;
+BENCHMARK(closest_point_from_near)->AT_SIZES;
 BENCHMARK(closest_point_tree)->AT_SIZES;
+BENCHMARK(edges)->AT_SIZES;
+BENCHMARK(strips)->AT_SIZES;
 
 }  // namespace
 }  // namespace varimap::benchmarks

@@ -176,6 +176,11 @@ struct CompressedLines {
     std::vector<int> begin, index;
     std::vector<double> value;
 
+    void make_room(std::size_t entries) {
+        if (entries <= index.size()) return;
+        index.resize(2 * entries);
+        value.resize(2 * entries);
+    }
     /// Four partial sums hide the latency of the gathers.
     double line_times(int line, const Eigen::VectorXd& x) const {
         double sum[4] = {0, 0, 0, 0};
@@ -194,20 +199,26 @@ class ScaledKernel {
   public:
     ScaledKernel(const TransportProblem& p, const Coupling& absorbed, double negligible) : k_(absorbed) {
         const Support& s = p.support;
+        const Eigen::VectorXd row_limit = negligible * p.row_mass, column_limit = negligible * p.column_mass;
         rows_.begin.reserve(s.rows() + 1);
         columns_.begin.assign(s.columns() + 1, 0);
+        std::size_t kept = 0;
         for (int i = 0; i < s.rows(); ++i) {
-            rows_.begin.push_back(int(rows_.index.size()));
+            rows_.begin.push_back(int(kept));
+            rows_.make_room(kept + std::size_t(s.row_begin[i + 1] - s.row_begin[i]));
             for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e) {
-                if (absorbed.value[e] == 0) continue;
                 const int j = s.column[e];
-                if (absorbed.value[e] < negligible * std::min(p.row_mass[i], p.column_mass[j])) continue;
-                rows_.index.push_back(j);
-                rows_.value.push_back(absorbed.value[e]);
-                ++columns_.begin[j + 1];
+                // Written in any case, and kept or not without a branch, which would be guessed wrongly.
+                rows_.index[kept] = j;
+                rows_.value[kept] = absorbed.value[e];
+                const bool counts = !(absorbed.value[e] < std::min(row_limit[i], column_limit[j]));
+                columns_.begin[j + 1] += counts;
+                kept += counts;
             }
         }
-        rows_.begin.push_back(int(rows_.index.size()));
+        rows_.begin.push_back(int(kept));
+        rows_.index.resize(kept);
+        rows_.value.resize(kept);
         transpose_rows();
     }
 

@@ -71,6 +71,28 @@ std::vector<std::vector<int>> union_over_entries(const std::vector<std::vector<i
     return result;
 }
 
+/// The positive entries of a plan by columns, gathered by reading the plan forwards.
+struct PositiveColumns {
+    std::vector<int> begin, row;
+    std::vector<double> value;
+
+    explicit PositiveColumns(const Coupling& plan) : begin(std::size_t(plan.support.columns()) + 1, 0) {
+        const Support& s = plan.support;
+        for (int e = 0; e < s.entries(); ++e) begin[std::size_t(s.column[e]) + 1] += plan.value[e] > 0;
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        row.resize(std::size_t(begin.back()));
+        value.resize(row.size());
+        std::vector<int> next = begin;
+        for (int i = 0; i < s.rows(); ++i)
+            for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e) {
+                if (!(plan.value[e] > 0)) continue;
+                const auto place = std::size_t(next[std::size_t(s.column[e])]++);
+                row[place] = i;
+                value[place] = plan.value[e];
+            }
+    }
+};
+
 RowMatrix normalised(RowMatrix sums, const Eigen::VectorXd& totals) {
     return totals.cwiseInverse().asDiagonal() * sums;
 }
@@ -114,9 +136,7 @@ Eigen::VectorXd row_sums(const Coupling& plan) {
 
 Eigen::VectorXd column_sums(const Coupling& plan) {
     Eigen::VectorXd sums = plan.column_background * plan.row_background.sum();
-    for (int j = 0; j < plan.support.columns(); ++j)
-        for (int e = plan.support.column_begin[j]; e < plan.support.column_begin[j + 1]; ++e)
-            sums[j] += plan.value[plan.support.by_row[e]];
+    for (int e = 0; e < plan.support.entries(); ++e) sums[plan.support.column[e]] += plan.value[e];
     return sums;
 }
 
@@ -154,13 +174,11 @@ RowMatrix row_barycentres(const Coupling& plan, const RowMatrix& points) {
 }
 
 RowMatrix column_barycentres(const Coupling& plan, const RowMatrix& points) {
-    const Support& s = plan.support;
     RowMatrix sums = plan.column_background * (plan.row_background.transpose() * points);
-    parallel_for_each_index(0 + s.columns(), 64, [&](int j) {
-        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e) {
-            const double value = plan.value[s.by_row[e]];
-            if (value > 0) sums.row(j) += value * points.row(s.row[e]);
-        }
+    const PositiveColumns columns(plan);
+    parallel_for_each_index(0 + plan.support.columns(), 64, [&](int j) {
+        for (int e = columns.begin[std::size_t(j)]; e < columns.begin[std::size_t(j) + 1]; ++e)
+            sums.row(j) += columns.value[std::size_t(e)] * points.row(columns.row[std::size_t(e)]);
     });
     return normalised(std::move(sums), column_sums(plan));
 }
