@@ -43,7 +43,7 @@ SurfacePoint Prolongation::image_of(const SurfacePoint& at) const {
         x += at.barycentric[k] * position(target_, image);
         normal += at.barycentric[k] * position(normals_, image);
     }
-    return locate_(x, normal);
+    return locate_(x, normal, images_[std::size_t(level_.faces(at.face, 0))].face);
 }
 
 void Prolongation::relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks) {

@@ -44,11 +44,13 @@ void require_visible(const TriangleMesh& source, const TriangleMesh& target) {
         throw InputError("a mesh without area cannot be shown");
 }
 
-/// Colour at the source's point closest to the image of a point of the target.
-Colour carried_colour(const ImageMesh& back, const ClosestPoint& closest, const SourceColour& colour,
-                      const SurfacePoint& point) {
+/// Colour at the source's point closest to the image of a point of the target; `map`: of the target's
+/// vertices, from which `back` was made.
+Colour carried_colour(const PointMap& map, const ImageMesh& back, const ClosestPoint& closest,
+                      const SourceColour& colour, const SurfacePoint& point) {
     if (!back.is_mapped(point.face)) return unmapped_colour;
-    return colour(position(back.target, closest(position(back.image, point)).point));
+    const int near = map[std::size_t(back.image.faces(point.face, 0))].face;
+    return colour(position(back.target, closest(position(back.image, point), near).point));
 }
 
 std::string checkerboard_text(double cell, const TriangleMesh& source) {
@@ -79,7 +81,8 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
     const Figure source_figure(
         there.source, [&](const SurfacePoint& p) { return colour(position(there.source, p)); }, source_flags);
     const Figure target_figure(
-        back.source, [&](const SurfacePoint& p) { return carried_colour(back, closest, colour, p); },
+        back.source,
+        [&](const SurfacePoint& p) { return carried_colour(target_to_source, back, closest, colour, p); },
         target_flags);
     const View source_view = natural_view(source, params.up);
     const View target_view =
@@ -116,7 +119,7 @@ Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
         require_fit(map, target, source, "a candidate", "target", "source");
         const auto back = std::make_shared<ImageMesh>(map, target, source);
         figures.push_back(figure(back->source, [&, back](const SurfacePoint& p) {
-            return carried_colour(*back, closest, colour, p);
+            return carried_colour(map, *back, closest, colour, p);
         }));
         const View view = exhibits.size() > 1 ? exhibits[1].view  // the same for all, for comparison
                                               : matching_view(back->source, back->image.vertices,

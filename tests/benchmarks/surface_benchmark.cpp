@@ -2,6 +2,8 @@
 
 #include "benchmarks/example.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/mesh/triangle_strip.h"
 #include "varimap/spectral/sampling.h"
 
 namespace varimap::benchmarks {
@@ -41,6 +43,49 @@ void closest_point(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * e.mesh.vertex_count());
 }
 
+/// The same, told the face of the query before.
+void closest_point_from_near(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const ClosestPoint closest(e.mesh);
+    const Points normals = vertex_normals(e.mesh);
+    int near = -1;
+    for (auto _ : state)
+        for (int v = 0; v < e.mesh.vertex_count(); ++v) {
+            const Vec3 query = e.mesh.vertex(v) - .02 * normals.row(v).transpose();
+            near = closest(query, normals.row(v).transpose(), near).point.face;
+        }
+    benchmark::DoNotOptimize(near);
+    state.SetItemsProcessed(state.iterations() * e.mesh.vertex_count());
+}
+
+/// Items: sides of faces. Each is read three times and written twice: 12 bytes of its face and 16 of its own,
+/// 70 in all.
+void edges(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(find_edges(e.mesh).size());
+    state.SetItemsProcessed(state.iterations() * 3 * e.mesh.face_count());
+    state.SetBytesProcessed(state.iterations() * 3 * e.mesh.face_count() * 70);
+}
+
+/// Items: ways between faces that are four edges apart, as the images of an edge's ends are at most.
+void strips(benchmark::State& state) {
+    const Example& e = example(int(state.range(0)));
+    const Edges edges = find_edges(e.mesh);
+    const auto four_edges_on = [&](int f) {
+        for (int step = 0; step < 4; ++step)
+            for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + step % 3)]])
+                if (side / 3 != f) {
+                    f = side / 3;
+                    break;
+                }
+        return f;
+    };
+    for (auto _ : state)
+        for (int f = 0; f < e.mesh.face_count(); ++f)
+            benchmark::DoNotOptimize(find_strip(e.mesh, edges, f, four_edges_on(f), 1000).faces.size());
+    state.SetItemsProcessed(state.iterations() * e.mesh.face_count());
+}
+
 void closest_point_tree(benchmark::State& state) {
     const Example& e = example(int(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(ClosestPoint(e.mesh));
@@ -49,7 +94,10 @@ void closest_point_tree(benchmark::State& state) {
 #define AT_SIZES Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime()
 BENCHMARK(sampling)->AT_SIZES;
 BENCHMARK(closest_point)->AT_SIZES;
+BENCHMARK(closest_point_from_near)->AT_SIZES;
 BENCHMARK(closest_point_tree)->AT_SIZES;
+BENCHMARK(edges)->AT_SIZES;
+BENCHMARK(strips)->AT_SIZES;
 
 }  // namespace
 }  // namespace varimap::benchmarks

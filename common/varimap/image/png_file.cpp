@@ -13,12 +13,12 @@ std::string encode_png(int width, int height, const std::vector<unsigned char>& 
     header.height = png_uint_32(height);
     const bool alpha = pixels.size() == 4 * std::size_t(width) * std::size_t(height);
     header.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
-    png_alloc_size_t size = 0;
-    std::string bytes;
-    if (png_image_write_to_memory(&header, nullptr, &size, 0, pixels.data(), 0, nullptr)) {
+    // As much as may be needed: asking for the size would compress the picture twice.
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+    std::string bytes(size, '\0');
+    if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels.data(), 0, nullptr)) {
         bytes.resize(size);
-        if (png_image_write_to_memory(&header, bytes.data(), &size, 0, pixels.data(), 0, nullptr))
-            return bytes.substr(0, size);
+        return bytes;
     }
     throw Error(ExitCode::internal, std::string("cannot encode the PNG: ") + header.message);
 }

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "varimap/core/error.h"
 
@@ -59,27 +62,80 @@ Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const 
     return best;
 }
 
+namespace {
+
+/// The bits of a number below 2^16, with two zeros before each.
+std::uint64_t spread_bits(std::uint64_t x) {
+    x = (x | x << 16) & 0x0000ff0000ffull;
+    x = (x | x << 8) & 0x00f00f00f00full;
+    x = (x | x << 4) & 0x0c30c30c30c3ull;
+    return (x | x << 2) & 0x249249249249ull;
+}
+
+/// Faces along a Morton curve, so that those beside each other in space are so in memory.
+std::vector<int> along_a_curve(const TriangleMesh& mesh, const Vec3& low, double scale) {
+    std::vector<std::pair<std::uint64_t, int>> keys(std::size_t(mesh.face_count()));
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 middle =
+            position(mesh, {f, Vec3::Constant(1.0 / 3)}).cwiseMax(low) - low;  // not below, by rounding
+        std::uint64_t key = 0;
+        for (int i = 0; i < 3; ++i) {
+            const double share = middle[i] * scale;
+            key |= spread_bits(share < 1 ? std::uint64_t(share * 65535) : 65535) << i;
+        }
+        keys[std::size_t(f)] = {key, f};
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<int> order;
+    order.reserve(keys.size());
+    for (const auto& [key, f] : keys) order.push_back(f);
+    return order;
+}
+
+/// The faces in that order, and the vertices that they use in the order in which they do.
+TriangleMesh in_order(const TriangleMesh& mesh, const std::vector<int>& order) {
+    TriangleMesh result{{}, Faces(Eigen::Index(order.size()), 3)};
+    std::vector<int> number(std::size_t(mesh.vertex_count()), -1), used;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            int& n = number[std::size_t(mesh.faces(order[i], k))];
+            if (n < 0) {
+                n = int(used.size());
+                used.push_back(mesh.faces(order[i], k));
+            }
+            result.faces(Eigen::Index(i), k) = n;
+        }
+    result.vertices = mesh.vertices(used, Eigen::all);
+    return result;
+}
+
+}  // namespace
+
 struct ClosestPoint::State {
-    TriangleMesh mesh;
+    TriangleMesh mesh;                ///< its faces along a curve
+    std::vector<int> given, present;  ///< per face the number it was given with; and the other way
     Vec3 centre = Vec3::Zero();
     double scale = 1;  ///< Embree sees (x - centre) * scale, within the unit cube, in single precision
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
 
-    explicit State(const TriangleMesh& m) : mesh(m) {}
     ~State() {
         if (scene) rtcReleaseScene(scene);
         if (device) rtcReleaseDevice(device);
     }
-    void build();
+    void build(const TriangleMesh& whole);
     Hit search(const Vec3& query, const Vec3* normal, int guess = -1) const;
 };
 
-void ClosestPoint::State::build() {
-    const auto [low, high] = bounding_box(mesh);
+void ClosestPoint::State::build(const TriangleMesh& whole) {
+    const auto [low, high] = bounding_box(whole);
     centre = 0.5 * (low + high);
     const double extent = (high - low).maxCoeff();
     if (extent > 0) scale = 1 / extent;
+    given = along_a_curve(whole, low, scale);
+    mesh = in_order(whole, given);
+    present.resize(given.size());
+    for (std::size_t f = 0; f < given.size(); ++f) present[std::size_t(given[f])] = int(f);
     device = rtcNewDevice(nullptr);
     if (!device) throw Error(ExitCode::internal, "Embree cannot start on this processor");
     scene = rtcNewScene(device);
@@ -102,18 +158,16 @@ namespace {
 
 struct Search {
     const TriangleMesh& mesh;
+    const std::vector<int>& given;
     const Vec3& query;
     const Vec3* normal;
     double scale;
     double slack;  ///< bounds the error of Embree's single precision, in its units
-    ClosestPoint::Hit best{{}, std::numeric_limits<double>::infinity()};
+    ClosestPoint::Hit best{{}, std::numeric_limits<double>::infinity()};  ///< its face as it was given
 };
 
 /// Whether the face's box is farther than the best point, beyond doubt.
-bool is_beyond(const Search& search, int f) {
-    const Vec3 a = search.mesh.vertex(search.mesh.faces(f, 0)),
-               b = search.mesh.vertex(search.mesh.faces(f, 1)),
-               c = search.mesh.vertex(search.mesh.faces(f, 2));
+bool is_beyond(const Search& search, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 below = a.cwiseMin(b).cwiseMin(c) - search.query,
                above = search.query - a.cwiseMax(b).cwiseMax(c);
     const double rounding = 1e-14 / search.scale;
@@ -121,18 +175,32 @@ bool is_beyond(const Search& search, int f) {
            search.best.squared_distance * (1 + 1e-9) + rounding * rounding;
 }
 
+/// Whether the face's plane is, beyond doubt; `normal`: (b - a) x (c - a). False for needles, whose normal
+/// rounding may turn.
+bool is_plane_beyond(const Search& search, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    const double squared = normal.squaredNorm();
+    if (!(squared > 1e-8 * (b - a).squaredNorm() * (c - a).squaredNorm())) return false;
+    const Vec3 way = search.query - a;
+    const double along = way.dot(normal);
+    return along * along > squared * (search.best.squared_distance * (1 + 1e-6) + 1e-16 * way.squaredNorm());
+}
+
 /// Offers one face; true if it is the best so far.
 bool offer(Search& search, int f) {
-    const TriangleMesh& mesh = search.mesh;
-    if (is_beyond(search, f)) return false;
-    if (search.normal && !(face_normal(mesh, f).dot(*search.normal) > 0)) return false;
-    SurfacePoint point{f, closest_barycentric(search.query, mesh.vertex(mesh.faces(f, 0)),
-                                              mesh.vertex(mesh.faces(f, 1)), mesh.vertex(mesh.faces(f, 2)))};
-    const double squared = (position(mesh, point) - search.query).squaredNorm();
+    const auto corners = search.mesh.faces.row(f);
+    const Vec3 a = search.mesh.vertex(corners[0]), b = search.mesh.vertex(corners[1]),
+               c = search.mesh.vertex(corners[2]);
+    if (is_beyond(search, a, b, c)) return false;
+    const Vec3 normal = (b - a).cross(c - a);
+    if (search.normal && !(normal.dot(*search.normal) > 0)) return false;
+    if (is_plane_beyond(search, a, b, c, normal)) return false;
+    const Vec3 at = closest_barycentric(search.query, a, b, c);
+    const double squared = (at[0] * a + at[1] * b + at[2] * c - search.query).squaredNorm();
+    const int face = search.given[std::size_t(f)];
     ClosestPoint::Hit& best = search.best;
-    if (squared > best.squared_distance || (squared == best.squared_distance && f >= best.point.face))
+    if (squared > best.squared_distance || (squared == best.squared_distance && face >= best.point.face))
         return false;
-    best = {point, squared};
+    best = {{face, at}, squared};
     return true;
 }
 
@@ -159,15 +227,15 @@ ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* nor
         return search(centre + local.cwiseMax(-far).cwiseMin(far) / scale, normal, guess);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    Search search{mesh, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};
-    if (guess >= 0) offer(search, guess);
+    Search search{mesh, given, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};
+    if (guess >= 0) offer(search, present[std::size_t(guess)]);
     RTCPointQuery ball{float(local[0]), float(local[1]), float(local[2]), 0, radius(search)};
     rtcPointQuery(scene, &ball, &context, visit, &search);
     return search.best;
 }
 
-ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<State>(mesh)) {
-    state_->build();
+ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<State>()) {
+    state_->build(mesh);
 }
 ClosestPoint::~ClosestPoint() = default;
 ClosestPoint::ClosestPoint(ClosestPoint&&) noexcept = default;
@@ -176,9 +244,9 @@ ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, int guess) const {
     return state_->search(query, nullptr, guess);
 }
 
-ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, const Vec3& normal) const {
-    const Hit hit = state_->search(query, &normal);
-    return hit.point.face >= 0 ? hit : state_->search(query, nullptr);
+ClosestPoint::Hit ClosestPoint::operator()(const Vec3& query, const Vec3& normal, int guess) const {
+    const Hit hit = state_->search(query, &normal, guess);
+    return hit.point.face >= 0 ? hit : state_->search(query, nullptr, guess);
 }
 
 }  // namespace varimap

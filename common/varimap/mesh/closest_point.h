@@ -11,7 +11,8 @@
 namespace varimap {
 
 /// Closest points on a mesh (Embree bounding volume hierarchy, distances in double precision).
-/// Thread-safe once built; holds a copy of what it needs.
+/// Thread-safe once built; holds a copy of what it needs, in an order of its own that keeps near faces
+/// together.
 class ClosestPoint {
   public:
     explicit ClosestPoint(const TriangleMesh& mesh);
@@ -27,7 +28,7 @@ class ClosestPoint {
     Hit operator()(const Vec3& query, int guess = -1) const;
     /// The closest point whose unit face normal has a positive product with `normal`, so that the other side
     /// of a thin part does not attract; where no such face exists, the closest point of all.
-    Hit operator()(const Vec3& query, const Vec3& normal) const;
+    Hit operator()(const Vec3& query, const Vec3& normal, int guess = -1) const;
 
   private:
     struct State;

@@ -99,6 +99,8 @@ class Coarsener {
     void add_quadrics();
     void enqueue(VertexHandle v);
     double cost(SmartHalfedgeHandle collapsed) const;
+    void measure(SmartHalfedgeHandle h) { cost_[std::size_t(h.idx())] = cost(h); }
+    double measured(SmartHalfedgeHandle h) const { return cost_[std::size_t(h.idx())]; }
     Disc lay_out(VertexHandle v) const;
     Vec3 mean_normal(const Disc& disc) const;
     double worst_quality(const Disc& disc) const;
@@ -113,6 +115,7 @@ class Coarsener {
     HalfEdgeMesh mesh_;
     Faces faces_;  ///< corners stay at their places when one is exchanged
     std::vector<Quadric> quadric_;
+    std::vector<double> cost_;  ///< per half-edge; a collapse changes those of its target alone
     std::vector<int> version_;
     std::priority_queue<Entry> queue_;
     int left_;
@@ -132,6 +135,8 @@ Coarsener::Coarsener(const TriangleMesh& mesh, const PointMap& points)
     for (std::size_t i = 0; i < points.size(); ++i)
         put(mesh.vertex_count() + int(i), points[i].face, points[i].barycentric);
     add_quadrics();
+    cost_.resize(mesh_.n_halfedges());
+    for (const auto h : mesh_.halfedges()) measure(h);
     for (const auto v : mesh_.vertices()) enqueue(v);
 }
 
@@ -171,7 +176,7 @@ bool may_collapse(SmartHalfedgeHandle h) {
 void Coarsener::enqueue(VertexHandle v) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto h : mesh_.voh_range(v))
-        if (may_collapse(h)) least = std::min(least, cost(h));
+        if (measured(h) < least && may_collapse(h)) least = measured(h);
     const std::size_t i = std::size_t(v.idx());
     ++version_[i];
     if (std::isfinite(least)) queue_.push({rounded(least), v.idx(), version_[i]});
@@ -338,6 +343,10 @@ void Coarsener::collapse(const Disc& disc, int target) {
                                           position(disc.centre) - position(apex));
     mesh_.collapse(collapsed);
     --left_;
+    for (const auto h : mesh_.voh_range(apex)) {
+        measure(h);
+        measure(h.opp());
+    }
     enqueue(apex);
     for (const auto v : mesh_.vv_range(apex)) enqueue(v);
 }
@@ -347,7 +356,7 @@ int Coarsener::cheapest_target(const Disc& disc) {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < disc.size(); ++i) {
-        const double here = rounded(cost(disc.spokes[std::size_t(i)]));
+        const double here = rounded(measured(disc.spokes[std::size_t(i)]));
         if (here < least && is_allowed(disc, i)) least = here, best = i;
     }
     return best;

@@ -2,11 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 namespace varimap {
 
 namespace {
+
+/// The items by the vertex that `vertex_of` names, those of one vertex sorted by `before`; and where each
+/// vertex's begin.
+template <class Item, class VertexOf, class Before>
+std::vector<int> sort_by_vertex(std::vector<Item>& items, int vertices, const VertexOf& vertex_of,
+                                const Before& before) {
+    std::vector<int> begin(size_t(vertices) + 1, 0);
+    for (const Item& item : items) ++begin[size_t(vertex_of(item)) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Item> sorted(items.size());
+    std::vector<int> next = begin;
+    for (const Item& item : items) sorted[size_t(next[size_t(vertex_of(item))]++)] = item;
+    for (size_t v = 0; v < size_t(vertices); ++v)
+        std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1], before);
+    items = std::move(sorted);
+    return begin;
+}
 
 struct HalfEdge {
     int low, high;  ///< the edge's vertices
@@ -21,9 +39,11 @@ std::vector<HalfEdge> half_edges_by_edge(const TriangleMesh& mesh) {
             const int a = mesh.faces(f, c), b = mesh.faces(f, (c + 1) % 3);
             edges.push_back({std::min(a, b), std::max(a, b), mesh.faces(f, (c + 2) % 3)});
         }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.low, a.high, a.apex) < std::tie(b.low, b.high, b.apex);
-    });
+    sort_by_vertex(
+        edges, mesh.vertex_count(), [](const HalfEdge& e) { return e.low; },
+        [](const HalfEdge& a, const HalfEdge& b) {
+            return std::tie(a.high, a.apex) < std::tie(b.high, b.apex);
+        });
     return edges;
 }
 
@@ -58,7 +78,7 @@ void connect(int a, int b, double length, std::vector<Arc>& arcs) {
 std::vector<Arc> arcs_of(const TriangleMesh& mesh) {
     std::vector<Arc> arcs;
     const auto edges = half_edges_by_edge(mesh);
-    arcs.reserve(2 * edges.size());
+    arcs.reserve(2 * edges.size());  // an edge and a diagonal for two half-edges, both ways
     for (size_t i = 0; i < edges.size(); ++i) {
         const HalfEdge& e = edges[i];
         const bool paired = i + 1 < edges.size() && edges[i + 1].low == e.low && edges[i + 1].high == e.high;
@@ -80,16 +100,15 @@ std::vector<Arc> arcs_of(const Domain& domain) {
 
 GeodesicGraph graph_of(std::vector<Arc> arcs, int vertices) {
     GeodesicGraph graph;
-    std::sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
-        return std::tie(a.from, a.to, a.length) < std::tie(b.from, b.to, b.length);
-    });
-    graph.offset.assign(vertices + 1, 0);
+    graph.offset = sort_by_vertex(
+        arcs, vertices, [](const Arc& a) { return a.from; },
+        [](const Arc& a, const Arc& b) { return std::tie(a.to, a.length) < std::tie(b.to, b.length); });
+    graph.target.reserve(arcs.size());
+    graph.length.reserve(arcs.size());
     for (const Arc& a : arcs) {
-        ++graph.offset[a.from + 1];
         graph.target.push_back(a.to);
         graph.length.push_back(a.length);
     }
-    for (int v = 0; v < vertices; ++v) graph.offset[v + 1] += graph.offset[v];
     return graph;
 }
 

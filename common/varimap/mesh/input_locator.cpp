@@ -13,8 +13,8 @@ SurfacePoint InputLocator::operator()(const SurfacePoint& on_mesh) const {
     return (*this)(position(surface_.mesh, on_mesh), face_normal(surface_.mesh, on_mesh.face));
 }
 
-SurfacePoint InputLocator::operator()(const Vec3& x, const Vec3& normal) const {
-    return (*closest_)(x, normal).point;
+SurfacePoint InputLocator::operator()(const Vec3& x, const Vec3& normal, int guess) const {
+    return (*closest_)(x, normal, guess).point;
 }
 
 SurfacePoint MeshLocator::operator()(const SurfacePoint& on_input) const {

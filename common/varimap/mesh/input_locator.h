@@ -17,8 +17,9 @@ class InputLocator {
         : surface_(surface), closest_([&surface] { return normalised_input(surface); }) {}
 
     SurfacePoint operator()(const SurfacePoint& on_mesh) const;
-    /// x in the coordinates of the mesh, near it; `normal`: of the surface there, of any length.
-    SurfacePoint operator()(const Vec3& x, const Vec3& normal) const;
+    /// x in the coordinates of the mesh, near it; `normal`: of the surface there, of any length; `guess`: a
+    /// face of the input that may be near, which saves time.
+    SurfacePoint operator()(const Vec3& x, const Vec3& normal, int guess = -1) const;
 
   private:
     const Surface& surface_;

@@ -69,35 +69,32 @@ void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edge
         path, defect.count, a, b));
 }
 
-/// Fans of faces around v: faces that share an edge at v belong to the same one.
-int count_fans(const TriangleMesh& mesh, const Edges& edges, std::span<const int> faces, int v) {
-    std::vector<int> parent(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i) parent[i] = int(i);
-    const auto root = [&](int i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    int fans = int(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const int side = 3 * faces[i] + c;
-            if (mesh.faces(faces[i], c) != v && mesh.faces(faces[i], (c + 1) % 3) != v) continue;
-            for (const int other : edges.sides[edges.of_side[side]]) {
-                const auto at = std::lower_bound(faces.begin(), faces.end(), other / 3) - faces.begin();
-                const int a = root(int(i)), b = root(int(at));
-                if (a == b) continue;
-                parent[std::max(a, b)] = std::min(a, b);
-                --fans;
-            }
+/// How many of the faces around v hang together with the first over edges at v. No edge has more than two
+/// faces.
+std::size_t faces_of_fan(const TriangleMesh& mesh, const Edges& edges, std::span<const int> faces, int v) {
+    const auto corner = [&](int f) { return mesh.faces(f, 0) == v ? 0 : mesh.faces(f, 1) == v ? 1 : 2; };
+    std::size_t count = 1;
+    // The two sides of a face at v: that which begins there, and that which ends there.
+    for (const int first : {0, 2}) {
+        int side = 3 * faces[0] + (corner(faces[0]) + first) % 3;
+        while (true) {
+            const auto sides = edges.sides[edges.of_side[std::size_t(side)]];
+            if (sides.size() < 2) break;
+            const int beyond = sides[0] == side ? sides[1] : sides[0], f = beyond / 3;
+            if (f == faces[0]) return count;  // all the way round
+            ++count;
+            const int at = 3 * f + corner(f);
+            side = beyond == at ? 3 * f + (at + 2) % 3 : at;
         }
-    return fans;
+    }
+    return count;
 }
 
 void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
     const Adjacency faces = vertex_faces(mesh);
     Defect defect;
     for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (faces[v].size() > 1 && count_fans(mesh, edges, faces[v], v) > 1) defect.add(v);
+        if (faces[v].size() > 1 && faces_of_fan(mesh, edges, faces[v], v) < faces[v].size()) defect.add(v);
     if (defect.count > 0)
         throw InputError(
             fmt::format("{}: at {} vertices the faces form more than one fan, the first is vertex {}; "

@@ -1,11 +1,10 @@
 #include "varimap/mesh/triangle_strip.h"
 
 #include <algorithm>
-#include <functional>
+#include <cstdint>
 #include <optional>
-#include <queue>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace varimap {
 
@@ -109,22 +108,80 @@ Vec3 centre(const TriangleMesh& mesh, int f) {
 
 /// A face that the search for a strip has reached.
 struct Reached {
+    int face;
     double length;
-    int edge, before;  ///< the edge to it and the face on its other side; -1: where the search began
+    int edge, before;  ///< the edge to it, and which face reached lies on its other side; -1: the first
+    Vec3 centre;
+    double to_goal;  ///< from its centre
     bool settled = false;
 };
 
-TriangleStrip strip_to(const std::unordered_map<int, Reached>& reached, int face) {
-    TriangleStrip strip;
-    for (; face >= 0; face = reached.at(face).before) {
-        strip.faces.push_back(face);
-        strip.edges.push_back(reached.at(face).edge);
+/// What has been reached, by face: few of them, looked up often. Holds its memory for repeated use.
+class ReachedFaces {
+  public:
+    void clear() {
+        all_.clear();
+        if (++search_ != 0) return;
+        std::fill(slots_.begin(), slots_.end(), Slot{});  // the counter went round
+        search_ = 1;
     }
-    strip.edges.pop_back();
+    int size() const { return int(all_.size()); }
+    Reached& operator[](int i) { return all_[std::size_t(i)]; }
+    /// Its number, or -1.
+    int find(int face) const {
+        const Slot& slot = slots_[slot_of(face)];
+        return slot.search == search_ ? slot.number : -1;
+    }
+    int add(const Reached& reached) {
+        if (2 * (all_.size() + 1) > slots_.size()) grow();
+        all_.push_back(reached);
+        slots_[slot_of(reached.face)] = {search_, size() - 1};
+        return size() - 1;
+    }
+
+  private:
+    struct Slot {
+        std::uint32_t search = 0;
+        int number = -1;
+    };
+    /// Where the face is, or would be.
+    std::size_t slot_of(int face) const {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t at = (std::uint32_t(face) * 2654435769u >> 7) & mask;
+        while (slots_[at].search == search_ && all_[std::size_t(slots_[at].number)].face != face)
+            at = (at + 1) & mask;
+        return at;
+    }
+    void grow() {
+        slots_.assign(2 * slots_.size(), {});
+        for (int i = 0; i < size(); ++i) slots_[slot_of(all_[std::size_t(i)].face)] = {search_, i};
+    }
+
+    std::vector<Reached> all_;
+    std::vector<Slot> slots_ = std::vector<Slot>(64);
+    std::uint32_t search_ = 0;
+};
+
+TriangleStrip strip_to(ReachedFaces& reached, int last) {
+    TriangleStrip strip;
+    for (int i = last; i >= 0; i = reached[i].before) {
+        strip.faces.push_back(reached[i].face);
+        if (reached[i].before >= 0) strip.edges.push_back(reached[i].edge);
+    }
     std::reverse(strip.faces.begin(), strip.faces.end());
     std::reverse(strip.edges.begin(), strip.edges.end());
     return strip;
 }
+
+/// A way through a face that was reached, and what it is at least as long as. The shortest comes first, among
+/// equals that through the lowest face.
+struct Way {
+    double length;
+    int face, number;
+    bool operator<(const Way& other) const {
+        return length != other.length ? length > other.length : face > other.face;
+    }
+};
 
 }  // namespace
 
@@ -133,31 +190,44 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
     for (int side = 3 * from; side < 3 * from + 3; ++side)  // most ways are that short
         for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]])
             if (beyond / 3 == to) return {{from, to}, {edges.of_side[std::size_t(side)]}};
-    std::unordered_map<int, Reached> reached{{from, {0, -1, -1}}};
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    const Vec3 goal = centre(mesh, to);
-    open.emplace((centre(mesh, from) - goal).norm(), from);
+    thread_local ReachedFaces reached;
+    thread_local std::vector<Way> open;  // a heap
+    reached.clear();
+    open.clear();
+    const Vec3 goal = centre(mesh, to), start = centre(mesh, from);
+    const auto open_way = [](const Way& way) {
+        open.push_back(way);
+        std::push_heap(open.begin(), open.end());
+    };
+    open_way({(start - goal).norm(), from, reached.add({from, 0, -1, -1, start, 0})});
     for (int settled = 0; !open.empty() && settled < most;) {
-        const int f = open.top().second;
-        open.pop();
-        Reached& here = reached.at(f);
-        if (std::exchange(here.settled, true)) continue;
+        std::pop_heap(open.begin(), open.end());
+        const int here = open.back().number;
+        open.pop_back();
+        if (std::exchange(reached[here].settled, true)) continue;
         ++settled;
-        if (f == to) return strip_to(reached, to);
-        const double length = here.length;  // insertions move what `here` refers to
-        const Vec3 from_here = centre(mesh, f);
-        for (int side = 3 * f; side < 3 * f + 3; ++side)
-            for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]]) {
+        const int f = reached[here].face;
+        if (f == to) return strip_to(reached, here);
+        const double length = reached[here].length;
+        const Vec3 from_here = reached[here].centre;
+        for (int side = 3 * f; side < 3 * f + 3; ++side) {
+            const int edge = edges.of_side[std::size_t(side)];
+            for (const int beyond : edges.sides[edge]) {
                 const int g = beyond / 3;
-                const Vec3 there = centre(mesh, g);
-                const double through = length + (there - from_here).norm();
-                const auto [entry, is_new] =
-                    reached.try_emplace(g, Reached{through, edges.of_side[std::size_t(side)], f});
-                if (!is_new && entry->second.length <= through) continue;
-                entry->second = {through, edges.of_side[std::size_t(side)], f};
-                open.emplace(through + (there - goal).norm(), g);
+                if (g == f) continue;
+                int there = reached.find(g);
+                const bool is_new = there < 0;
+                if (is_new) {
+                    const Vec3 middle = centre(mesh, g);
+                    there = reached.add({g, 0, edge, here, middle, (middle - goal).norm()});
+                }
+                Reached& next = reached[there];
+                const double through = length + (next.centre - from_here).norm();
+                if (!is_new && next.length <= through) continue;
+                next.length = through, next.edge = edge, next.before = here, next.settled = false;
+                open_way({through + next.to_goal, g, there});
             }
+        }
     }
     return {};
 }

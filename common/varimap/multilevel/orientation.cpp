@@ -58,12 +58,28 @@ class OffsetFit {
 
 }  // namespace
 
+namespace {
+
+/// |a - b|^2; or, where its first terms show that it is above `limit`, some number above that.
+template <class A, class B>
+double squared_distance(const A& a, const B& b, double limit) {
+    constexpr Eigen::Index first = 16;  // the smoothest functions tell most points apart
+    constexpr double beyond_rounding = 1 + 1e-12;
+    if (a.size() > 2 * first) {
+        const double part = (a.template head<first>() - b.template head<first>()).squaredNorm();
+        if (part > limit * beyond_rounding) return part;
+    }
+    return (a - b).squaredNorm();
+}
+
+}  // namespace
+
 int nearest_by_descent(int vertex, const Eigen::RowVectorXd& centre, const RowMatrix& vertex_points,
                        const GeodesicGraph& graph) {
     double smallest = (vertex_points.row(vertex) - centre).squaredNorm();
     for (int current = vertex;; vertex = current) {
         for (int e = graph.offset[vertex]; e < graph.offset[vertex + 1]; ++e) {
-            const double d = (vertex_points.row(graph.target[e]) - centre).squaredNorm();
+            const double d = squared_distance(vertex_points.row(graph.target[e]), centre, smallest);
             if (d < smallest) smallest = d, current = graph.target[e];
         }
         if (current == vertex) return vertex;

@@ -79,7 +79,8 @@ RowMatrix distances_to_samples(const std::vector<int>& sources, const GraphedSid
 RowMatrix distances_to_part(const std::vector<int>& sources, const ReversedPart& part,
                             const GraphedSide& side) {
     const std::vector<int> column_at = numbers_at_vertices(part.samples, side.level_side);
-    RowMatrix distances(sources.size(), part.samples.size());
+    RowMatrix distances =
+        RowMatrix::Constant(sources.size(), part.samples.size(), std::numeric_limits<double>::infinity());
     GeodesicBall ball(side.graph);
     for (size_t r = 0; r < sources.size(); ++r) {
         size_t missing = part.samples.size();

@@ -87,8 +87,9 @@ void SampleGraphs::make() const {
         // Isolated: a task that this thread took up meanwhile could ask for the graphs again, and wait for
         // itself.
         tbb::this_task_arena::isolate([&] {
-            A_ = sample_graph(context_.A().hierarchy.last_diffusion_level(), context_.graph_A());
-            B_ = sample_graph(context_.B().hierarchy.last_diffusion_level(), context_.graph_B());
+            const Levels last = context_.diffusion_samples(context_.diffusion_levels() - 1);
+            A_ = sample_graph(last.A, context_.graph_A());
+            B_ = sample_graph(last.B, context_.graph_B());
         });
     });
 }

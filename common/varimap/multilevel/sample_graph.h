@@ -13,8 +13,8 @@ namespace varimap {
 /// exceed those of `graph` by little, and take as long as there are samples, not vertices.
 GeodesicGraph sample_graph(const Level& level, const GeodesicGraph& graph);
 
-/// The sample graphs of both surfaces' last diffusion levels, made when they are first asked for, by
-/// whichever thread.
+/// The sample graphs of both surfaces' last diffusion levels with the landmarks, which are samples of every
+/// level (no edge leads to a vertex that is none); made when they are first asked for, by whichever thread.
 class SampleGraphs {
   public:
     /// Refers to the context.

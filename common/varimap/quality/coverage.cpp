@@ -40,14 +40,19 @@ constexpr double sideways = 0.8;
 /// 0.02, 0.05 and 0.25; all published numbers are by 0.05.
 constexpr double within_face = 0.05;
 
+/// `guess`: a face of the image that may be near, or -1; then the one that is.
 bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const ClosestPoint& on_image,
-            const ClosestPoint& on_target) {
+            const ClosestPoint& on_target, int& guess) {
     const Vec3 centroid = position(target, {f, Vec3::Constant(1.0 / 3)});
-    const auto near = on_image(centroid, face_normal(target, f)).point;
+    const auto near = on_image(centroid, face_normal(target, f), guess).point;
+    guess = near.face;
     const Vec3 p = position(image, near);
-    const Vec3 q = position(target, on_target(p, face_normal(image, near.face)).point);
-    return (q - centroid).norm() <=
-           std::max(sideways * (p - centroid).norm(), within_face * longest_edge(target, f));
+    const double limit = std::max(sideways * (p - centroid).norm(), within_face * longest_edge(target, f));
+    // What lies closest to p is no farther from it than the centroid.
+    const bool faces_p = face_normal(target, f).dot(face_normal(image, near.face)) > 0;
+    if (faces_p && 2 * (p - centroid).norm() * (1 + 1e-9) <= limit) return true;
+    const Vec3 q = position(target, on_target(p, face_normal(image, near.face), f).point);
+    return (q - centroid).norm() <= limit;
 }
 
 }  // namespace
@@ -58,8 +63,10 @@ double measure_coverage(const PointMap& map, const TriangleMesh& source, const T
     if (image.face_count() == 0) return 0;
     const ClosestPoint on_image(image), on_target(images.target);
     FaceData<bool> hit(target.face_count());
-    parallel_for_each_index<int>(target.face_count(), 64, [&](int f) {
-        hit[f] = is_hit(f, images.target, image, on_image, on_target);
+    tbb::parallel_for(tbb::blocked_range<int>(0, target.face_count(), 64), [&](const auto& range) {
+        int guess = -1;
+        for (int f = range.begin(); f < range.end(); ++f)
+            hit[f] = is_hit(f, images.target, image, on_image, on_target, guess);
     });
     double hit_area = 0, area = 0;
     for (int f = 0; f < target.face_count(); ++f) {

@@ -6,11 +6,6 @@
 
 namespace varimap {
 
-double RobustEnergy::value(double q, double D) const {
-    const double x = excess(energy.value(q, D));
-    return robustness > 0 ? robustness * std::log1p(x / robustness) : x;
-}
-
 FaceData<RestTriangle> rest_triangles(const TriangleMesh& source) {
     FaceData<RestTriangle> rest(source.face_count());
     for (int f = 0; f < source.face_count(); ++f) {

@@ -67,7 +67,9 @@ struct ImageTriangle {
     static constexpr double aligned = 0.5;
     double q = 0, D = 0;
     Vec3 up;  ///< D = n . up / (2 a)
-    ImageTriangle(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& m);
+    /// `normals`: a vector of any length along m, such as the sum of the target's normals.
+    ImageTriangle(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2,
+                  const Vec3& normals);
 };
 
 // Inline: these are what relaxation does most.
@@ -102,18 +104,30 @@ inline FoldEnergy::Value FoldEnergy::area_derivatives(double D) const {
     return v;
 }
 
+inline double RobustEnergy::value(double q, double D) const {
+    const double x = excess(energy.value(q, D));
+    return robustness > 0 ? robustness * std::log1p(x / robustness) : x;
+}
+
 inline ImageTriangle::ImageTriangle(const RestTriangle& rest, const Vec3& x0, const Vec3& x1, const Vec3& x2,
-                                    const Vec3& m) {
+                                    const Vec3& normals) {
     const Vec3 e0 = x2 - x1, e1 = x0 - x2, e2 = x1 - x0;
     q = (rest.cotangent[0] * e0.squaredNorm() + rest.cotangent[1] * e1.squaredNorm() +
          rest.cotangent[2] * e2.squaredNorm()) /
         (2 * rest.area);
     const Vec3 n = e2.cross(-e1);
-    const double size = n.norm();
-    if (n.dot(m) > aligned * size)
+    const double squared = n.squaredNorm(), size = std::sqrt(squared), along = n.dot(normals);
+    // Nearly all are aligned beyond doubt about rounding, and need no m.
+    constexpr double beyond_doubt = aligned * aligned * (1 + 1e-6);
+    if (along > 0 && along * along > beyond_doubt * squared * normals.squaredNorm()) {
         up = n / size;
-    else
-        up = m / aligned;
+    } else {
+        const Vec3 m = normals.normalized();
+        if (n.dot(m) > aligned * size)
+            up = n / size;
+        else
+            up = m / aligned;
+    }
     D = n.dot(up) / (2 * rest.area);
 }
 

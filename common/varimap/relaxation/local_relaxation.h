@@ -32,9 +32,7 @@ class Star {
     struct Face {
         RestTriangle rest;  ///< beginning at the vertex
         Vec3 y, z, normal;  ///< images of the corners after it, sum of the target's normals there
-        ImageTriangle image(const Vec3& x, const Vec3& n) const {
-            return {rest, x, y, z, (n + normal).normalized()};
-        }
+        ImageTriangle image(const Vec3& x, const Vec3& n) const { return {rest, x, y, z, n + normal}; }
     };
     std::vector<Face> faces_;
 };

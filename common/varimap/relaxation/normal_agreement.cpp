@@ -66,10 +66,13 @@ bool NormalAgreement::disagrees(int f) const {
     const Vec3 normal = chord_normal(f);
     if (lies_within_a_star(f, normal)) return false;
     Vec3 below = Vec3::Zero();
-    int face = -1;
+    std::size_t left = inner_points.size();
+    int face = map_.point(c[0]).face;
     for (const Vec3& b : inner_points) {
         face = closest_(b[0] * x + b[1] * y + b[2] * z, face).point.face;
         below += face_normal(map_.target(), face).normalized();
+        // Each of those left adds a vector of length 1 at most.
+        if (normal.dot(below) > double(--left) * (1 + 1e-9) * normal.norm()) return false;
     }
     return !(normal.dot(below) > 0);
 }

@@ -34,20 +34,4 @@ SlidingMap::SlidingMap(const PointMap& map, const TriangleMesh& source, const Tr
         if (map[v].face >= 0) place(v, map[v]);
 }
 
-void SlidingMap::place(int v, const SurfacePoint& point) {
-    points_[v] = point;
-    image_[v] = position(target_, point);
-    normal_[v] = position(normals_, point);
-}
-
-Vec3 SlidingMap::mean_normal(int f) const {
-    return (normal_[source_.faces(f, 0)] + normal_[source_.faces(f, 1)] + normal_[source_.faces(f, 2)])
-        .normalized();
-}
-
-ImageTriangle SlidingMap::image_triangle(int f) const {
-    return {rest(f), image(source_.faces(f, 0)), image(source_.faces(f, 1)), image(source_.faces(f, 2)),
-            mean_normal(f)};
-}
-
 }  // namespace varimap

@@ -39,15 +39,22 @@ class SlidingMap {
     /// Position in space of a vertex's image.
     const Vec3& image(int v) const { return image_[v]; }
     /// Unit mean of the target's normals at a face's three images; zero where they cancel.
-    Vec3 mean_normal(int f) const;
-    ImageTriangle image_triangle(int f) const;
+    Vec3 mean_normal(int f) const { return sum_of_normals(f).normalized(); }
+    ImageTriangle image_triangle(int f) const {
+        const auto corners = source_.faces.row(f);
+        return {rest_[f], image_[corners[0]], image_[corners[1]], image_[corners[2]], sum_of_normals(f)};
+    }
     /// Of the target's face that holds the image.
     const TangentFrame& tangents(int v) const { return frames_[points_[v].face]; }
     /// Length of the longest of a vertex's edges on the source.
     double longest_edge(int v) const { return longest_edge_[v]; }
     /// Walks a vertex's image along a tangent vector, from where it is.
     void move(int v, const Vec3& step) { place(v, walk_(points_[v], step)); }
-    void place(int v, const SurfacePoint& point);
+    void place(int v, const SurfacePoint& point) {
+        points_[v] = point;
+        image_[v] = position(target_, point);
+        normal_[v] = position(normals_, point);
+    }
     /// Rest areas of faces times `factor`: the relaxations then aim at lengths times its root.
     void scale_rest(const std::vector<int>& faces, double factor) {
         for (const int f : faces) rest_[f].area *= factor;
@@ -61,6 +68,11 @@ class SlidingMap {
     const Vec3& normal(int v) const { return normal_[v]; }
 
   private:
+    Vec3 sum_of_normals(int f) const {
+        const auto corners = source_.faces.row(f);
+        return normal_[corners[0]] + normal_[corners[1]] + normal_[corners[2]];
+    }
+
     TriangleMesh source_, target_, normals_;  ///< normals_: the target's, as a mesh to interpolate on
     FaceData<RestTriangle> rest_;
     Adjacency faces_of_vertex_;

@@ -5,6 +5,7 @@
 #include <queue>
 #include <tuple>
 
+#include "varimap/core/parallel.h"
 #include "varimap/spectral/neighbourhoods.h"
 #include "varimap/spectral/sampling.h"
 
@@ -16,26 +17,35 @@ namespace {
 class DiffusionGrowth {
   public:
     DiffusionGrowth(const RowMatrix& embedding, const GeodesicGraph& graph)
-        : embedding_(embedding), graph_(graph), kernel_(embedding.rowwise().squaredNorm()) {}
+        : embedding_(embedding),
+          graph_(graph),
+          kernel_(embedding.rowwise().squaredNorm()),
+          seen_from_(graph.vertex_count(), -1) {}
 
-    template <class Claim>
-    void operator()(int sample, const Claim& claim) {
-        queue_.clear();
-        if (claim(sample, 0)) queue_.push_back(sample);
-        for (size_t head = 0; head < queue_.size(); ++head)
-            for (int e = graph_.offset[queue_[head]]; e < graph_.offset[queue_[head] + 1]; ++e)
-                if (claim(graph_.target[e], relative_distance(sample, graph_.target[e])))
-                    queue_.push_back(graph_.target[e]);
-    }
-
-  private:
     double relative_distance(int s, int v) const {
         return 1 - diffusion_weight(embedding_.row(s).dot(embedding_.row(v)), kernel_[s], kernel_[v]);
     }
 
+    /// A vertex has one distance from the sample, whichever neighbour it is reached from: it is offered once.
+    template <class Claim>
+    void operator()(int sample, const Claim& claim) {
+        queue_.clear();
+        seen_from_[sample] = sample;
+        if (claim(sample, 0)) queue_.push_back(sample);
+        for (size_t head = 0; head < queue_.size(); ++head)
+            for (int e = graph_.offset[queue_[head]]; e < graph_.offset[queue_[head] + 1]; ++e) {
+                const int v = graph_.target[e];
+                if (seen_from_[v] == sample) continue;
+                seen_from_[v] = sample;
+                if (claim(v, relative_distance(sample, v))) queue_.push_back(v);
+            }
+    }
+
+  private:
     const RowMatrix& embedding_;
     const GeodesicGraph& graph_;
     Eigen::VectorXd kernel_;
+    std::vector<int> seen_from_;  ///< per vertex: the last sample whose distance it was offered
     std::vector<int> queue_;
 };
 
@@ -94,9 +104,28 @@ Level LevelBuilder::diffusion(double time, const std::vector<int>& seeds, int li
     if (seeds.empty()) sampling.insert(most_extreme_vertex(embedding));
     for (int s : seeds) sampling.insert(s);
     sampling.cover(1 - options_.density, limit);
+    return diffusion_level(sampling, time, embedding);
+}
+
+template <class Sampling>
+Level LevelBuilder::diffusion_level(const Sampling& sampling, double time, const RowMatrix& embedding) const {
     Level level = level_from(sampling, LevelKind::diffusion, time, domain_.mass);
     level.weights = diffusion_weights(embedding(level.samples, Eigen::all), options_.truncation);
     return level;
+}
+
+/// Only the cells of the further samples are grown: those of the level's own are known.
+Level LevelBuilder::diffusion_with(const Level& level, const std::vector<int>& further) const {
+    const RowMatrix embedding = diffusion_embedding(basis_, level.scale);
+    DiffusionGrowth growth(embedding, graph_);
+    std::vector<double> distance(level.cell.size());
+    parallel_for_each_index(int(distance.size()), 256, [&](int v) {
+        const int sample = level.samples[level.cell[v]];
+        distance[v] = v == sample ? 0 : growth.relative_distance(sample, v);
+    });
+    FarthestPointSampling sampling(level.samples, level.cell, std::move(distance), std::move(growth));
+    for (const int v : further) sampling.insert(v);
+    return diffusion_level(sampling, level.scale, embedding);
 }
 
 Level LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int limit) const {
@@ -125,9 +154,8 @@ Level LevelBuilder::full(int neighbours) const {
 Level LevelBuilder::with_samples(const Level& level, const std::vector<int>& vertices) const {
     const std::vector<int> samples = samples_with(level, vertices);
     if (samples.size() == level.samples.size()) return level;
-    const int count = int(samples.size());
-    return level.kind == LevelKind::diffusion ? diffusion(level.scale, samples, count)
-                                              : euclidean(level.scale, samples, count);
+    if (level.kind == LevelKind::diffusion) return diffusion_with(level, vertices);
+    return euclidean(level.scale, samples, int(samples.size()));
 }
 
 }  // namespace varimap

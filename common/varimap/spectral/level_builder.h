@@ -40,6 +40,10 @@ class LevelBuilder {
     Level with_samples(const Level& level, const std::vector<int>& vertices) const;
 
   private:
+    Level diffusion_with(const Level& level, const std::vector<int>& further) const;
+    template <class Sampling>
+    Level diffusion_level(const Sampling& sampling, double time, const RowMatrix& embedding) const;
+
     const Domain& domain_;
     const Basis& basis_;
     const GeodesicGraph& graph_;

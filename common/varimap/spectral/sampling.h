@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -26,7 +27,18 @@ class FarthestPointSampling {
           cell_(vertex_count, -1),
           distance_(vertex_count, std::numeric_limits<double>::infinity()),
           is_sample_(vertex_count, 0) {
-        for (int v = 0; v < vertex_count; ++v) heap_.push(candidate(v));
+        queue_all();
+    }
+    /// Goes on from samples, the cells and the distances that belong to them.
+    FarthestPointSampling(std::vector<int> samples, std::vector<int> cell, std::vector<double> distance,
+                          Grow grow)
+        : grow_(std::move(grow)),
+          samples_(std::move(samples)),
+          cell_(std::move(cell)),
+          distance_(std::move(distance)),
+          is_sample_(cell_.size(), 0) {
+        for (const int s : samples_) is_sample_[s] = 1;
+        queue_all();
     }
 
     /// Adds a vertex as a sample; no effect if it is one already.
@@ -75,6 +87,12 @@ class FarthestPointSampling {
             return distance != o.distance ? distance < o.distance : vertex > o.vertex;
         }
     };
+    void queue_all() {
+        std::vector<Candidate> all;
+        all.reserve(distance_.size());
+        for (int v = 0; v < int(distance_.size()); ++v) all.push_back(candidate(v));
+        heap_ = std::priority_queue<Candidate>(std::less<Candidate>(), std::move(all));
+    }
     Candidate candidate(int vertex) const {
         const double d = distance_[vertex];
         if (!std::isfinite(d)) return {std::numeric_limits<float>::infinity(), vertex};

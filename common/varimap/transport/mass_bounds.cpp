@@ -43,18 +43,42 @@ double solve_piece(const Eigen::ArrayXd& log_a, const Eigen::ArrayXd& log_lower,
     return std::clamp(std::log((1 - held) / free) - top, piece.begin, piece.end);
 }
 
+constexpr double widest = 600;  ///< spread of logarithms; exp() holds 700
+
+/// The numbers a_i themselves, by their largest: one exp() for all phi. None where they spread too far.
+struct Scaled {
+    double top;
+    Eigen::ArrayXd a;
+
+    explicit Scaled(const Eigen::ArrayXd& log_a) : top(log_a.maxCoeff()) {
+        if (log_a.minCoeff() > top - widest) a = (log_a - top).exp();
+    }
+    bool exists() const { return a.size() > 0; }
+    double scale(double log_phi) const { return std::exp(std::clamp(log_phi + top, -widest, widest)); }
+};
+
+/// Whether clamped() sums to less than 1. Nearly always that is beyond doubt without its exp().
+bool is_below_one(const Eigen::ArrayXd& log_a, const Scaled& scaled, double log_phi,
+                  const MassBounds& bounds) {
+    constexpr double doubt = 1e-9;
+    if (scaled.exists() && std::abs(log_phi + scaled.top) < widest) {
+        const double sum =
+            (scaled.a * scaled.scale(log_phi)).max(bounds.lower.array()).min(bounds.upper.array()).sum();
+        if (std::abs(sum - 1) > doubt) return sum < 1;
+    }
+    return clamped(log_a, log_phi, bounds).sum() < 1;
+}
+
 /// Newton's method for log phi, from 0 on, where Sinkhorn's iterations end: the sum is linear in phi between
 /// breakpoints, so it is exact once it stays among the same ones. None where it does not get there, as among
 /// masses too far apart or all at their bounds.
-std::optional<double> newton(const Eigen::ArrayXd& log_a, const MassBounds& bounds) {
+std::optional<double> newton(const Scaled& scaled, const MassBounds& bounds) {
     constexpr int iterations = 20;
-    constexpr double widest = 600;  // exp() holds 700
-    const double top = log_a.maxCoeff();
-    if (!(log_a.minCoeff() > top - widest)) return {};
-    const Eigen::ArrayXd a = (log_a - top).exp();
+    if (!scaled.exists()) return {};
+    const auto& [top, a] = scaled;
     double log_phi = 0;
     for (int k = 0; k < iterations; ++k) {
-        const double scale = std::exp(std::clamp(log_phi + top, -widest, widest));
+        const double scale = scaled.scale(log_phi);
         double held = 0, free = 0;
         for (Eigen::Index i = 0; i < a.size(); ++i) {
             const double mass = a[i] * scale;
@@ -90,7 +114,8 @@ double MassBounds::excess(const Eigen::VectorXd& mass) const {
 }
 
 Eigen::VectorXd bounded_masses(const Eigen::ArrayXd& log_a, const MassBounds& bounds) {
-    if (const auto log_phi = newton(log_a, bounds)) return clamped(log_a, *log_phi, bounds);
+    const Scaled scaled(log_a);
+    if (const auto log_phi = newton(scaled, bounds)) return clamped(log_a, *log_phi, bounds);
     const Eigen::ArrayXd log_lower = bounds.lower.array().log(), log_upper = bounds.upper.array().log();
     std::vector<double> breakpoints(2 * log_a.size());
     Eigen::Map<Eigen::ArrayXd>(breakpoints.data(), log_a.size()) = log_lower - log_a;
@@ -100,7 +125,7 @@ Eigen::VectorXd bounded_masses(const Eigen::ArrayXd& log_a, const MassBounds& bo
     while (begin < after) {
         const auto middle = begin + (after - begin) / 2;
         std::nth_element(begin, middle, after);
-        if (clamped(log_a, *middle, bounds).sum() < 1)
+        if (is_below_one(log_a, scaled, *middle, bounds))
             begin = middle + 1;
         else
             after = middle;

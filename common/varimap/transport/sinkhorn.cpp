@@ -1,6 +1,7 @@
 #include "varimap/transport/sinkhorn.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -29,22 +30,31 @@ double log_total(const Eigen::VectorXd& mass, const Eigen::VectorXd& potential, 
 }
 
 /// One side's log-domain update for one line (row or column): log sum over its entries and the background.
-/// `entry(e)` gives (index on the other side, log excess kernel).
-template <class Entry>
-double log_sum_line(int begin, int end, double log_background, const Eigen::ArrayXd& other,
-                    const Entry& entry) {
+/// `term(e)` gives an entry's potential on the other side and log excess kernel, together; what it gathers
+/// from all over memory is kept in `terms`.
+template <class Term>
+double log_sum_line(int begin, int end, double log_background, const Term& term, std::vector<double>& terms) {
+    terms.resize(std::size_t(end - begin));
     double top = log_background;
     for (int e = begin; e < end; ++e) {
-        const auto [k, log_kernel] = entry(e);
-        top = std::max(top, other[k] + log_kernel);
+        const double t = terms[std::size_t(e - begin)] = term(e);
+        top = std::max(top, t);
     }
     double sum = std::exp(log_background - top);
-    for (int e = begin; e < end; ++e) {
-        const auto [k, log_kernel] = entry(e);
-        const double below_top = other[k] + log_kernel - top;
+    for (const double t : terms) {
+        const double below_top = t - top;
         if (below_top > -40) sum += std::exp(below_top);  // less is beyond the sum's last digit
     }
     return top + std::log(sum);
+}
+
+/// Calls body(line, workspace) for every line, on several threads.
+template <class Body>
+void for_each_line(int lines, const Body& body) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, lines, rows_per_task), [&](const auto& range) {
+        std::vector<double> workspace;
+        for (int i = range.begin(); i < range.end(); ++i) body(i, workspace);
+    });
 }
 
 struct LogKernel {
@@ -99,9 +109,10 @@ void update_rows(const TransportProblem& p, const Projections& projections, cons
     const Eigen::ArrayXd other = q.column.array() / p.gamma + p.column_mass.array().log();
     const double background = kernel.background + log_total(p.column_mass, q.column, p.gamma);
     Eigen::ArrayXd log_ratio(p.support.rows());
-    parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
-        log_ratio[i] = log_sum_line(p.support.row_begin[i], p.support.row_begin[i + 1], background, other,
-                                    [&](int e) { return std::pair(p.support.column[e], kernel.entry[e]); });
+    for_each_line(p.support.rows(), [&](int i, std::vector<double>& terms) {
+        log_ratio[i] = log_sum_line(
+            p.support.row_begin[i], p.support.row_begin[i + 1], background,
+            [&](int e) { return other[p.support.column[e]] + kernel.entry[e]; }, terms);
     });
     q.row = projected_potentials(projections.rows, p.row_mass, log_ratio, p.gamma);
 }
@@ -111,24 +122,45 @@ void update_columns(const TransportProblem& p, const Projections& projections, c
     const Eigen::ArrayXd other = q.row.array() / p.gamma + p.row_mass.array().log();
     const double background = kernel.background + log_total(p.row_mass, q.row, p.gamma);
     Eigen::ArrayXd log_ratio(p.support.columns());
-    parallel_for_each_index(0 + p.support.columns(), rows_per_task, [&](int j) {
+    for_each_line(p.support.columns(), [&](int j, std::vector<double>& terms) {
         log_ratio[j] = log_sum_line(
-            p.support.column_begin[j], p.support.column_begin[j + 1], background, other,
-            [&](int e) { return std::pair(p.support.row[e], kernel.entry[p.support.by_row[e]]); });
+            p.support.column_begin[j], p.support.column_begin[j + 1], background,
+            [&](int e) { return other[p.support.row[e]] + kernel.entry[p.support.by_row[e]]; }, terms);
     });
     q.column = projected_potentials(projections.columns, p.column_mass, log_ratio, p.gamma);
 }
 
-/// The plan that belongs to a pair of potentials.
-void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potentials& q, Coupling& plan) {
+/// exp() of the numbers from `begin` to `end`, in their place, but 0 for those far below `least`: at small
+/// gamma nine in ten, which cost no exp() then.
+void exponentiate(double* begin, double* end, double least) {
+    const double limit = std::log(least) - 1;
+    const auto is_far_below = [&](double x) { return x < limit; };
+    double* x = begin;
+    const auto one = [&] { *x = is_far_below(*x) ? 0 : std::exp(*x), ++x; };
+    if (x < end && reinterpret_cast<std::uintptr_t>(x) % 16 != 0) one();
+    for (; x + 2 <= end; x += 2) {
+        Eigen::Map<Eigen::Array2d, Eigen::Aligned16> both(x);
+        if (is_far_below(x[0]) && is_far_below(x[1]))
+            both.setZero();
+        else
+            both = both.exp();
+    }
+    if (x < end) one();
+}
+
+/// The plan that belongs to a pair of potentials. Entries below `negligible` times the mass of their row or
+/// column may be 0.
+void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potentials& q, double negligible,
+               Coupling& plan) {
     const Eigen::ArrayXd u = q.row.array() / p.gamma + p.row_mass.array().log();
     const Eigen::ArrayXd w = q.column.array() / p.gamma + p.column_mass.array().log();
+    const double lightest_column = p.column_mass.minCoeff();
     plan.value.resize(p.cost.size());
     parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
-        const int begin = p.support.row_begin[i], count = p.support.row_begin[i + 1] - begin;
-        for (int e = begin; e < begin + count; ++e)
-            plan.value[e] = u[i] + w[p.support.column[e]] + kernel.entry[e];
-        plan.value.segment(begin, count) = plan.value.segment(begin, count).array().exp();
+        const int begin = p.support.row_begin[i], end = p.support.row_begin[i + 1];
+        for (int e = begin; e < end; ++e) plan.value[e] = u[i] + w[p.support.column[e]] + kernel.entry[e];
+        exponentiate(plan.value.data() + begin, plan.value.data() + end,
+                     negligible * std::min(p.row_mass[i], lightest_column));
     });
     // The background's logarithm is shared evenly so that neither factor leaves the range of doubles alone.
     const double shift = (u.maxCoeff() - w.maxCoeff() - kernel.background) / 2;
@@ -144,6 +176,11 @@ struct CompressedLines {
     std::vector<int> begin, index;
     std::vector<double> value;
 
+    void make_room(std::size_t entries) {
+        if (entries <= index.size()) return;
+        index.resize(2 * entries);
+        value.resize(2 * entries);
+    }
     /// Four partial sums hide the latency of the gathers.
     double line_times(int line, const Eigen::VectorXd& x) const {
         double sum[4] = {0, 0, 0, 0};
@@ -162,19 +199,26 @@ class ScaledKernel {
   public:
     ScaledKernel(const TransportProblem& p, const Coupling& absorbed, double negligible) : k_(absorbed) {
         const Support& s = p.support;
+        const Eigen::VectorXd row_limit = negligible * p.row_mass, column_limit = negligible * p.column_mass;
         rows_.begin.reserve(s.rows() + 1);
         columns_.begin.assign(s.columns() + 1, 0);
+        std::size_t kept = 0;
         for (int i = 0; i < s.rows(); ++i) {
-            rows_.begin.push_back(int(rows_.index.size()));
+            rows_.begin.push_back(int(kept));
+            rows_.make_room(kept + std::size_t(s.row_begin[i + 1] - s.row_begin[i]));
             for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e) {
                 const int j = s.column[e];
-                if (absorbed.value[e] < negligible * std::min(p.row_mass[i], p.column_mass[j])) continue;
-                rows_.index.push_back(j);
-                rows_.value.push_back(absorbed.value[e]);
-                ++columns_.begin[j + 1];
+                // Written in any case, and kept or not without a branch, which would be guessed wrongly.
+                rows_.index[kept] = j;
+                rows_.value[kept] = absorbed.value[e];
+                const bool counts = !(absorbed.value[e] < std::min(row_limit[i], column_limit[j]));
+                columns_.begin[j + 1] += counts;
+                kept += counts;
             }
         }
-        rows_.begin.push_back(int(rows_.index.size()));
+        rows_.begin.push_back(int(kept));
+        rows_.index.resize(kept);
+        rows_.value.resize(kept);
         transpose_rows();
     }
 
@@ -238,6 +282,7 @@ void scale_plan(const TransportProblem& p, const Eigen::VectorXd& u, const Eigen
                 double negligible, Coupling& plan) {
     parallel_for_each_index(0 + p.support.rows(), rows_per_task, [&](int i) {
         for (int e = p.support.row_begin[i]; e < p.support.row_begin[i + 1]; ++e) {
+            if (plan.value[e] == 0) continue;
             const int j = p.support.column[e];
             const bool counts = plan.value[e] >= negligible * std::min(p.row_mass[i], p.column_mass[j]);
             plan.value[e] = counts ? plan.value[e] * u[i] * w[j] : 0.0;
@@ -259,7 +304,7 @@ SinkhornReport sinkhorn(const TransportProblem& p, const SinkhornOptions& option
         // Absorb: after a full iteration in the log domain the kernel's entries are those of a plan.
         update_rows(p, projections, log_kernel, potentials);
         update_columns(p, projections, log_kernel, potentials);
-        form_plan(p, log_kernel, potentials, plan);
+        form_plan(p, log_kernel, potentials, negligible, plan);
         ++report.iterations;
 
         const ScaledKernel kernel(p, plan, negligible);
@@ -297,7 +342,7 @@ SinkhornReport sinkhorn_log_domain(const TransportProblem& p, const SinkhornOpti
     update_rows(p, projections, kernel, potentials);
     while (true) {
         update_columns(p, projections, kernel, potentials);
-        form_plan(p, kernel, potentials, plan);
+        form_plan(p, kernel, potentials, 0, plan);
         ++report.iterations;
         Potentials next = potentials;
         update_rows(p, projections, kernel, next);

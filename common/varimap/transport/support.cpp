@@ -1,7 +1,10 @@
 #include "varimap/transport/support.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "varimap/core/parallel.h"
 
@@ -9,27 +12,34 @@ namespace varimap {
 
 namespace {
 
-/// Collects distinct numbers below a bound, quickly and repeatedly.
+/// Collects distinct numbers below a bound, quickly and repeatedly: a bit each, in words of which only those
+/// between the lowest and the highest number are looked at.
 class DistinctSet {
   public:
-    explicit DistinctSet(int bound) : stamp_(bound, 0) {}
-    void clear() {
-        ++generation_;
-        members_.clear();
-    }
+    explicit DistinctSet(int bound) : words_(std::size_t(bound) / 64 + 1, 0) {}
     void add(int i) {
-        if (stamp_[i] == generation_) return;
-        stamp_[i] = generation_;
-        members_.push_back(i);
+        const int word = i / 64;
+        words_[std::size_t(word)] |= std::uint64_t(1) << (i % 64);
+        lowest_ = std::min(lowest_, word);
+        highest_ = std::max(highest_, word);
     }
-    std::vector<int> sorted() {
-        std::sort(members_.begin(), members_.end());
-        return members_;
+    /// The numbers, ascending; leaves none.
+    std::vector<int> take() {
+        int count = 0;
+        for (int w = lowest_; w <= highest_; ++w) count += std::popcount(words_[std::size_t(w)]);
+        std::vector<int> members;
+        members.reserve(std::size_t(count));
+        for (int w = lowest_; w <= highest_; ++w) {
+            for (std::uint64_t bits = std::exchange(words_[std::size_t(w)], 0); bits != 0; bits &= bits - 1)
+                members.push_back(64 * w + std::countr_zero(bits));
+        }
+        lowest_ = int(words_.size()), highest_ = -1;
+        return members;
     }
 
   private:
-    std::vector<int> stamp_, members_;
-    int generation_ = 0;
+    std::vector<std::uint64_t> words_;
+    int lowest_ = int(words_.size()), highest_ = -1;
 };
 
 /// For each row k of `outer`: the union of the lists inner[i] over the columns i of that row.
@@ -39,10 +49,9 @@ std::vector<std::vector<int>> union_over_neighbours(const SparseMatrix& outer,
     tbb::parallel_for(tbb::blocked_range<int>(0, int(outer.rows()), 256), [&](const auto& range) {
         DistinctSet set(bound);
         for (int k = range.begin(); k < range.end(); ++k) {
-            set.clear();
             for (SparseMatrix::InnerIterator it(outer, k); it; ++it)
                 for (int j : inner[it.col()]) set.add(j);
-            result[k] = set.sorted();
+            result[k] = set.take();
         }
     });
     return result;
@@ -54,14 +63,35 @@ std::vector<std::vector<int>> union_over_entries(const std::vector<std::vector<i
     tbb::parallel_for(tbb::blocked_range<size_t>(0, kept.size(), 256), [&](const auto& range) {
         DistinctSet set(int(inner.cols()));
         for (size_t i = range.begin(); i < range.end(); ++i) {
-            set.clear();
             for (int j : kept[i])
                 for (SparseMatrix::InnerIterator it(inner, j); it; ++it) set.add(int(it.col()));
-            result[i] = set.sorted();
+            result[i] = set.take();
         }
     });
     return result;
 }
+
+/// The positive entries of a plan by columns, gathered by reading the plan forwards.
+struct PositiveColumns {
+    std::vector<int> begin, row;
+    std::vector<double> value;
+
+    explicit PositiveColumns(const Coupling& plan) : begin(std::size_t(plan.support.columns()) + 1, 0) {
+        const Support& s = plan.support;
+        for (int e = 0; e < s.entries(); ++e) begin[std::size_t(s.column[e]) + 1] += plan.value[e] > 0;
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        row.resize(std::size_t(begin.back()));
+        value.resize(row.size());
+        std::vector<int> next = begin;
+        for (int i = 0; i < s.rows(); ++i)
+            for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e) {
+                if (!(plan.value[e] > 0)) continue;
+                const auto place = std::size_t(next[std::size_t(s.column[e])]++);
+                row[place] = i;
+                value[place] = plan.value[e];
+            }
+    }
+};
 
 RowMatrix normalised(RowMatrix sums, const Eigen::VectorXd& totals) {
     return totals.cwiseInverse().asDiagonal() * sums;
@@ -106,9 +136,7 @@ Eigen::VectorXd row_sums(const Coupling& plan) {
 
 Eigen::VectorXd column_sums(const Coupling& plan) {
     Eigen::VectorXd sums = plan.column_background * plan.row_background.sum();
-    for (int j = 0; j < plan.support.columns(); ++j)
-        for (int e = plan.support.column_begin[j]; e < plan.support.column_begin[j + 1]; ++e)
-            sums[j] += plan.value[plan.support.by_row[e]];
+    for (int e = 0; e < plan.support.entries(); ++e) sums[plan.support.column[e]] += plan.value[e];
     return sums;
 }
 
@@ -146,13 +174,11 @@ RowMatrix row_barycentres(const Coupling& plan, const RowMatrix& points) {
 }
 
 RowMatrix column_barycentres(const Coupling& plan, const RowMatrix& points) {
-    const Support& s = plan.support;
     RowMatrix sums = plan.column_background * (plan.row_background.transpose() * points);
-    parallel_for_each_index(0 + s.columns(), 64, [&](int j) {
-        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e) {
-            const double value = plan.value[s.by_row[e]];
-            if (value > 0) sums.row(j) += value * points.row(s.row[e]);
-        }
+    const PositiveColumns columns(plan);
+    parallel_for_each_index(0 + plan.support.columns(), 64, [&](int j) {
+        for (int e = columns.begin[std::size_t(j)]; e < columns.begin[std::size_t(j) + 1]; ++e)
+            sums.row(j) += columns.value[std::size_t(e)] * points.row(columns.row[std::size_t(e)]);
     });
     return normalised(std::move(sums), column_sums(plan));
 }

@@ -136,14 +136,18 @@ Verdict Judge::judge(int f) const {
 
 bool Judge::cuts_through(int f) const {
     const Corners p = corners_of(image_, f);
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]) * sign(f);
     Vec3 m = Vec3::Zero();
-    int face = -1;
+    std::size_t left = inner_points.size();
+    int face = map_[std::size_t(source_.faces(f, 0))].face;
     for (const Vec3& b : inner_points) {
         face = closest_(b[0] * p[0] + b[1] * p[1] + b[2] * p[2], face).point.face;
         const Corners q = corners_of(target_, face);
         m += (q[1] - q[0]).cross(q[2] - q[0]).stableNormalized();
+        // Each of those left adds a vector of length 1 at most.
+        if (normal.dot(m) > double(--left) * (1 + 1e-9) * normal.norm()) return false;
     }
-    return !((p[1] - p[0]).cross(p[2] - p[0]).dot(m) * sign(f) > 0);
+    return !(normal.dot(m) > 0);
 }
 
 void Judge::add_areas(Verification& found) const {

@@ -132,6 +132,24 @@ TEST_F(ClosestPointTest, MeshWithoutExtentIsServed) {
     EXPECT_EQ(closest({1, 1, 3}, {0, 0, 1}).point.face, 0);
 }
 
+TEST(ClosestPoint, AGuessChangesNothing) {
+    const TriangleMesh mesh = shapes::ellipsoid(3, {1, 1.2, 1.6});
+    const ClosestPoint closest(mesh);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> coordinate(-2, 2);
+    for (int i = 0; i < 500; ++i) {
+        const Vec3 query(coordinate(random), coordinate(random), coordinate(random)), normal = -query;
+        const int guess = int(random() % unsigned(mesh.face_count()));
+        for (const auto& [plain, guessed] :
+             {std::pair(closest(query), closest(query, guess)),
+              std::pair(closest(query, normal), closest(query, normal, guess))}) {
+            EXPECT_EQ(guessed.point.face, plain.point.face);
+            EXPECT_EQ(guessed.point.barycentric, plain.point.barycentric);
+            EXPECT_EQ(guessed.squared_distance, plain.squared_distance);
+        }
+    }
+}
+
 TEST(ClosestPoint, UnusedVerticesAndFarQueriesLeadNowhereElse) {
     TriangleMesh mesh = shapes::ellipsoid(2);
     const ClosestPoint plain(mesh);

@@ -319,6 +319,11 @@ TEST(Hierarchy, TakesFurtherSamples) {
         EXPECT_LE(with.samples.size(), level.samples.size() + 2);
         expect_cells_and_masses(with, data.surface);
         expect_weights(with);
+        if (level.kind == LevelKind::diffusion) {
+            const Level anew = builder.diffusion(level.scale, with.samples, int(with.samples.size()));
+            EXPECT_EQ(with.cell, anew.cell);
+            EXPECT_EQ(with.mass, anew.mass);
+        }
         const Level same = builder.with_samples(level, level.samples);
         EXPECT_EQ(same.samples, level.samples);
         EXPECT_EQ(same.cell, level.cell);
