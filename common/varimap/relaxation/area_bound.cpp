@@ -15,11 +15,13 @@ namespace {
 constexpr double first_weight = 0.3, growth = 1.3, most_weight = 100;
 /// Exponent of the bound that is aimed at: what follows, another mesh or the removal of folds, moves ratios.
 constexpr double margin = 0.9;
+constexpr double least_bound =
+    1.02;  ///< of those aimed at: areas that are kept exactly leave no room to move
 
 }  // namespace
 
 AreaBound::AreaBound(SlidingMap& map, double bound, VertexData<bool> exempt)
-    : map_(map), bound_(std::pow(bound, margin)), exempt_(std::move(exempt)) {}
+    : map_(map), bound_(std::max(least_bound, std::pow(bound, margin))), exempt_(std::move(exempt)) {}
 
 AreaBound::~AreaBound() {
     for (int f = 0; f < map_.source().face_count(); ++f) map_.set_area_weight(f, 0);
