@@ -3,6 +3,7 @@
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/surface.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {
@@ -54,6 +55,10 @@ int main(int argc, char** argv) {
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());
+        stage.record_number("input_faces", file.face_count());
+        const TopologySummary topology = summarise_topology(surface.input);
+        stage.record_number("genus", topology.genus);
+        stage.record_number("boundary_loops", topology.boundary_loops);
         stage.record_number("scale", surface.scale);
         stage.record_number("vertices", surface.mesh.vertex_count());
         stage.write(out, surface);

@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
         require_surfaces(map.value, A.value, B.value);
         const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
         for (std::size_t i = 0; i < meshes.size(); ++i)
-            stage.record_file(i == 0 ? "polygons.A" : "polygons.B", meshes[i]);
+            stage.record_file(i == 0 ? "meshes.A" : "meshes.B", meshes[i]);
         if (!folder.empty())
             export_map(stage, folder, map.value, pair.plan, A.value, B.value, meshes,
                        ascii ? PlyFormat::ascii : PlyFormat::binary);

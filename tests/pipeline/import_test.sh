@@ -82,3 +82,33 @@ ln -s "$VARIMAP_BIN"/varimap-* without/
 rm without/varimap-import
 VARIMAP_BIN=$PWD/without expect_exit 6 "$varimap" map a.dae b.off -o refused
 grep -q "assimp" log || fail "assimp is not named"
+
+# Quads stay quads in the exported meshes, but for those that lost a corner.
+awk 'function vertex(x, y, z,    l, r, key) {
+        key = x "," y "," z
+        if (key in number) return number[key]
+        l = sqrt(x * x + y * y + z * z)
+        r = (1 + .6 * exp(4 * ((x + .3 * y + z) / l / 1.45 - 1)) + .4 * exp(6 * ((.5 * z - x + .2 * y) / l / 1.2 - 1))) / l
+        printf "v %.17g %.17g %.17g\n", 1.3 * x * r, .8 * y * r, z * r
+        return number[key] = ++count
+    }
+    function corner(axis, side, u, v) {
+        return axis == 0 ? vertex(side, u, v) : axis == 1 ? vertex(v, side, u) : vertex(u, v, side)
+    }
+    BEGIN {
+        n = 6
+        for (axis = 0; axis < 3; axis++) for (side = -n; side <= n; side += 2 * n)
+            for (u = -n; u < n; u += 2) for (v = -n; v < n; v += 2) {
+                a = corner(axis, side, u, v); b = corner(axis, side, u + 2, v)
+                c = corner(axis, side, u + 2, v + 2); d = corner(axis, side, u, v + 2)
+                faces = faces "f " (side > 0 ? a " " b " " c " " d : d " " c " " b " " a) "\n"
+            }
+        print "v 5 nan 5\n" faces "f 1 2 3 " count + 1
+    }' >quads.obj
+map quads.obj b.off -o quads --ascii
+[[ $(grep -c '^4 ' quads/source_on_target.ply) == 216 && $(grep -c '^3 ' quads/source_on_target.ply) == 1 ]] ||
+    fail "quads are not kept"
+grep -q '^element face 217$' quads/source_on_target.ply || fail "faces of the exported mesh"
+[[ $(grep -c '^4 ' quads/target_on_source.ply) == 0 ]] || fail "triangles became quads"
+map quads.obj b.off -o quads --ascii
+expect_ran ""
