@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -25,7 +26,8 @@ void limit(decltype(RLIMIT_AS) resource, double amount) {
     if (::getrlimit(resource, &current) != 0) return;
     const auto wanted = rlim_t(std::ceil(amount));
     if (current.rlim_max != RLIM_INFINITY && current.rlim_max < wanted) return;
-    const rlimit lower{wanted, wanted};
+    // One more, so that a process beyond its seconds gets the signal that says so before it is killed.
+    const rlimit lower{wanted, std::min(wanted + 1, current.rlim_max)};
     ::setrlimit(resource, &lower);
 }
 
@@ -95,9 +97,11 @@ std::string run_isolated(const std::function<std::string()>& task, const Limits&
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     constexpr const char* advice = "save it from the program that made it, or from Blender, as OBJ or PLY";
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         throw InputError(
             fmt::format("{}: reading it takes more than {:.0f} s; {}", path, limits.seconds, advice));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        throw InputError(fmt::format("{}: reading it was killed (out of memory?)", path));
     if (WIFSIGNALED(status) || answer.empty() || WEXITSTATUS(status) != 0)
         throw InputError(
             fmt::format("{}: the library that reads such files crashed on it; {}", path, advice));
