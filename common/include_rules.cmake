@@ -17,6 +17,7 @@ set(includes_of_Spectra::Spectra Spectra/)
 set(includes_of_PNG::PNG png.h)
 set(includes_of_stb stb/)
 set(includes_of_ZLIB::ZLIB zlib.h)
+set(includes_of_assimp::assimp assimp/)
 
 # Sets `out` to what includes of the targets, and of all that their users may include, begin with.
 function(varimap_includes_of out)

@@ -2,10 +2,10 @@
 # What a run shows of itself while it goes on. To be sourced.
 
 # How long each stage usually takes beside the others, in the order in which they run; and what it does.
-progress_stages=(preprocess coarsen eigen hierarchy explore diffuse refine relax remesh render)
-declare -A progress_share=([preprocess]=2 [coarsen]=3 [eigen]=5 [hierarchy]=3 [explore]=150 [diffuse]=12 [refine]=8
+progress_stages=(import preprocess coarsen eigen hierarchy explore diffuse refine relax remesh render)
+declare -A progress_share=([import]=1 [preprocess]=2 [coarsen]=3 [eigen]=5 [hierarchy]=3 [explore]=150 [diffuse]=12 [refine]=8
     [relax]=14 [remesh]=2 [render]=6)
-declare -A progress_words=([preprocess]="reading and repairing" [coarsen]="coarsening" [eigen]="eigenfunctions"
+declare -A progress_words=([import]="importing" [preprocess]="reading and repairing" [coarsen]="coarsening" [eigen]="eigenfunctions"
     [hierarchy]="choosing samples" [explore]="looking for the map" [diffuse]="the map, roughly" [refine]="the map, finely"
     [relax]="smoothing it, no folds" [remesh]="measuring, writing" [render]="drawing the picture")
 

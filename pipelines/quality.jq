@@ -1,10 +1,12 @@
 # Joins quality.json: the numbers of varimap-remesh, then what the stages recorded of their runs, what they warned of, and
 # where everything comes from.
-#   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH --arg landmarks_1 FILE
+#   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH
+#       --arg source_import FILE --arg target_import FILE (what a mesh was imported from, or nothing) --arg landmarks_1 FILE
 #       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT RUN_FILE...
 def stage_and_artifact($file): .stage + " " + ($file | sub(".*/"; "") | sub("[.][a-z]+[.]run[.]json$"; ""));
 def of_stage($stage): map(.value | select(.stage == $stage));
-def mesh($file): {file: $file, hash: .inputs.mesh, area: (1 / (.scale * .scale)), scale};
+def mesh($file; $origin): {file: $file, hash: .inputs.mesh, area: (1 / (.scale * .scale)), scale}
+    + if $origin == "" then {} else {imported_from: $origin} end;
 def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
 
 # Line by line, so that one damaged run file costs its own entry alone.
@@ -23,8 +25,8 @@ def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
         schema: 1,
         version: ($runs | of_stage("remesh") | .[0].version),
         command: (if $command == "" then null else $command end),
-        source: ($surfaces[0] | if . then mesh($source) else null end),
-        target: ($surfaces[-1] | if . then mesh($target) else null end),
+        source: ($surfaces[0] | if . then mesh($source; $source_import) else null end),
+        target: ($surfaces[-1] | if . then mesh($target; $target_import) else null end),
         landmarks: [$runs | of_stage("diffuse")[] | list("landmarks"; $landmarks_1), list("landmarks.A"; $landmarks_1),
             list("landmarks.B"; $landmarks_2)],
         initial_map: ([$runs | of_stage("diffuse")[] | list("initial-map"; $initial_map)] | .[0])}

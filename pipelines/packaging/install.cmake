@@ -14,7 +14,7 @@ set(share ${CMAKE_INSTALL_DATADIR}/varimap)
 install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/script.sh pipelines/progress.sh
   DESTINATION ${share})
 install(PROGRAMS pipelines/bench pipelines/debian-meshes pipelines/gallery pipelines/plot pipelines/register pipelines/scaling
-  pipelines/selftest pipelines/torus DESTINATION ${share})
+  pipelines/selftest pipelines/survey pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/experiments DESTINATION ${share} USE_SOURCE_PERMISSIONS)
 install(DIRECTORY pipelines/help DESTINATION ${share})
 install(DIRECTORY pipelines/batch DESTINATION ${share} USE_SOURCE_PERMISSIONS)

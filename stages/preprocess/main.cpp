@@ -1,7 +1,9 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/mesh/bridges.h"
+#include "varimap/mesh/holes.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/surface.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {
@@ -29,6 +31,9 @@ void record(Stage& stage, const RepairCounts& counts) {
     number("turned_faces", counts.turned);
     number("cut_edges", counts.cut_edges);
     number("split_vertices", counts.split_vertices);
+    number("filled_holes", counts.filled_holes);
+    number("filling_faces", counts.filling_faces);
+    number("unfilled_holes", counts.unfilled_holes);
     number("bridges", counts.bridges);
     number("dropped_components", counts.dropped_components);
     number("dropped_area_percent", 100 * counts.dropped_area);
@@ -46,10 +51,14 @@ int main(int argc, char** argv) {
         const TriangleMesh file = read_mesh(in);
         RepairedMesh input = repaired(file, params.repair, in);
         stage.record_file("mesh", in);
-        input = bridged(std::move(input));
+        input = bridged(holes_filled(std::move(input), longest_hole(params.fill_holes)));
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());
+        stage.record_number("input_faces", file.face_count());
+        const TopologySummary topology = summarise_topology(surface.input);
+        stage.record_number("genus", topology.genus);
+        stage.record_number("boundary_loops", topology.boundary_loops);
         stage.record_number("scale", surface.scale);
         stage.record_number("vertices", surface.mesh.vertex_count());
         stage.write(out, surface);

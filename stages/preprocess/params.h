@@ -10,6 +10,7 @@ struct PreprocessParams {
     int max_vertices = 2'000'000;
     bool mirror = false;
     RepairOptions repair;
+    std::string fill_holes = "none";
 
     void describe(ParameterList& list) {
         list.add("target_edge_length", target_edge_length,
@@ -20,6 +21,8 @@ struct PreprocessParams {
         list.add("mirror", mirror,
                  "reverse the surface's orientation, to map it onto one of opposite handedness");
         repair.describe(list);
+        list.add("fill_holes", fill_holes,
+                 "boundary loops of at most so many edges are closed; or all, or none", {});
     }
 };
 

@@ -18,8 +18,23 @@ SolvedPair read_solved(Stage& stage, const std::string& path) {
     return stage.read<Solved>("plan", path).value;
 }
 
+/// The source on the target, with the polygons of the source's file where that is known and has any.
+std::string remeshed_ply(const PointMap& map, const Surface& source, const Surface& target,
+                         const std::string& file, PlyFormat format) {
+    const TriangleMesh moved = cross_remesh(map, source, target);
+    if (file.empty()) return to_ply(moved, format);
+    const PolygonSoup polygons = read_polygons(file);
+    if (polygons.corners.size() == 3 * polygons.ends.size()) return to_ply(moved, format);
+    try {
+        return to_ply(cross_remeshed_polygons(moved, polygons, map, source, target), format);
+    } catch (const InputError& error) {
+        throw InputError(file + ": " + error.what());
+    }
+}
+
 void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, const SamplePlan& plan,
-                const Surface& A, const Surface& B, PlyFormat format) {
+                const Surface& A, const Surface& B, const std::vector<std::string>& meshes,
+                PlyFormat format) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
@@ -33,8 +48,10 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
                      masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
     stage.write_file(folder + "/source_vertices.csv", vertices_csv(A));
     stage.write_file(folder + "/target_vertices.csv", vertices_csv(B));
-    stage.write_file(folder + "/source_on_target.ply", to_ply(cross_remesh(map.A_to_B, A, B), format));
-    stage.write_file(folder + "/target_on_source.ply", to_ply(cross_remesh(map.B_to_A, B, A), format));
+    stage.write_file(folder + "/source_on_target.ply",
+                     remeshed_ply(map.A_to_B, A, B, meshes.empty() ? "" : meshes[0], format));
+    stage.write_file(folder + "/target_on_source.ply",
+                     remeshed_ply(map.B_to_A, B, A, meshes.empty() ? "" : meshes[1], format));
 }
 
 }  // namespace
@@ -58,6 +75,8 @@ int main(int argc, char** argv) {
                      "folder for source_to_target and target_to_source (.csv, .npz), source_on_target.ply, "
                      "target_on_source.ply, source_masses.csv, target_masses.csv, source_vertices.csv and "
                      "target_vertices.csv");
+    const auto& meshes = stage.input_list_option(
+        "meshes", "the files of source and target, whose polygons the exported surfaces keep", 2, 2);
     const std::string& json_file = stage.option("numbers", "JSON file for the quality numbers");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);
@@ -73,8 +92,10 @@ int main(int argc, char** argv) {
         require_surfaces(pair, A.value, B.value);
         require_surfaces(map.value, A.value, B.value);
         const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
+        for (std::size_t i = 0; i < meshes.size(); ++i)
+            stage.record_file(i == 0 ? "meshes.A" : "meshes.B", meshes[i]);
         if (!folder.empty())
-            export_map(stage, folder, map.value, pair.plan, A.value, B.value,
+            export_map(stage, folder, map.value, pair.plan, A.value, B.value, meshes,
                        ascii ? PlyFormat::ascii : PlyFormat::binary);
         if (!json_file.empty()) stage.write_file(json_file, quality.json + "\n");
         stage.write(out, quality);  // last, so that it tells that the rest is there

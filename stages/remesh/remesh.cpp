@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "varimap/core/error.h"
+
 namespace varimap {
 
 TriangleMesh mesh_of_file(const Surface& surface) {
@@ -39,6 +43,36 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
     Faces faces = faces_with_images(file.faces, map);
     if (source.mirrored != target.mirrored) faces.col(1).swap(faces.col(2));
     return {image_positions(map, mesh_of_file(target), fallback_positions(file, source, target)), faces};
+}
+
+PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup& polygons,
+                                    const PointMap& map, const Surface& source, const Surface& target) {
+    if (fanned(polygons) != mesh_of_file(source).faces)
+        throw InputError("the polygons are not those of the mesh that the surface was made from");
+    PolygonSoup result;
+    for (const auto vertex : moved.vertices.rowwise()) result.points.push_back(vertex.transpose());
+    std::vector<long long> corners;
+    const auto add = [&] {
+        for (const long long v : corners)
+            if (map[std::size_t(v)].face < 0) return false;
+        if (source.mirrored != target.mirrored) std::reverse(corners.begin() + 1, corners.end());
+        result.corners.insert(result.corners.end(), corners.begin(), corners.end());
+        result.end_polygon();
+        return true;
+    };
+    std::size_t first = 0;
+    for (const std::size_t end : polygons.ends) {
+        const auto corner = [&](std::size_t c) { return polygons.corners[c]; };
+        corners.assign(polygons.corners.begin() + std::ptrdiff_t(first),
+                       polygons.corners.begin() + std::ptrdiff_t(end));
+        if (!add())
+            for (std::size_t c = first + 1; c + 1 < end; ++c) {
+                corners = {corner(first), corner(c), corner(c + 1)};
+                add();
+            }
+        first = end;
+    }
+    return result;
 }
 
 std::string masses_csv(const Surface& surface, const std::vector<int>& samples,

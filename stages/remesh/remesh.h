@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/surface.h"
 #include "varimap/results/surface_map.h"
 
@@ -16,6 +17,12 @@ TriangleMesh mesh_of_file(const Surface& surface);
 /// their place relative to the source's centroid, scaled like the target; those that are not finite go to the
 /// target's centroid. Faces with corners that have no image are left out. `map`: between the files.
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target);
+
+/// The same with the polygons of the source's file, of which `moved` (cross_remesh) has the triangles. Of a
+/// polygon with a corner that has no image the triangles are left that have three. Throws InputError where
+/// `polygons` are not those of the surface's file.
+PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup& polygons,
+                                    const PointMap& map, const Surface& source, const Surface& target);
 
 /// `vertex,ratio`: transported mass by mass at the vertices of the file that are samples of the plan; with
 /// the plan of varimap-refine these are all that have an image.

@@ -74,3 +74,46 @@ jq -e '.reversed_area_percent < 1 and .degree > .99 and .degree < 1.01' verify.j
     --samples 1 --distortion out/{source,target}_masses.csv 2>log || fail "render"
 "$VARIMAP_BIN/varimap-inspect" --check out/artifacts/*.{surface,coarse,map} 2>log || fail "inspect"
 "$VARIMAP_BIN/varimap-preprocess" out/source_on_target.ply exported.surface 2>log || fail "the exported mesh"
+
+# A clean mesh is the same surface, byte for byte, whatever may be repaired.
+payload() {  # ARTIFACT
+    grep -a -m 1 '^payload ' "$1"
+}
+for mesh in a b; do
+    for repair in all none weld,faces; do
+        "$VARIMAP_BIN/varimap-preprocess" --repair $repair --fill_holes all $mesh.off $mesh.$repair.surface 2>log || fail "$mesh $repair"
+    done
+    [[ -n $(payload $mesh.all.surface) ]] || fail "no payload"
+    for repair in none weld,faces; do
+        [[ $(payload $mesh.$repair.surface) == "$(payload $mesh.all.surface)" ]] || fail "$mesh: --repair $repair changes a clean mesh"
+    done
+done
+
+# Holes are filled on request, and no row changes its meaning: without the first vertex's faces, then with all.
+awk 'NR == 2 { n = $1; f = $2 } NR > n + 2 && ($2 == 0 || $3 == 0 || $4 == 0) { lost++; next } { line[++lines] = $0 }
+    END { for (i = 1; i <= lines; i++) print i == 2 ? n " " f - lost " 0" : line[i] }' a.off >holed.off
+expect_exit 2 "$varimap" map holed.off b.off -o filled --fill-holes few
+map holed.off b.off -o filled --landmarks tips.txt --fill-holes 12 "${coarse[@]}"
+grep -q 'warning  preprocess holed: repaired: 1 hole filled' out.txt || fail "the filled hole is not told"
+jq -e '.stages["preprocess holed"] | .filled_holes == 1 and .filling_faces > 1 and .boundary_loops == 0' filled/quality.json \
+    >/dev/null || fail "the filled hole is not counted"
+awk -F, 'NR == 2 { bad = $2 != -1 } NR > 2 && $2 < 0 { bad = 1 } END { exit bad }' filled/source_to_target.csv || fail "rows of a filled mesh"
+faces=$(awk 'NR == 2 { print $2 }' holed.off)
+awk -F, -v faces="$faces" 'NR > 1 && ($2 < 0 || $2 >= faces) { bad = 1 } END { exit bad }' filled/target_to_source.csv ||
+    fail "images on faces that fill a hole"
+map holed.off b.off -o open --landmarks tips.txt "${coarse[@]}"
+jq -e '.stages["preprocess holed"] | .boundary_loops == 1 and (has("filled_holes") | not)' open/quality.json >/dev/null ||
+    fail "a hole is filled that should stay"
+
+# Which meshes are taken, and what is repaired.
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 0\n3 0 1 0\n' >nothing.off
+"$varimap" survey a.off holed.off >survey.csv 2>log || fail "survey"
+[[ $(wc -l <survey.csv) == 3 ]] || fail "survey: rows"
+grep -q '^"holed.off",taken,.*,0,1,' survey.csv || fail "survey: $(<survey.csv)"
+code=0
+"$varimap" survey nothing.off a-spoiled.off --fill_holes=all >survey.csv 2>log || code=$?
+((code == 1)) || fail "survey: exit $code"
+for line in '"nothing.off",refused,' '"a-spoiled.off",taken,.*welded'; do
+    grep -q "^$line" survey.csv || fail "survey: $(<survey.csv)"
+done
+expect_exit 2 "$varimap" survey a.off --repair=everything

@@ -150,6 +150,68 @@ TEST_F(Remesh, ServesMirroredSurfaces) {
     for (int v = 1; v < file.vertex_count(); ++v) EXPECT_LT((back.vertex(v) - file.vertex(v)).norm(), 1e-6);
 }
 
+/// Pairs of triangles as one quad where the second is the fan's next.
+PolygonSoup as_polygons(const TriangleMesh& mesh) {
+    PolygonSoup soup;
+    for (const auto vertex : mesh.vertices.rowwise()) soup.points.push_back(vertex.transpose());
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        for (const int v : mesh.faces.row(f)) soup.corners.push_back(v);
+        const bool goes_on = f + 1 < mesh.face_count() && mesh.faces(f + 1, 0) == mesh.faces(f, 0) &&
+                             mesh.faces(f + 1, 1) == mesh.faces(f, 2);
+        if (goes_on) soup.corners.push_back(mesh.faces(++f, 2));
+        soup.end_polygon();
+    }
+    return soup;
+}
+
+TEST_F(Remesh, KeepsPolygons) {
+    const TriangleMesh file = mesh_of_file(pair_.A);
+    PolygonSoup polygons = as_polygons(file);
+    PointMap map = pair_.as_planned().A_to_B;
+    const TriangleMesh moved = cross_remesh(map, pair_.A, pair_.B);
+    const PolygonSoup kept = cross_remeshed_polygons(moved, polygons, map, pair_.A, pair_.B);
+    EXPECT_EQ(kept.corners, polygons.corners);
+    EXPECT_EQ(kept.ends, polygons.ends);
+    EXPECT_EQ(kept.points.size(), std::size_t(moved.vertex_count()));
+    for (const PlyFormat format : {PlyFormat::binary, PlyFormat::ascii}) {
+        const TriangleMesh back = parse_mesh(to_ply(kept, format), "a.ply");
+        EXPECT_EQ(back.vertices, moved.vertices);
+        EXPECT_EQ(back.faces, moved.faces);
+    }
+    pair_.B.mirrored = !pair_.B.mirrored;
+    const PolygonSoup turned = cross_remeshed_polygons(moved, polygons, map, pair_.A, pair_.B);
+    EXPECT_EQ(turned.corners[0], polygons.corners[0]);
+    EXPECT_EQ(turned.corners[1], polygons.corners[polygons.ends[0] - 1]);
+    pair_.B.mirrored = !pair_.B.mirrored;
+    polygons.corners[0] = polygons.corners[1];
+    EXPECT_THROW(cross_remeshed_polygons(moved, polygons, map, pair_.A, pair_.B), InputError);
+}
+
+/// A quad of which one corner has no image keeps one triangle, or none.
+TEST(CrossRemesh, LeavesOutTrianglesOfPolygonsWithoutImages) {
+    Surface A, B;
+    A.input.vertices = Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
+    A.input.faces = Faces{{0, 1, 2}, {0, 2, 3}, {1, 4, 2}};
+    B.input = A.input;
+    PolygonSoup polygons;
+    polygons.corners = {0, 1, 2, 3, 1, 4, 2};
+    polygons.ends = {4, 7};
+    PointMap map(5, SurfacePoint{0, Vec3::UnitX()});
+    const auto sizes = [&](int lost) {
+        PointMap holed = map;
+        if (lost >= 0) holed[std::size_t(lost)].face = -1;
+        const PolygonSoup kept = cross_remeshed_polygons(cross_remesh(holed, A, B), polygons, holed, A, B);
+        std::vector<std::size_t> result;
+        for (std::size_t p = 0; p < kept.ends.size(); ++p)
+            result.push_back(kept.ends[p] - (p > 0 ? kept.ends[p - 1] : 0));
+        return result;
+    };
+    EXPECT_EQ(sizes(-1), (std::vector<std::size_t>{4, 3}));
+    EXPECT_EQ(sizes(3), (std::vector<std::size_t>{3, 3}));
+    EXPECT_EQ(sizes(0), (std::vector<std::size_t>{3}));
+    EXPECT_EQ(sizes(4), (std::vector<std::size_t>{4}));
+}
+
 TEST_F(Remesh, RefusesWhatIsNotOfItsSurfaces) {
     const SurfaceMap map = pair_.as_planned();
     EXPECT_NO_THROW(require_surfaces(map, pair_.A, pair_.B));

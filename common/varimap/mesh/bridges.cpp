@@ -95,19 +95,6 @@ void add(const Tube& tube, RepairedMesh& repaired) {
     ++repaired.counts.bridges;
 }
 
-/// The link of a mesh that is as its file has it.
-FileLink link_to_itself(const TriangleMesh& mesh) {
-    FileLink link{mesh, std::vector<int>(std::size_t(mesh.vertex_count())), {}, {}, {}, {}};
-    std::iota(link.vertex.begin(), link.vertex.end(), 0);
-    link.origin = link.vertex;
-    link.fate.assign(link.vertex.size(), VertexFate::unused);
-    for (const int v : mesh.faces.reshaped()) link.fate[std::size_t(v)] = VertexFate::kept;
-    link.face.resize(std::size_t(mesh.face_count()));
-    std::iota(link.face.begin(), link.face.end(), 0);
-    link.turned.assign(link.face.size(), 0);
-    return link;
-}
-
 /// The faces of each component, by falling area; among equals the lowest first.
 std::vector<std::vector<int>> components_by_area(const TriangleMesh& mesh) {
     const std::vector<int> component = vertex_components(mesh);

@@ -1,5 +1,6 @@
 #include "varimap/mesh/file_link.h"
 
+#include <numeric>
 #include <utility>
 
 #include "varimap/mesh/closest_point.h"
@@ -75,6 +76,18 @@ PointMap from_file(const PointMap& map, const FileLink& source, const FileLink& 
             turn_where(target.turned[std::size_t(point.face)], point);
     }
     return result;
+}
+
+FileLink link_to_itself(const TriangleMesh& mesh) {
+    FileLink link{mesh, std::vector<int>(std::size_t(mesh.vertex_count())), {}, {}, {}, {}};
+    std::iota(link.vertex.begin(), link.vertex.end(), 0);
+    link.origin = link.vertex;
+    link.fate.assign(link.vertex.size(), VertexFate::unused);
+    for (const int v : mesh.faces.reshaped()) link.fate[std::size_t(v)] = VertexFate::kept;
+    link.face.resize(std::size_t(mesh.face_count()));
+    std::iota(link.face.begin(), link.face.end(), 0);
+    link.turned.assign(link.face.size(), 0);
+    return link;
 }
 
 TriangleMesh in_numbers_of_file(const TriangleMesh& mesh, const FileLink& link) {

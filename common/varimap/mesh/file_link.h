@@ -39,6 +39,9 @@ struct FileLink {
     bool is_identity() const { return vertex.empty(); }
 };
 
+/// That of a mesh that is as its file has it, written out so that faces may be added to it.
+FileLink link_to_itself(const TriangleMesh& mesh);
+
 /// A map between repaired meshes as one between their files: a row per vertex of the source's file, on faces
 /// of the target's file. Points on faces that a repair added go to the closest of the others. `target_mesh`:
 /// that of the target's link.

@@ -298,6 +298,9 @@ std::string in_words(const RepairCounts& counts) {
     add(counts.cut_edges, "edge cut", "edges cut");
     add(counts.split_vertices, "vertex split", "vertices split");
     add(counts.dropped_components, "component left out", "components left out");
+    add(counts.filled_holes, "hole filled", "holes filled");
+    add(counts.unfilled_holes, "hole left open, which cannot be filled without new vertices",
+        "holes left open, which cannot be filled without new vertices");
     add(counts.bridges, "component joined to the rest by a thin bridge",
         "components joined to the rest by thin bridges");
     return text;

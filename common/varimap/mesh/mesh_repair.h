@@ -51,6 +51,9 @@ struct RepairCounts {
     int split_vertices = 0;      ///< vertices that were given to several sheets
     int dropped_components = 0;  ///< components left out
     double dropped_area = 0;     ///< their share of the area
+    int filled_holes = 0;        ///< boundary loops closed (holes.h)
+    int filling_faces = 0;       ///< with so many faces
+    int unfilled_holes = 0;      ///< loops that should have been, but could not
     int bridges = 0;             ///< tubes that join components (bridges.h)
 
     bool any() const {

@@ -28,7 +28,10 @@ PolygonSoup parse(std::string_view bytes, const std::string& path) {
     if (ending == ".off") return parse_off(bytes, path);
     if (ending == ".ply") return parse_ply(bytes, path);
     if (ending == ".stl") return parse_stl(bytes, path);
-    throw InputError(path + ": the name's ending is none of .obj, .ply, .off, .stl");
+    throw InputError(
+        path +
+        ": the name's ending is none of .obj, .ply, .off, .stl; `varimap import` makes an OBJ file "
+        "of other formats");
 }
 
 void require_valid(const PolygonSoup& soup, const std::string& path) {
@@ -44,22 +47,25 @@ void require_valid(const PolygonSoup& soup, const std::string& path) {
                                 path, f, soup.points.size()));
 }
 
-/// Fans every polygon from its first corner.
 TriangleMesh fan(const PolygonSoup& soup) {
     TriangleMesh mesh;
     mesh.space = soup.space;
     mesh.vertices.resize(soup.points.size(), 3);
     for (std::size_t v = 0; v < soup.points.size(); ++v) mesh.vertices.row(v) = soup.points[v].transpose();
-    mesh.faces.resize(soup.corners.size() - 2 * soup.ends.size(), 3);
-    int face = 0;
-    std::size_t first = 0;
-    for (const std::size_t end : soup.ends) {
-        for (std::size_t c = first + 1; c + 1 < end; ++c)
-            mesh.faces.row(face++) << int(soup.corners[first]), int(soup.corners[c]),
-                int(soup.corners[c + 1]);
-        first = end;
-    }
+    mesh.faces = fanned(soup);
     return mesh;
+}
+
+PolygonSoup polygons_from(std::string_view bytes, const std::string& path) {
+    if (bytes.empty()) throw InputError(path + ": the file is empty");
+    PolygonSoup soup = parse(without_byte_order_mark(bytes, path), path);
+    require_valid(soup, path);
+    return soup;
+}
+
+std::string bytes_of(const std::string& path) {
+    if (std::filesystem::is_directory(path)) throw IoError("cannot read '" + path + "': it is a folder");
+    return read_file(path);
 }
 
 }  // namespace
@@ -69,16 +75,28 @@ Space stated_space(std::string_view comments) {
     return comments.find("SPACE=RAS") != comments.npos ? Space::ras : Space::unstated;
 }
 
+Faces fanned(const PolygonSoup& soup) {
+    Faces faces(Eigen::Index(soup.corners.size() - 2 * soup.ends.size()), 3);
+    Eigen::Index face = 0;
+    std::size_t first = 0;
+    for (const std::size_t end : soup.ends) {
+        for (std::size_t c = first + 1; c + 1 < end; ++c)
+            faces.row(face++) << int(soup.corners[first]), int(soup.corners[c]), int(soup.corners[c + 1]);
+        first = end;
+    }
+    return faces;
+}
+
 TriangleMesh read_mesh(const std::string& path) {
-    if (std::filesystem::is_directory(path)) throw IoError("cannot read '" + path + "': it is a folder");
-    return parse_mesh(read_file(path), path);
+    return parse_mesh(bytes_of(path), path);
 }
 
 TriangleMesh parse_mesh(std::string_view bytes, const std::string& path) {
-    if (bytes.empty()) throw InputError(path + ": the file is empty");
-    const PolygonSoup soup = parse(without_byte_order_mark(bytes, path), path);
-    require_valid(soup, path);
-    return fan(soup);
+    return fan(polygons_from(bytes, path));
+}
+
+PolygonSoup read_polygons(const std::string& path) {
+    return polygons_from(bytes_of(path), path);
 }
 
 std::string to_ply(const TriangleMesh& mesh, PlyFormat format) {

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <utility>
+
+#include "varimap/mesh/io/polygon_soup.h"
 
 namespace varimap {
 namespace {
@@ -80,6 +84,43 @@ std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns, PlyForma
             bytes.append(reinterpret_cast<const char*>(mesh.faces.data() + 3 * f), 3 * sizeof(int));
             append_row(columns.face, f, bytes);
         }
+    }
+    return bytes;
+}
+
+std::string to_ply(const PolygonSoup& soup, PlyFormat format) {
+    const bool ascii = format == PlyFormat::ascii;
+    std::size_t begin = 0, most = 0;
+    for (const std::size_t end : soup.ends) most = std::max(most, end - std::exchange(begin, end));
+    const bool is_small = most < 256;
+    std::string bytes = fmt::format(
+        "ply\nformat {} 1.0\n"
+        "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face {}\nproperty list {} int vertex_indices\nend_header\n",
+        ascii ? "ascii" : "binary_little_endian", soup.points.size(), soup.ends.size(),
+        is_small ? "uchar" : "int");
+    const auto append = [&](auto value) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    for (const Vec3& x : soup.points)
+        if (ascii)
+            bytes += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
+        else
+            for (const double number : x) append(number);
+    begin = 0;
+    for (const std::size_t end : soup.ends) {
+        if (ascii)
+            bytes += fmt::format("{}", end - begin);
+        else if (is_small)
+            append(std::uint8_t(end - begin));
+        else
+            append(std::int32_t(end - begin));
+        for (; begin < end; ++begin)
+            if (ascii)
+                bytes += fmt::format(" {}", soup.corners[begin]);
+            else
+                append(std::int32_t(soup.corners[begin]));
+        if (ascii) bytes += '\n';
     }
     return bytes;
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -17,6 +18,13 @@ struct PolygonSoup {
 
     void end_polygon() { ends.push_back(corners.size()); }
 };
+
+/// The polygons of a mesh file, of which read_mesh (mesh_file.h) makes triangles; refused as there.
+PolygonSoup read_polygons(const std::string& path);
+/// The corners of the triangles that read_mesh makes of them.
+Faces fanned(const PolygonSoup& soup);
+/// PLY with polygons, its numbers as those of to_ply (mesh_file.h).
+std::string to_ply(const PolygonSoup& soup, PlyFormat format);
 
 /// What 3D Slicer writes into the comments of a mesh file: SPACE=LPS or SPACE=RAS.
 Space stated_space(std::string_view comments);

@@ -1,0 +1,179 @@
+#include "varimap/mesh/holes.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <vector>
+
+#include "varimap/core/error.h"
+#include "varimap/mesh/thin_faces.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+/// Thinner faces cost more than any others.
+constexpr double thin = 0.02;
+/// Loops of so many edges are triangulated at once.
+constexpr std::size_t at_once = 200;
+
+using Loop = std::vector<int>;  ///< vertices, in the order in which faces that close it name them
+using Triangle = std::array<int, 3>;
+
+/// By their lowest vertices.
+std::vector<Loop> boundary_loops(const TriangleMesh& mesh) {
+    const Edges edges = find_edges(mesh);
+    std::vector<int> next(std::size_t(mesh.vertex_count()), -1);
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() != 1) continue;
+        const int side = edges.sides[e][0], f = side / 3, c = side % 3;
+        next[std::size_t(mesh.faces(f, (c + 1) % 3))] = mesh.faces(f, c);
+    }
+    std::vector<Loop> loops;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        if (next[std::size_t(v)] < 0) continue;
+        Loop& loop = loops.emplace_back();
+        for (int at = v; at >= 0;) {
+            loop.push_back(at);
+            at = std::exchange(next[std::size_t(at)], -1);
+        }
+        loop.pop_back();  // the first one again
+    }
+    return loops;
+}
+
+/// What it costs to close a loop of one mesh.
+class HoleFilling {
+  public:
+    HoleFilling(const TriangleMesh& mesh, const Adjacency& neighbours, double total_area)
+        : mesh_(mesh), neighbours_(neighbours), total_area_(total_area) {}
+
+    /// Empty where it cannot be closed.
+    std::vector<Triangle> fill(Loop loop) {
+        faces_.clear();
+        if (loop.size() == 3 && is_face(loop)) return {};
+        while (loop.size() > at_once)
+            if (!cut_ear(loop)) return {};
+        if (!triangulate(loop)) return {};
+        return faces_;
+    }
+
+  private:
+    bool is_edge(int a, int b) const {
+        return std::binary_search(neighbours_[a].begin(), neighbours_[a].end(), b);
+    }
+    /// Of a component that is one triangle.
+    bool is_face(const Loop& loop) const {
+        return neighbours_[loop[0]].size() == 2 && neighbours_[loop[1]].size() == 2 &&
+               neighbours_[loop[2]].size() == 2;
+    }
+    double cost(int a, int b, int c) const {
+        const TriangleMesh face{mesh_.vertices(std::array{a, b, c}, Eigen::all), Faces{{0, 1, 2}}};
+        const double t = thinness(face, 0);
+        return face_normal(face, 0).norm() / 2 + (t < thin ? total_area_ * (2 - t) : 0);
+    }
+    bool cut_ear(Loop& loop);
+    bool triangulate(const Loop& loop);
+    void collect(const Loop& loop, const std::vector<int>& apex, std::size_t i, std::size_t j);
+
+    const TriangleMesh& mesh_;
+    const Adjacency& neighbours_;
+    double total_area_;
+    std::vector<Triangle> faces_;
+};
+
+/// The cheapest ear; false where each would need an edge that is there already.
+bool HoleFilling::cut_ear(Loop& loop) {
+    const std::size_t n = loop.size();
+    double least = never;
+    std::size_t ear = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const int a = loop[(i + n - 1) % n], c = loop[(i + 1) % n];
+        if (is_edge(a, c)) continue;
+        const double now = cost(a, loop[i], c);
+        if (now < least) least = now, ear = i;
+    }
+    if (least == never) return false;
+    faces_.push_back({loop[(ear + n - 1) % n], loop[ear], loop[(ear + 1) % n]});
+    loop.erase(loop.begin() + std::ptrdiff_t(ear));
+    return true;
+}
+
+/// By least cost from i to j, over the corner between.
+bool HoleFilling::triangulate(const Loop& loop) {
+    const std::size_t n = loop.size();
+    std::vector<double> best(n * n, 0);
+    std::vector<int> apex(n * n, -1);
+    for (std::size_t span = 2; span < n; ++span)
+        for (std::size_t i = 0; i + span < n; ++i) {
+            const std::size_t j = i + span;
+            best[i * n + j] = never;
+            if (span + 1 < n && is_edge(loop[i], loop[j])) continue;
+            for (std::size_t k = i + 1; k < j; ++k) {
+                const double below = best[i * n + k] + best[k * n + j];
+                if (below >= best[i * n + j]) continue;
+                const double now = below + cost(loop[i], loop[k], loop[j]);
+                if (now < best[i * n + j]) best[i * n + j] = now, apex[i * n + j] = int(k);
+            }
+        }
+    if (best[n - 1] == never) return false;
+    collect(loop, apex, 0, n - 1);
+    return true;
+}
+
+void HoleFilling::collect(const Loop& loop, const std::vector<int>& apex, std::size_t i, std::size_t j) {
+    if (j < i + 2) return;
+    const auto k = std::size_t(apex[i * loop.size() + j]);
+    faces_.push_back({loop[i], loop[k], loop[j]});
+    collect(loop, apex, i, k);
+    collect(loop, apex, k, j);
+}
+
+void add(const std::vector<Triangle>& triangles, RepairedMesh& repaired) {
+    Faces& faces = repaired.mesh.faces;
+    const Eigen::Index before = faces.rows();
+    faces.conservativeResize(before + Eigen::Index(triangles.size()), 3);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        faces.row(before + Eigen::Index(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
+    repaired.link.face.resize(std::size_t(faces.rows()), -1);
+    repaired.link.turned.resize(std::size_t(faces.rows()), 0);
+}
+
+}  // namespace
+
+int longest_hole(const std::string& words) {
+    if (words == "none" || words == "0") return 0;
+    if (words == "all") return std::numeric_limits<int>::max();
+    int edges = 0;
+    const char* end = words.data() + words.size();
+    const auto [stop, error] = std::from_chars(words.data(), end, edges);
+    if (error != std::errc() || stop != end || edges < 3)
+        throw UsageError("--fill-holes " + words +
+                         ": give the number of edges of the longest hole, at least 3, or all, or none");
+    return edges;
+}
+
+RepairedMesh holes_filled(RepairedMesh repaired, int edges) {
+    if (edges < 3) return repaired;
+    const std::vector<Loop> loops = boundary_loops(repaired.mesh);
+    if (loops.empty()) return repaired;
+    const Adjacency neighbours = vertex_neighbours(repaired.mesh);
+    const double total_area = surface_area(repaired.mesh);
+    HoleFilling filling(repaired.mesh, neighbours, total_area);
+    std::vector<Triangle> added;
+    for (const Loop& loop : loops) {
+        if (int(loop.size()) > edges) continue;
+        const std::vector<Triangle> faces = filling.fill(loop);
+        added.insert(added.end(), faces.begin(), faces.end());
+        ++(faces.empty() ? repaired.counts.unfilled_holes : repaired.counts.filled_holes);
+    }
+    if (added.empty()) return repaired;
+    repaired.counts.filling_faces = int(added.size());
+    if (repaired.link.is_identity()) repaired.link = link_to_itself(repaired.mesh);
+    add(added, repaired);
+    return repaired;
+}
+
+}  // namespace varimap

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "varimap/mesh/mesh_repair.h"
+
+namespace varimap {
+
+/// The longest boundary loops, in edges, that `words` asks to be closed: a number of at least 3, "none" (0)
+/// or "all". Throws UsageError for others.
+int longest_hole(const std::string& words);
+
+/// Closes the boundary loops of at most `edges` edges of a repaired mesh: with the triangulation of least
+/// area (Barequet and Sharir 1995) that has no edge the mesh has already and, where that can be, no thin
+/// faces. Of loops of more than 200 edges the best ears are cut off first. Vertices stay as they are; the
+/// faces are added ones of the link, so that no row of the file changes its meaning. A loop that cannot be
+/// closed so stays open. Returns the mesh, with the numbers in `counts`. O(200^2 n + m^2) for loops of n and
+/// m edges.
+RepairedMesh holes_filled(RepairedMesh mesh, int edges);
+
+}  // namespace varimap

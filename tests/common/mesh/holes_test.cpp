@@ -1,0 +1,100 @@
+#include "varimap/mesh/holes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "fixtures/shapes.h"
+#include "fixtures/together.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+namespace {
+
+constexpr int all = std::numeric_limits<int>::max();
+
+/// The mesh without the faces around some vertices, which no face uses then.
+TriangleMesh pierced(const TriangleMesh& mesh, const std::vector<int>& vertices) {
+    std::vector<int> left;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        bool is_left = true;
+        for (const int v : mesh.faces.row(f))
+            is_left = is_left && std::find(vertices.begin(), vertices.end(), v) == vertices.end();
+        if (is_left) left.push_back(f);
+    }
+    return {mesh.vertices, mesh.faces(left, Eigen::all)};
+}
+
+RepairedMesh filled(const TriangleMesh& mesh, int edges) {
+    RepairedMesh result = holes_filled({mesh, {}, {}}, edges);
+    require_manifold(result.mesh, "filled");
+    return result;
+}
+
+TEST(Holes, CloseWithTheLeastAreaAndKeepWhatIsThere) {
+    const TriangleMesh whole = shapes::ellipsoid(3);
+    const TriangleMesh mesh = pierced(whole, {20, 200});
+    ASSERT_EQ(summarise_topology(mesh).boundary_loops, 2);
+    const RepairedMesh result = filled(mesh, all);
+    EXPECT_TRUE(is_closed(result.mesh));
+    EXPECT_EQ(result.counts.filled_holes, 2);
+    EXPECT_EQ(result.counts.unfilled_holes, 0);
+    EXPECT_EQ(result.mesh.face_count(), mesh.face_count() + result.counts.filling_faces);
+    EXPECT_EQ(result.mesh.vertices, mesh.vertices);
+    EXPECT_EQ(result.mesh.faces.topRows(mesh.face_count()), mesh.faces);
+    EXPECT_NEAR(surface_area(result.mesh), surface_area(whole), .02 * surface_area(whole));
+    EXPECT_GT(signed_volume(result.mesh), .97 * signed_volume(whole));
+    for (int f = 0; f < result.mesh.face_count(); ++f)
+        EXPECT_EQ(result.link.face[std::size_t(f)], f < mesh.face_count() ? f : -1);
+    EXPECT_EQ(result.link.fate[20], VertexFate::unused);
+    EXPECT_EQ(result.link.fate[0], VertexFate::kept);
+}
+
+TEST(Holes, LongerOnesStayOpen) {
+    const TriangleMesh whole = shapes::ellipsoid(3);
+    const int valence = int(vertex_neighbours(whole)[200].size());
+    const TriangleMesh mesh = pierced(whole, {200});
+    EXPECT_EQ(filled(mesh, valence - 1).counts.filled_holes, 0);
+    EXPECT_TRUE(filled(mesh, valence - 1).link.is_identity());
+    EXPECT_EQ(filled(mesh, valence).counts.filled_holes, 1);
+    EXPECT_EQ(filled(whole, all).counts.filled_holes, 0);
+}
+
+/// An open tube has a loop at each end, of more edges than are triangulated at once.
+TEST(Holes, LongLoopsAreClosedToo) {
+    const TriangleMesh mesh = shapes::tube(4, 700, false);
+    ASSERT_EQ(summarise_topology(mesh).boundary_loops, 2);
+    const RepairedMesh result = filled(mesh, all);
+    EXPECT_TRUE(is_closed(result.mesh));
+    EXPECT_EQ(result.counts.filled_holes, 2);
+    EXPECT_EQ(summarise_topology(result.mesh).genus, 0);
+}
+
+/// Of a strip of three quads, the diagonals that would close it are edges already: those that are not are
+/// taken, and a single triangle is left as it is.
+TEST(Holes, NoEdgeIsThereTwice) {
+    TriangleMesh square;
+    square.vertices = Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    square.faces = Faces{{0, 1, 2}, {0, 2, 3}};
+    const RepairedMesh result = filled(square, all);
+    EXPECT_EQ(result.counts.filled_holes, 1);
+    EXPECT_EQ(result.mesh.face_count(), 4);
+    TriangleMesh triangle = square;
+    triangle.faces = Faces{{0, 1, 2}};
+    const RepairedMesh alone = holes_filled({triangle, {}, {}}, all);
+    EXPECT_EQ(alone.mesh.face_count(), 1);
+    EXPECT_EQ(alone.counts.unfilled_holes, 1);
+}
+
+TEST(Holes, ReadsHowLongTheyMayBe) {
+    EXPECT_EQ(longest_hole("none"), 0);
+    EXPECT_EQ(longest_hole("12"), 12);
+    EXPECT_EQ(longest_hole("all"), all);
+    for (const char* words : {"", "2", "-3", "12x", "most", "1e3", "99999999999"})
+        EXPECT_THROW(longest_hole(words), UsageError) << words;
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# Meshes in formats that are imported first: the same map as from the same vertices and faces in OFF, once imported they stay,
+# and every command takes them.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+[[ -x $VARIMAP_BIN/varimap-import ]] || { echo "skipped: built without assimp"; exit 77; }
+small_picture+=("${coarse[@]}")
+figure a.off 6
+figure b.off 6 .5
+
+# dae FILE.OFF: as COLLADA.
+dae() {
+    awk 'NR == 2 { n = $1; f = $2 } NR > 2 && NR <= n + 2 { x = x " " $0 } NR > n + 2 { p = p " " $2 " " $3 " " $4 }
+        END {
+            print "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+            print "<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
+            print "<float_array id=\"pa\" count=\"" 3 * n "\">" x "</float_array><technique_common>"
+            print "<accessor source=\"#pa\" count=\"" n "\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+            print "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+            print "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"" f "\">"
+            print "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>" p "</p></triangles></mesh></geometry>"
+            print "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"n\">"
+            print "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>"
+            print "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>"
+        }' "$1"
+}
+
+# fbx FILE.OFF: as FBX that is text.
+fbx() {
+    awk 'NR == 2 { n = $1; f = $2 } NR > 2 && NR <= n + 2 { x = x (NR > 3 ? "," : "") $1 "," $2 "," $3 }
+        NR > n + 2 { p = p (NR > n + 3 ? "," : "") $2 "," $3 "," (-1 - $4) }
+        END {
+            print "; FBX 7.3.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7300\n}\nObjects:  {"
+            print "\tGeometry: 1001, \"Geometry::\", \"Mesh\" {\n\t\tVertices: *" 3 * n " {\n\t\t\ta: " x "\n\t\t}"
+            print "\t\tPolygonVertexIndex: *" 3 * f " {\n\t\t\ta: " p "\n\t\t}\n\t}"
+            print "\tModel: 2001, \"Model::m\", \"Mesh\" {\n\t\tVersion: 232\n\t\tProperties70:  {\n\t\t}\n\t}\n}"
+            print "Connections:  {\n\tC: \"OO\",2001,0\n\tC: \"OO\",1001,2001\n}"
+        }' "$1"
+}
+
+map a.off b.off -o plain
+dae a.off >a.dae
+fbx b.off >"b b.FBX"
+map a.dae "b b.FBX" -o out
+for table in source_to_target target_to_source; do same plain/$table.csv out/$table.csv; done
+jq -e '.provenance | (.source.imported_from | endswith("/a.dae")) and (.source.file | endswith("/out/artifacts/a.obj"))
+    and (.target.imported_from | endswith("/b b.FBX"))' out/quality.json >/dev/null || fail "provenance"
+
+# Imported again, but nothing else runs; a changed file is a new mesh.
+map a.dae "b b.FBX" -o out
+expect_ran "import*2"
+"$varimap" view out >out.txt 2>log || [[ $(<log) == *npm* || $(<log) == *viewer* ]] || fail "view"
+"$varimap" transfer out --mesh out/artifacts/a.obj >out.txt 2>log || fail "transfer"
+[[ -s out/transfer/source_on_target.obj ]] || fail "transfer wrote nothing"
+figure c.off 6 .8
+fbx c.off >"b b.FBX"
+map a.dae "b b.FBX" -o out
+map a.off c.off -o changed
+same changed/source_to_target.csv out/source_to_target.csv
+
+# make alone.
+mkdir made
+make -r -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=a.dae TARGET=c.off OUT=made until-preprocess 2>log || fail "make"
+[[ -s made/artifacts/a.obj && ! -e made/artifacts/c.obj ]] || fail "make imports the wrong file"
+
+# What cannot be read is refused in one line that names it.
+echo '{"asset":{"version":"2.0"}}' >empty.gltf
+head -c 3000 /dev/urandom >noise.glb
+head -n 4 a.dae >cut.dae
+for file in empty.gltf noise.glb cut.dae; do
+    expect_exit 3 "$varimap" map $file b.off -o refused
+    grep -q "error: .*$file: " log || fail "$file is not named"
+done
+echo hello >what.ever
+expect_exit 3 "$varimap" map what.ever b.off -o refused
+expect_exit 3 "$VARIMAP_BIN/varimap-verify" a.dae b.off out/source_to_target.csv
+grep -q "varimap import" log || fail "verify does not say how to import"
+
+# Built without assimp: one line that says so.
+mkdir without
+ln -s "$VARIMAP_BIN"/varimap-* without/
+rm without/varimap-import
+VARIMAP_BIN=$PWD/without expect_exit 6 "$varimap" map a.dae b.off -o refused
+grep -q "assimp" log || fail "assimp is not named"
+
+# Quads stay quads in the exported meshes, but for those that lost a corner.
+awk 'function vertex(x, y, z,    l, r, key) {
+        key = x "," y "," z
+        if (key in number) return number[key]
+        l = sqrt(x * x + y * y + z * z)
+        r = (1 + .6 * exp(4 * ((x + .3 * y + z) / l / 1.45 - 1)) + .4 * exp(6 * ((.5 * z - x + .2 * y) / l / 1.2 - 1))) / l
+        printf "v %.17g %.17g %.17g\n", 1.3 * x * r, .8 * y * r, z * r
+        return number[key] = ++count
+    }
+    function corner(axis, side, u, v) {
+        return axis == 0 ? vertex(side, u, v) : axis == 1 ? vertex(v, side, u) : vertex(u, v, side)
+    }
+    BEGIN {
+        n = 6
+        for (axis = 0; axis < 3; axis++) for (side = -n; side <= n; side += 2 * n)
+            for (u = -n; u < n; u += 2) for (v = -n; v < n; v += 2) {
+                a = corner(axis, side, u, v); b = corner(axis, side, u + 2, v)
+                c = corner(axis, side, u + 2, v + 2); d = corner(axis, side, u, v + 2)
+                faces = faces "f " (side > 0 ? a " " b " " c " " d : d " " c " " b " " a) "\n"
+            }
+        print "v 5 nan 5\n" faces "f 1 2 3 " count + 1
+    }' >quads.obj
+map quads.obj b.off -o quads --ascii
+[[ $(grep -c '^4 ' quads/source_on_target.ply) == 216 && $(grep -c '^3 ' quads/source_on_target.ply) == 1 ]] ||
+    fail "quads are not kept"
+grep -q '^element face 217$' quads/source_on_target.ply || fail "faces of the exported mesh"
+[[ $(grep -c '^4 ' quads/target_on_source.ply) == 0 ]] || fail "triangles became quads"
+map quads.obj b.off -o quads --ascii
+expect_ran ""
