@@ -123,7 +123,8 @@ TEST(InverseMap, LeadsBackWhereTheOtherDirectionCameFrom) {
         furthest = std::max(furthest,
                             (position(sphere, inverse(v)) - position(sphere, there[std::size_t(v)])).norm());
     EXPECT_LT(furthest, 0.2 * shapes::longest_edge(sphere));
-    InverseMap of_none(map, PointMap(there.size()));
+    const PointMap nothing(there.size());
+    InverseMap of_none(map, nothing);
     EXPECT_LT(of_none(0).face, 0);
 }
 
