@@ -101,7 +101,8 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
         initial_map = correspondences_of(options.initial_map, surface_A, surface_B);
     const Plan plan =
         solve(context, points, found_candidates(surface_A, surface_B, given, options), initial_map, options);
-    SurfaceMap map = relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B), plan.plan.area_bound);
+    SurfaceMap map =
+        relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B), plan.plan.area_bound);
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);
     mapped.B_to_A = std::move(map.B_to_A);

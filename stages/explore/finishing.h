@@ -31,6 +31,7 @@ struct FinishingOptions {
         untangling.fold_sweeps = 30;
         untangling.replace_parts = false;
         untangling.align_normals = false;
+        untangling.settling_steps = 0;
     }
 };
 

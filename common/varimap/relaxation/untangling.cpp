@@ -130,9 +130,8 @@ void log_repair(const ChartRepair::Report& report) {
     const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
     using enum ChartRepair::Outcome;
     if (std::all_of(report.outcomes.begin(), report.outcomes.end(), [](int n) { return n == 0; })) return;
-    log("repair: {} parts taken from the other direction, {} mapped anew in charts; in vain: {} for want of "
-        "a "
-        "disc, {} of a simple rim, {} folded, {} not better",
+    log("repair: {} parts taken from the other direction, {} mapped anew in charts; in vain: {} for want "
+        "of a disc, {} of a simple rim, {} folded, {} not better",
         count(inverted), count(repaired), count(no_disc), count(no_simple_rim), count(folded),
         count(no_gain));
 }
@@ -169,7 +168,6 @@ class Untangling {
     }
     /// The last round begins with `start_settling` instead, and takes steps of `settle`.
     void start_settling() {
-        settling_steps_ = 0;
         relaxation_ = relaxation(settling, options_.settling_steps);
         if (options_.area_bound > 0)
             bound_ = std::make_unique<AreaBound>(sliding_, options_.area_bound, exempt());
@@ -187,15 +185,14 @@ class Untangling {
         else
             sweep(free_among(std::move(pressed)), settling, settling_sweeps);
     }
+    void end_settling() {
+        bound_.reset();
+        end_relaxation(settling);
+    }
     void end_relaxation(const Round& round) {
         if (relaxation_) report_.global_steps += relaxation_->steps();
         relaxation_.reset();
         report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(sliding_, held());
-    }
-
-    void end_settling() {
-        bound_.reset();
-        end_relaxation(settling);
     }
 
     void replace_parts(const PointMap& back) {
