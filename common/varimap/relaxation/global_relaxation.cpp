@@ -1,5 +1,6 @@
 #include "varimap/relaxation/global_relaxation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -233,6 +234,7 @@ void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy) {
     walk(1);
     for (int trial = 1; trial <= careful_trials; ++trial) {
         const std::vector<char> worse = corners_of_worse(energy, before);
+        if (std::none_of(worse.begin(), worse.end(), [](char mark) { return mark; })) return;
         for (std::size_t i = 0; i < free.size(); ++i) {
             if (!worse[i]) continue;
             shares[i] = trial < careful_trials ? careful_share * shares[i] : 0;

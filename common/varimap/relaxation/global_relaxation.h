@@ -22,8 +22,9 @@ class GlobalRelaxation {
     /// The constraints whose energy is added from now on; keeps a reference.
     void set_constraints(const std::vector<SoftConstraint>& constraints);
 
-    /// One step, halved for as long as the energy falls by it; returns the share of it lost, 0 where the map
-    /// stays as it is.
+    /// One step, shorter where faces would get far worse by it; where that does not lower the energy, halved
+    /// for all vertices for as long as the energy falls. Returns the share of it lost, 0 where the map stays
+    /// as it is.
     double step(const RobustEnergy& energy);
 
   private:
