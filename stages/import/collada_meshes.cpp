@@ -121,7 +121,7 @@ class MeshReader {
             sizes_ = integers(tag.text);
         } else if (name == "p" && !primitive_.empty()) {
             add(integers(tag.text));
-        } else if (!primitive_.empty() && name[0] == '/' && name.substr(1) == primitive_) {
+        } else if (!primitive_.empty() && name.starts_with('/') && name.substr(1) == primitive_) {
             primitive_ = {};
         }
     }

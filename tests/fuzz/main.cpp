@@ -156,7 +156,11 @@ void run_one(const Target& target, const std::string& bytes, const std::string& 
 std::vector<Target> all_targets() {
     std::vector<Target> all;
     for (const auto& list : {mesh_targets(), landmark_targets(), artifact_targets(), stage_targets(),
-                             config_targets(), transfer_targets()})
+                             config_targets(), transfer_targets(),
+#ifdef VARIMAP_HAS_IMPORT
+                             import_targets()
+#endif
+         })
         all.insert(all.end(), list.begin(), list.end());
     return all;
 }

@@ -30,6 +30,8 @@ std::vector<Target> artifact_targets();
 std::vector<Target> stage_targets();
 /// Config files and values of parameters.
 std::vector<Target> config_targets();
+/// Readers of the points and polygons of FBX and COLLADA files; where varimap-import is built.
+std::vector<Target> import_targets();
 /// Readers of what is carried through a map, and what becomes of it.
 std::vector<Target> transfer_targets();
 
