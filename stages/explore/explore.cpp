@@ -5,6 +5,7 @@
 
 #include "stages/explore/appraisal.h"
 #include "stages/explore/pool.h"
+#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
@@ -119,7 +120,11 @@ std::vector<Appraised> finished(const std::vector<PooledMap>& pool, const PairCo
     const Timer timer("finishing");
     std::vector<VertexImages> starts;
     for (const PooledMap& map : pool) starts.push_back(map.images);
-    return appraised(finish(context, starts, options), pool, context);
+    std::vector<Appraised> list = appraised(finish(context, starts, options), pool, context);
+    if (list.empty())
+        throw ConvergenceError(
+            "no map was found between these surfaces; give landmarks, and look at both meshes");
+    return list;
 }
 
 FinishingOptions quick_finishing(const ExploreParams& params) {
