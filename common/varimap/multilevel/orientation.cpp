@@ -56,10 +56,6 @@ class OffsetFit {
                     products_ = Eigen::Matrix2d::Zero();
 };
 
-}  // namespace
-
-namespace {
-
 /// |a - b|^2; or, where its first terms show that it is above `limit`, some number above that.
 template <class A, class B>
 double squared_distance(const A& a, const B& b, double limit) {

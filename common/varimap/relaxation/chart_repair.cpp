@@ -150,7 +150,9 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const int most = most_faces(map_.source());
     std::vector<int> faces = source_.filled(source_.widened(cluster, rings), most);
     if (int(faces.size()) > most) return Outcome::no_disc;
-    if (adopt_inverse(faces, fixed)) return Outcome::inverted;
+    const std::vector<int> around = source_.widened(faces, 2);
+    const double before = badness(around);
+    if (adopt_inverse(faces, around, before, fixed)) return Outcome::inverted;
     SubMesh disc(map_.source(), std::move(faces));
     std::vector<int> rim = disc_boundary(disc.mesh);
     if (rim.empty()) return Outcome::no_disc;
@@ -161,8 +163,6 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const PointMap unfolded = part.unfolded(map_, fixed);
     if (unfolded.empty()) return Outcome::folded;
 
-    const std::vector<int> around = source_.widened(part.faces(), 2);
-    const double before = badness(around);
     const PointMap kept = points_of(part.vertices());
     const std::vector<int> free = part.free_vertices(fixed);
     place(part.vertices(), unfolded);
@@ -192,9 +192,9 @@ std::vector<int> ChartRepair::free_within(const std::vector<int>& faces, const V
     return free;
 }
 
-bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const VertexData<bool>& fixed) {
-    const std::vector<int> free = free_within(faces, fixed), around = source_.widened(faces, 2);
-    const double before = badness(around);
+bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, double before,
+                                const VertexData<bool>& fixed) {
+    const std::vector<int> free = free_within(faces, fixed);
     const PointMap kept = points_of(free);
     for (const int v : free)
         if (const SurfacePoint image = inverse_(v); image.face >= 0) map_.place(v, image);

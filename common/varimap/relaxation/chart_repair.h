@@ -49,7 +49,9 @@ class ChartRepair {
     Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
     /// The vertices of faces of which all lie among these, but for fixed ones.
     std::vector<int> free_within(const std::vector<int>& faces, const VertexData<bool>& fixed);
-    bool adopt_inverse(const std::vector<int>& faces, const VertexData<bool>& fixed);
+    /// `before`: the badness of `around`, the faces that may move; it is to fall.
+    bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, double before,
+                       const VertexData<bool>& fixed);
     void polish(std::vector<int> vertices);
     /// No vertex moves where more faces would be reversed.
     void polish_with_care(const std::vector<int>& vertices);
