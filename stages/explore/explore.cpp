@@ -120,11 +120,7 @@ std::vector<Appraised> finished(const std::vector<PooledMap>& pool, const PairCo
     const Timer timer("finishing");
     std::vector<VertexImages> starts;
     for (const PooledMap& map : pool) starts.push_back(map.images);
-    std::vector<Appraised> list = appraised(finish(context, starts, options), pool, context);
-    if (list.empty())
-        throw ConvergenceError(
-            "no map was found between these surfaces; give landmarks, and look at both meshes");
-    return list;
+    return appraised(finish(context, starts, options), pool, context);
 }
 
 FinishingOptions quick_finishing(const ExploreParams& params) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "stages/explore/pool.h"
+#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/descent.h"
@@ -64,8 +65,13 @@ class JointDescent {
             pursued_[n].solution = minimization.take_solution();
         });
     }
-    /// Those whose energy may be that of the right map; the best first.
+    /// Those whose energy may be that of the right map; the best first. Energies are no numbers, or negative,
+    /// where coordinates are too large to be squared.
     void keep_best() {
+        std::erase_if(pursued_, [](const Pursued& one) { return !(one.energy() >= 0); });
+        if (pursued_.empty())
+            throw ConvergenceError(
+                "no map was found between these surfaces; give landmarks, and look at both meshes");
         std::stable_sort(pursued_.begin(), pursued_.end(),
                          [](const Pursued& a, const Pursued& b) { return a.energy() < b.energy(); });
         const double worst = options_.worst * pursued_.front().energy();

@@ -239,6 +239,7 @@ int run(const std::vector<std::string>& words) {
     const Options options = parse({words.begin() + 1, words.end()});
     using oneapi::tbb::global_control;
     const global_control one_thread(global_control::max_allowed_parallelism, 1);
+    if (target->prepare) target->prepare();
     for (const std::string& file : options.files) run_one(*target, read_whole(file), file + ".again");
     if (options.files.empty()) {
         run_cases(*target, options.cases);

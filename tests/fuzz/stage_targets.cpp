@@ -245,6 +245,7 @@ Target stage(const std::string& name, const Names& artifacts,
     };
     Target target{"stage_" + name, {}, {}, read_and_run, 64 << 20};
     target.forge = [artifacts](std::uint64_t number) { return forged(artifacts, number); };
+    target.prepare = [] { good(); };
     return target;
 }
 

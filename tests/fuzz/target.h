@@ -18,6 +18,8 @@ struct Target {
     std::size_t memory_base = 4 << 20;  ///< bytes that it may take, beside a multiple of the input's length
     /// Makes input `number` where changing bytes of the seeds would not do.
     std::function<std::string(std::uint64_t number)> forge = {};
+    /// Makes what all inputs need, before the first: its time and memory are no input's.
+    std::function<void()> prepare = {};
 };
 
 /// Readers of meshes: obj, off, ply, stl, and what preprocess makes of them.
@@ -26,7 +28,7 @@ std::vector<Target> mesh_targets();
 std::vector<Target> landmark_targets();
 /// Artifacts of every kind with a right hash and hostile content, and their headers.
 std::vector<Target> artifact_targets();
-/// Stages, each with one forged artifact among those that it reads. Made at the first call of any of them.
+/// Stages, each with one forged artifact among those that it reads.
 std::vector<Target> stage_targets();
 /// Config files and values of parameters.
 std::vector<Target> config_targets();

@@ -69,6 +69,13 @@ bool are_within(const Eigen::Ref<const RowMatrix>& values, double bound) {
     return values.allFinite() && values.cwiseAbs().maxCoeff() <= bound;
 }
 
+/// Sum_v m_v phi_i(v)^2 = 1.
+bool have_unit_norms(const Basis& basis, const Eigen::VectorXd& mass) {
+    constexpr double rounding = 1e-6;
+    const Eigen::VectorXd norms = basis.functions.array().square().matrix().transpose() * mass;
+    return ((norms.array() - 1).abs() <= rounding).all();
+}
+
 }  // namespace
 
 /// Descriptors are cut off at 2.5 / sqrt(3); nothing stands out of a surface farther than it is long, for
@@ -117,6 +124,7 @@ void require_complete(const Hierarchy& hierarchy) {
 
 void require_fit(const Basis& basis, const Domain& domain) {
     require<Basis>(basis.functions.rows() == domain.mesh.vertex_count(), "vertices");
+    require<Basis>(have_unit_norms(basis, domain.mass), "functions");
 }
 
 void require_fit(const SurfaceData& data) {
