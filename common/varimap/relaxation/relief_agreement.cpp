@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "varimap/mesh/mass.h"
@@ -16,7 +17,10 @@ constexpr double bound = 2;  ///< of the relief; swept: 1.5 to 4
 constexpr double c2 = 0.25;
 /// Of relief, in units of sqrt(area). Swept: from 0.01; 0.04 distorts more (95 % of the faces below 2.07
 /// rather than 1.85).
-constexpr double finest_scale = 0.02;
+constexpr double least_scale = 0.02;
+/// In units of that. Chosen on six pairs: with the first, errors fall by 2% in the mean (from 12% less to 2%
+/// more); with 2 and 4, they rise by up to 17% between poses.
+constexpr std::array<double, 2> scales{0.6, 1};
 
 Eigen::VectorXd normalised(Eigen::VectorXd values) {
     values.array() -= median(values);
@@ -41,38 +45,49 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
 
 ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight)
     : map_(map), weight_(weight * voronoi_masses(map.source())) {
-    const double scale =
-        std::max({finest_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
-    source_ = relief(map.source(), scale);
-    target_ = relief(map.target(), scale);
+    const double unit =
+        std::max({least_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
+    for (const double scale : scales)
+        channels_.push_back({relief(map.source(), scale * unit), relief(map.target(), scale * unit)});
 }
 
-double ReliefAgreement::residual(int v) const {
+double ReliefAgreement::residual(const Channel& channel, int v) const {
     const SurfacePoint& image = map_.point(v);
     double there = 0;
-    for (int k = 0; k < 3; ++k) there += image.barycentric[k] * target_[map_.target().faces(image.face, k)];
-    return source_[v] - there;
+    for (int k = 0; k < 3; ++k)
+        there += image.barycentric[k] * channel.target[map_.target().faces(image.face, k)];
+    return channel.source[v] - there;
 }
 
 double ReliefAgreement::value(int v) const {
-    const double r = residual(v);
-    return weight_[v] * c2 / 2 * std::log1p(r * r / c2);
+    double sum = 0;
+    for (const Channel& channel : channels_) {
+        const double r = residual(channel, v);
+        sum += std::log1p(r * r / c2);
+    }
+    return weight_[v] * c2 / 2 * sum;
 }
 
 ReliefAgreement::Quadratic ReliefAgreement::derivatives(int v, const TangentFrame& frame) const {
     const TriangleMesh& target = map_.target();
     const int face = map_.point(v).face;
+    Quadratic sum{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
     const Vec3 n = face_normal(target, face);
-    if (!(n.squaredNorm() > 0)) return {Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
-    Vec3 slope = Vec3::Zero();
+    if (!(n.squaredNorm() > 0)) return sum;
+    Eigen::Matrix<double, 2, 3> slopes;  // of what is 1 at one corner and 0 at the others
     for (int k = 0; k < 3; ++k) {
         const Vec3 opposite =
             target.vertex(target.faces(face, (k + 2) % 3)) - target.vertex(target.faces(face, (k + 1) % 3));
-        slope += target_[target.faces(face, k)] * n.cross(opposite);
+        slopes.col(k) = frame.transpose() * n.cross(opposite) / n.squaredNorm();
     }
-    const Eigen::Vector2d J = frame.transpose() * slope / n.squaredNorm();
-    const double r = residual(v), u = weight_[v] / (1 + r * r / c2);
-    return {-u * r * J, u * J * J.transpose()};
+    for (const Channel& channel : channels_) {
+        Eigen::Vector2d J = Eigen::Vector2d::Zero();
+        for (int k = 0; k < 3; ++k) J += channel.target[target.faces(face, k)] * slopes.col(k);
+        const double r = residual(channel, v), u = weight_[v] / (1 + r * r / c2);
+        sum.gradient -= u * r * J;
+        sum.hessian += u * J * J.transpose();
+    }
+    return sum;
 }
 
 }  // namespace varimap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "varimap/relaxation/sliding_map.h"
 
@@ -12,12 +13,14 @@ namespace varimap {
 /// Less its median, in units of 1.5 median deviations, and bounded to [-2, 2].
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 
-/// A data term that holds relief in place: the sum over the source's vertices v, of area a_v, of
+/// A data term that holds relief in place: the sum over two scales s and the source's vertices v, of area
+/// a_v, of
 ///     weight a_v rho(r),   r = h_A(v) - h_B(f(v)),   rho(r) = c^2 / 2 log(1 + r^2 / c^2)
-/// with the reliefs h of both surfaces, linear on the target's faces. An isometry's energy hardly resists
-/// sliding along limbs or turning about them; relief does. With J the gradient of h_B in the tangent frame of
-/// f(v) and u = 1 / (1 + r^2 / c^2), rho has the gradient -u r J and the Gauss-Newton Hessian u J J'.
-/// The scale s is 0.02, or the mean edge of the coarser mesh if that is longer.
+/// with the reliefs h of both surfaces at that scale, linear on the target's faces. An isometry's energy
+/// hardly resists sliding along limbs or turning about them; relief does. With J the gradient of h_B in the
+/// tangent frame of f(v) and u = 1 / (1 + r^2 / c^2), rho has the gradient -u r J and the Gauss-Newton
+/// Hessian u J J'. The scales are 0.6 and 1 times 0.02, or the mean edge of the coarser mesh if that is
+/// longer. Coarser ones follow the pose.
 class ReliefAgreement {
   public:
     /// Keeps a reference to the map.
@@ -32,10 +35,15 @@ class ReliefAgreement {
     Quadratic derivatives(int v, const TangentFrame& frame) const;
 
   private:
-    double residual(int v) const;
+    /// The reliefs at one scale.
+    struct Channel {
+        Eigen::VectorXd source, target;
+    };
+    double residual(const Channel& channel, int v) const;
 
     const SlidingMap& map_;
-    Eigen::VectorXd weight_, source_, target_;  ///< weight_: with the area; the others: reliefs
+    Eigen::VectorXd weight_;  ///< with the area
+    std::vector<Channel> channels_;
 };
 
 }  // namespace varimap
