@@ -74,7 +74,7 @@ Plan solve(const PairContext& context, const PointPairs& landmark_points,
 }
 
 DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
-    return {measure_distortion(map, source, target), measure_coverage(map, source, target)};
+    return {measure_distortion(map, source, target), measure_coverage(map, source, target).share};
 }
 
 /// Fills in the quality, measured where both surfaces have the same handedness.

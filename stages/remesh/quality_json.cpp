@@ -43,9 +43,18 @@ Json to_json(const UntanglingReport& report) {
             {"disagreeing_after", report.disagreeing_after}};
 }
 
-Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-               double area_bound) {
+/// `link`: to the target's file.
+Json to_json(const std::vector<UncoveredPart>& parts, const FileLink& link) {
+    Json list = Json::array();
+    for (const UncoveredPart& part : parts)
+        list.push_back({{"area_percent", 100 * part.share}, {"vertex", number_in_file(part.vertex, link)}});
+    return list;
+}
+
+Json direction(const PointMap& map, const TriangleMesh& source, const Surface& onto, double area_bound) {
+    const TriangleMesh& target = onto.input;
     const Distortion distortion = measure_distortion(map, source, target);
+    const Coverage coverage = measure_coverage(map, source, target);
     return {{"flipped_count", distortion.flipped_count},
             {"flipped_area_percent", distortion.flipped_area_percent},
             {"collapsed_count", distortion.collapsed_count},
@@ -53,7 +62,8 @@ Json direction(const PointMap& map, const TriangleMesh& source, const TriangleMe
             {"within_area_bound", share_within_area_bound(map, source, target, area_bound)},
             {"conformal_distortion", to_json(distortion.conformal_distortion)},
             {"dirichlet_energy", distortion.dirichlet_energy},
-            {"coverage", measure_coverage(map, source, target)},
+            {"coverage", coverage.share},
+            {"uncovered", to_json(coverage.parts, onto.link)},
             {"verification", to_json(verify_map(map, source, target))}};
 }
 
@@ -163,8 +173,8 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
     if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
     if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);
-    quality["source_to_target"] = direction(A_to_B, without_added_faces(A), B.input, plan.area_bound);
-    quality["target_to_source"] = direction(B_to_A, without_added_faces(B), A.input, plan.area_bound);
+    quality["source_to_target"] = direction(A_to_B, without_added_faces(A), B, plan.area_bound);
+    quality["target_to_source"] = direction(B_to_A, without_added_faces(B), A, plan.area_bound);
     quality["source_to_target"]["untangling"] = to_json(map.untangling.A_to_B);
     quality["target_to_source"]["untangling"] = to_json(map.untangling.B_to_A);
     warn_of_tears(quality["source_to_target"], "source to target");

@@ -24,7 +24,8 @@ namespace varimap {
 ///                     (definitions: candidates.h)
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
-///       conformal_distortion {the same}, dirichlet_energy, coverage          (definitions: quality.h)
+///       conformal_distortion {the same}, dirichlet_energy, coverage, and
+///       uncovered         of each part: area_percent, vertex of the file     (definitions: quality.h)
 ///       verification      reversed_count, reversed_area_percent, cutting_count, branch_points,
 ///       signed_area_ratio; degree
 ///                         between closed surfaces (definitions: verification.h)

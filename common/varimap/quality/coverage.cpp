@@ -3,6 +3,8 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/mass.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/quality/image_mesh.h"
 #include "varimap/quality/quality.h"
 
@@ -55,26 +57,59 @@ bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const 
     return (q - centroid).norm() <= limit;
 }
 
+/// Smaller parts are found at ends of limbs and in folds of most good maps.
+constexpr double least_part = 0.005;
+
+int central_vertex(const TriangleMesh& mesh, const std::vector<int>& faces) {
+    Vec3 centre = Vec3::Zero();
+    double area = 0;
+    for (const int f : faces) {
+        const double part = face_normal(mesh, f).norm();
+        centre += part * position(mesh, {f, Vec3::Constant(1.0 / 3)});
+        area += part;
+    }
+    centre /= area;
+    int nearest = mesh.faces(faces.front(), 0);
+    for (const int f : faces)
+        for (const int v : mesh.faces.row(f))
+            if ((mesh.vertex(v) - centre).norm() < (mesh.vertex(nearest) - centre).norm()) nearest = v;
+    return nearest;
+}
+
+std::vector<UncoveredPart> uncovered_parts(const TriangleMesh& mesh, std::vector<char> uncovered) {
+    const double area = surface_area(mesh);
+    std::vector<UncoveredPart> parts;
+    for (const std::vector<int>& faces : face_components(find_edges(mesh), std::move(uncovered))) {
+        double share = 0;
+        for (const int f : faces) share += face_normal(mesh, f).norm() / 2 / area;
+        if (share >= least_part) parts.push_back({share, central_vertex(mesh, faces)});
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const UncoveredPart& a, const UncoveredPart& b) { return a.share > b.share; });
+    return parts;
+}
+
 }  // namespace
 
-double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+Coverage measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
     const ImageMesh images(map, source, target);
     const TriangleMesh image = visible_image(images);
-    if (image.face_count() == 0) return 0;
-    const ClosestPoint on_image(image), on_target(images.target);
-    FaceData<bool> hit(target.face_count());
-    tbb::parallel_for(tbb::blocked_range<int>(0, target.face_count(), 64), [&](const auto& range) {
-        int guess = -1;
-        for (int f = range.begin(); f < range.end(); ++f)
-            hit[f] = is_hit(f, images.target, image, on_image, on_target, guess);
-    });
+    std::vector<char> uncovered(std::size_t(target.face_count()), 1);
+    if (image.face_count() > 0) {
+        const ClosestPoint on_image(image), on_target(images.target);
+        tbb::parallel_for(tbb::blocked_range<int>(0, target.face_count(), 64), [&](const auto& range) {
+            int guess = -1;
+            for (int f = range.begin(); f < range.end(); ++f)
+                uncovered[std::size_t(f)] = !is_hit(f, images.target, image, on_image, on_target, guess);
+        });
+    }
     double hit_area = 0, area = 0;
     for (int f = 0; f < target.face_count(); ++f) {
         const double part = face_normal(images.target, f).norm();
         area += part;
-        if (hit[f]) hit_area += part;
+        if (!uncovered[std::size_t(f)]) hit_area += part;
     }
-    return hit_area / area;
+    return {hit_area / area, uncovered_parts(images.target, std::move(uncovered))};
 }
 
 }  // namespace varimap

@@ -56,12 +56,23 @@ Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, c
 double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                                double bound);
 
-/// Share of the target's area that is hit. A target face is hit if its centroid c lies in front of or behind
+/// Part of the target that a map does not hit: what has no partner on the source, or what the map passes by.
+struct UncoveredPart {
+    double share = 0;  ///< of the target's area
+    int vertex = -1;   ///< of the target: the one of its faces' corners that is nearest to their centroid
+};
+
+struct Coverage {
+    double share = 0;                  ///< of the target's area that is hit
+    std::vector<UncoveredPart> parts;  ///< connected, of at least 0.005 of the target's area; largest first
+};
+
+/// What of the target is hit. A target face is hit if its centroid c lies in front of or behind
 /// the image of the source: with p the closest point to c on the image triangles that face the way c does,
 /// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or 0.05 of the face's
 /// longest edge. (Where no image is near, p lies at the rim of the image and q beside it, so |q - c| is about
 /// |p - c|.) Flipped image triangles count whichever way they face: a flip is not a gap.
-double measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+Coverage measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
 
 /// Distance in R^3 of each vertex of A from its image under A -> B -> A, in units of sqrt(area of A),
 /// weighted by the vertices' areas. B_to_A is taken linear on the faces of B (image triangles).

@@ -74,7 +74,8 @@ TEST(Quality, IdentityIsPerfect) {
         expect_all(d.area_ratio, 1);
         expect_all(d.conformal_distortion, 1);
         EXPECT_NEAR(d.dirichlet_energy, 1, 1e-12);
-        EXPECT_NEAR(measure_coverage(identity, mesh, mesh), 1, 1e-12);
+        EXPECT_NEAR(measure_coverage(identity, mesh, mesh).share, 1, 1e-12);
+        EXPECT_TRUE(measure_coverage(identity, mesh, mesh).parts.empty());
         const RoundTrip round_trip = measure_round_trip(identity, identity, mesh, mesh);
         EXPECT_NEAR(round_trip.mean, 0, 1e-12);
         EXPECT_NEAR(round_trip.p95, 0, 1e-12);
@@ -91,7 +92,7 @@ TEST(Quality, DoesNotDependOnScaleAndPlace) {
     EXPECT_EQ(d.flipped_count, 0);
     expect_all(d.area_ratio, 1);
     EXPECT_NEAR(d.dirichlet_energy, 1, 1e-9);
-    EXPECT_NEAR(measure_coverage(identity, mesh, moved), 1, 1e-9);
+    EXPECT_NEAR(measure_coverage(identity, mesh, moved).share, 1, 1e-9);
     EXPECT_NEAR(measure_round_trip(identity, identity, moved, mesh).mean, 0, 1e-9);
 }
 
@@ -103,7 +104,7 @@ TEST(Quality, MirrorImageIsAllFlipped) {
     EXPECT_NEAR(d.flipped_area_percent, 100, 1e-9);
     EXPECT_EQ(d.collapsed_count, 0);
     expect_all(d.area_ratio, 1);
-    EXPECT_NEAR(measure_coverage(mirror, mesh, mesh), 1, 1e-12) << "flips are not gaps";
+    EXPECT_NEAR(measure_coverage(mirror, mesh, mesh).share, 1, 1e-12) << "flips are not gaps";
     EXPECT_NEAR(measure_round_trip(mirror, mirror, mesh, mesh).mean, 0, 1e-7);
 }
 
@@ -124,7 +125,7 @@ TEST(Quality, AreaRatioIsImageOverSource) {
     expect_all(d.area_ratio, 0.25);
     expect_all(d.conformal_distortion, 1);
     EXPECT_NEAR(d.dirichlet_energy, 0.25, 1e-9);
-    EXPECT_NEAR(measure_coverage(shrink, mesh, mesh), 0.25, 1e-9);
+    EXPECT_NEAR(measure_coverage(shrink, mesh, mesh).share, 0.25, 1e-9);
 }
 
 TEST(Quality, CollapsedTrianglesAreFlippedAndFinite) {
@@ -136,7 +137,10 @@ TEST(Quality, CollapsedTrianglesAreFlippedAndFinite) {
     EXPECT_EQ(d.conformal_distortion.p50, conformal_distortion_cap);
     EXPECT_EQ(d.area_ratio.p99, 0);
     EXPECT_NEAR(d.dirichlet_energy, 0, 1e-12);
-    EXPECT_EQ(measure_coverage(point, mesh, mesh), 0);
+    const Coverage coverage = measure_coverage(point, mesh, mesh);
+    EXPECT_EQ(coverage.share, 0);
+    ASSERT_EQ(coverage.parts.size(), 1u);
+    EXPECT_NEAR(coverage.parts[0].share, 1, 1e-12);
 }
 
 TEST(Quality, VerticesWithoutImageAreLeftOut) {
@@ -146,14 +150,14 @@ TEST(Quality, VerticesWithoutImageAreLeftOut) {
     const Distortion d = measure_distortion(map, mesh, mesh);
     EXPECT_EQ(d.flipped_count, 0);
     EXPECT_NEAR(d.dirichlet_energy, 1, 0.1);
-    EXPECT_LT(measure_coverage(map, mesh, mesh), 1);
+    EXPECT_LT(measure_coverage(map, mesh, mesh).share, 1);
     EXPECT_NEAR(measure_round_trip(map, map, mesh, mesh).p95, 0, 1e-12);
 }
 
 TEST(Coverage, GoodMapsBetweenUnequalMeshesCoverEverything) {
     const auto outward = [](const Vec3& p) { return p; };
     const auto covers = [&](const TriangleMesh& source, const TriangleMesh& target) {
-        return measure_coverage(map_by(source, target, outward), source, target);
+        return measure_coverage(map_by(source, target, outward), source, target).share;
     };
     EXPECT_GT(covers(shapes::ellipsoid(2), shapes::ellipsoid(4)), 0.995);
     EXPECT_GT(covers(shapes::ellipsoid(4), shapes::ellipsoid(2)), 0.995);
@@ -172,7 +176,11 @@ TEST(Coverage, LosesTheAreaOfAMissedLimb) {
     const TriangleMesh ball = shapes::ellipsoid(4);
     const PointMap flattened =
         map_by(ball, mesh, [](const Vec3& p) { return Vec3(p[0], p[1], std::min(p[2], 0.9)); });
-    EXPECT_NEAR(measure_coverage(flattened, ball, mesh), 1 - share, 0.03);
+    const Coverage coverage = measure_coverage(flattened, ball, mesh);
+    EXPECT_NEAR(coverage.share, 1 - share, 0.03);
+    ASSERT_EQ(coverage.parts.size(), 1u);
+    EXPECT_NEAR(coverage.parts[0].share, share, 0.03);
+    EXPECT_GT(mesh.vertex(coverage.parts[0].vertex)[2], 0.9) << "on the limb";
 }
 
 TEST(RoundTrip, MeasuresTheDistance) {
