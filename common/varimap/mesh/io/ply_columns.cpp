@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "varimap/mesh/io/polygon_soup.h"
@@ -13,29 +14,80 @@
 namespace varimap {
 namespace {
 
-std::string declarations(const std::vector<PlyColumn>& columns) {
-    std::string text;
-    for (const PlyColumn& column : columns) text += fmt::format("property {} {}\n", column.type, column.name);
-    return text;
-}
+/// The text of a PLY file, part by part.
+class PlyWriter {
+  public:
+    explicit PlyWriter(PlyFormat format) : ascii_(format == PlyFormat::ascii) {}
 
-void append_row(const std::vector<PlyColumn>& columns, int row, std::string& bytes) {
-    for (const PlyColumn& column : columns)
-        ply_type(column.type)->append(column.values[std::size_t(row)], bytes);
-}
-
-/// The rest of a line of text: numbers as their types hold them, which read back the same.
-void append_text(const std::vector<PlyColumn>& columns, int row, std::string& bytes) {
-    for (const PlyColumn& column : columns) {
-        std::string number;
-        const NumberType& type = *ply_type(column.type);
-        type.append(column.values[std::size_t(row)], number);
-        const double value = type.read(number.data());
-        const bool single = column.type == "float" || column.type == "float32";
-        bytes += single ? fmt::format(" {}", float(value)) : fmt::format(" {}", value);
+    /// most_corners: of a face.
+    void header(std::size_t vertices, std::size_t faces, std::size_t most_corners,
+                const PlyColumns& columns) {
+        count_is_small_ = most_corners < 256;
+        bytes_ = fmt::format(
+            "ply\nformat {} 1.0\n"
+            "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
+            "element face {}\nproperty list {} int vertex_indices\n{}end_header\n",
+            ascii_ ? "ascii" : "binary_little_endian", vertices, declarations(columns.vertex), faces,
+            count_is_small_ ? "uchar" : "int", declarations(columns.face));
     }
-    bytes += '\n';
-}
+    void vertex(const Vec3& x, const std::vector<PlyColumn>& columns, int row) {
+        if (ascii_)
+            bytes_ += fmt::format("{} {} {}", x[0], x[1], x[2]);
+        else
+            for (const double number : x) append(number);
+        end_row(columns, row);
+    }
+    template <class Index>
+    void face(std::span<const Index> corners, const std::vector<PlyColumn>& columns, int row) {
+        if (ascii_)
+            bytes_ += fmt::format("{}", corners.size());
+        else if (count_is_small_)
+            append(std::uint8_t(corners.size()));
+        else
+            append(std::int32_t(corners.size()));
+        for (const Index corner : corners)
+            if (ascii_)
+                bytes_ += fmt::format(" {}", corner);
+            else
+                append(std::int32_t(corner));
+        end_row(columns, row);
+    }
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    static std::string declarations(const std::vector<PlyColumn>& columns) {
+        std::string text;
+        for (const PlyColumn& column : columns)
+            text += fmt::format("property {} {}\n", column.type, column.name);
+        return text;
+    }
+    template <class Number>
+    void append(Number value) {
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    void end_row(const std::vector<PlyColumn>& columns, int row) {
+        for (const PlyColumn& column : columns) {
+            const double value = column.values[std::size_t(row)];
+            if (ascii_)
+                append_text(column.type, value);
+            else
+                ply_type(column.type)->append(value, bytes_);
+        }
+        if (ascii_) bytes_ += '\n';
+    }
+    /// A number as its type holds it, which reads back the same.
+    void append_text(const std::string& type_name, double value) {
+        std::string number;
+        const NumberType& type = *ply_type(type_name);
+        type.append(value, number);
+        const double held = type.read(number.data());
+        const bool single = type_name == "float" || type_name == "float32";
+        bytes_ += single ? fmt::format(" {}", float(held)) : fmt::format(" {}", held);
+    }
+
+    bool ascii_, count_is_small_ = true;
+    std::string bytes_;
+};
 
 }  // namespace
 
@@ -59,70 +111,26 @@ PlyFormat ply_format(std::string_view bytes) {
 }
 
 std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns, PlyFormat format) {
-    const bool ascii = format == PlyFormat::ascii;
-    std::string bytes = fmt::format(
-        "ply\nformat {} 1.0\n"
-        "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
-        "element face {}\nproperty list uchar int vertex_indices\n{}end_header\n",
-        ascii ? "ascii" : "binary_little_endian", mesh.vertex_count(), declarations(columns.vertex),
-        mesh.face_count(), declarations(columns.face));
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        if (ascii) {
-            bytes += fmt::format("{} {} {}", mesh.vertices(v, 0), mesh.vertices(v, 1), mesh.vertices(v, 2));
-            append_text(columns.vertex, v, bytes);
-        } else {
-            bytes.append(reinterpret_cast<const char*>(mesh.vertices.data() + 3 * v), 3 * sizeof(double));
-            append_row(columns.vertex, v, bytes);
-        }
-    }
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        if (ascii) {
-            bytes += fmt::format("3 {} {} {}", mesh.faces(f, 0), mesh.faces(f, 1), mesh.faces(f, 2));
-            append_text(columns.face, f, bytes);
-        } else {
-            bytes.push_back(3);
-            bytes.append(reinterpret_cast<const char*>(mesh.faces.data() + 3 * f), 3 * sizeof(int));
-            append_row(columns.face, f, bytes);
-        }
-    }
-    return bytes;
+    PlyWriter writer(format);
+    writer.header(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()), 3, columns);
+    for (int v = 0; v < mesh.vertex_count(); ++v) writer.vertex(mesh.vertex(v), columns.vertex, v);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        writer.face(std::span<const int>(mesh.faces.data() + 3 * f, 3), columns.face, f);
+    return writer.take();
 }
 
 std::string to_ply(const PolygonSoup& soup, PlyFormat format) {
-    const bool ascii = format == PlyFormat::ascii;
     std::size_t begin = 0, most = 0;
     for (const std::size_t end : soup.ends) most = std::max(most, end - std::exchange(begin, end));
-    const bool is_small = most < 256;
-    std::string bytes = fmt::format(
-        "ply\nformat {} 1.0\n"
-        "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-        "element face {}\nproperty list {} int vertex_indices\nend_header\n",
-        ascii ? "ascii" : "binary_little_endian", soup.points.size(), soup.ends.size(),
-        is_small ? "uchar" : "int");
-    const auto append = [&](auto value) {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    };
-    for (const Vec3& x : soup.points)
-        if (ascii)
-            bytes += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
-        else
-            for (const double number : x) append(number);
+    PlyWriter writer(format);
+    writer.header(soup.points.size(), soup.ends.size(), most, {});
+    for (const Vec3& x : soup.points) writer.vertex(x, {}, 0);
     begin = 0;
     for (const std::size_t end : soup.ends) {
-        if (ascii)
-            bytes += fmt::format("{}", end - begin);
-        else if (is_small)
-            append(std::uint8_t(end - begin));
-        else
-            append(std::int32_t(end - begin));
-        for (; begin < end; ++begin)
-            if (ascii)
-                bytes += fmt::format(" {}", soup.corners[begin]);
-            else
-                append(std::int32_t(soup.corners[begin]));
-        if (ascii) bytes += '\n';
+        writer.face(std::span<const long long>(soup.corners).subspan(begin, end - begin), {}, 0);
+        begin = end;
     }
-    return bytes;
+    return writer.take();
 }
 
 }  // namespace varimap
