@@ -10,8 +10,9 @@ struct LandmarkCheck {
     double energy_fall = 0;  ///< by which share Eq. (3) falls without it, coarsely; negative: it rises
 };
 
-/// Which landmark the others contradict, from 0, or -1: the one with the largest distance times energy fall,
-/// if that is large. Only one is named, because a wrong landmark makes right ones seem wrong, too.
+/// Which landmark the others contradict, from 0, or -1: the one with the largest distance, up to 0.2, times
+/// energy fall, if that is large. Only one is named, because a wrong landmark makes right ones seem wrong,
+/// too.
 int contradicted_landmark(const std::vector<LandmarkCheck>& checks);
 
 }  // namespace varimap

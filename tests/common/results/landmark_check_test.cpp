@@ -12,6 +12,7 @@ TEST(LandmarkCheck, NamesTheMostContradictedOne) {
 
 TEST(LandmarkCheck, TakesNeitherDistanceNorEnergyAloneForAContradiction) {
     EXPECT_EQ(contradicted_landmark({{.9, .002}, {.05, .05}, {1.2, -.1}}), -1);
+    EXPECT_EQ(contradicted_landmark({{.85, .011}, {.7, .03}}), -1) << "of a limb that is left open";
 }
 
 }  // namespace
