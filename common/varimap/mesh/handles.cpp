@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/private/short_cycles.h"
 #include "varimap/mesh/topology.h"
@@ -15,8 +16,8 @@ namespace {
 /// Shorter paths are cut first, so that longer ones go round what is left: each limit is half the next.
 constexpr int limits = 4;
 /// Paths are looked for around vertices that are no farther than this share of the longest from any other.
-constexpr double spacing = 1. / 8;
-/// Most searches of all vertices for paths of one length: a cut may open the way for another.
+constexpr double spacing = 1. / 5;
+/// Most searches for paths of one length: a cut may open the way for another.
 constexpr int most_passes = 10;
 
 /// Cuts of one mesh along paths that have no vertex in common.
@@ -24,8 +25,9 @@ class Cutting {
   public:
     Cutting(const TriangleMesh& mesh, const Edges& edges);
 
-    /// Whether it is cut: it must not touch another cut or the boundary, or separate the surface.
-    bool cut(const Cycle& cycle);
+    /// Cuts unless that would separate the surface.
+    enum class Outcome { cut, touches, separates };
+    Outcome cut(const Cycle& cycle);
     int cuts() const { return int(cycles_.size()); }
     /// The mesh with both rims of each cut closed.
     void apply(RepairedMesh& mesh) const;
@@ -107,21 +109,21 @@ bool Cutting::separates(const std::vector<int>& sides) {
     return !met;
 }
 
-bool Cutting::cut(const Cycle& cycle) {
+Cutting::Outcome Cutting::cut(const Cycle& cycle) {
     const auto& vertices = cycle.vertices;
     if (std::any_of(vertices.begin(), vertices.end(), [&](int v) { return taken_[std::size_t(v)] != 0; }))
-        return false;
+        return Outcome::touches;
     std::vector<int> sides;
     for (std::size_t i = 0; i < vertices.size(); ++i)
         sides.push_back(side_of(vertices[i], vertices[(i + 1) % vertices.size()]));
-    if (separates(sides)) return false;
+    if (separates(sides)) return Outcome::separates;
     for (const int side : sides) {
         opposite_[std::size_t(opposite(side))] = -1;
         opposite_[std::size_t(side)] = -1;
     }
     for (const int v : vertices) taken_[std::size_t(v)] = 1;
     cycles_.push_back(cycle);
-    return true;
+    return Outcome::cut;
 }
 
 /// The faces around a vertex of a path, to the right of it.
@@ -165,13 +167,14 @@ void Cutting::apply(RepairedMesh& repaired) const {
     close_loops(repaired, rims);
 }
 
-/// Candidates around vertices all over the mesh, the shortest first.
-std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const Edges& edges, Length longest, double unit) {
+/// Candidates around some vertices, the shortest first.
+std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const Edges& edges, const std::vector<int>& around,
+                                Length longest, double unit) {
     ShortCycles search(mesh, edges, unit);
     const auto step = Length(spacing * double(longest));
     std::vector<char> covered(std::size_t(mesh.vertex_count()), 0);
     std::vector<Cycle> cycles;
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
+    for (const int v : around) {
         if (covered[std::size_t(v)]) continue;
         const std::vector<Cycle> found = search.around(v, longest / 2 + step, longest);
         cycles.insert(cycles.end(), found.begin(), found.end());
@@ -182,14 +185,28 @@ std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const Edges& edges, Le
     return cycles;
 }
 
-/// Returns how many were cut.
-int cut_once(RepairedMesh& mesh, Length longest, double unit) {
+/// Cuts paths of the mesh around some vertices. Returns the vertices of those that touch a cut or the
+/// boundary, around which others may be left.
+std::vector<int> cut_around(const std::vector<int>& vertices, RepairedMesh& mesh, Length longest,
+                            double unit) {
     const TriangleMesh before = mesh.mesh;
     const Edges edges = find_edges(before);
     Cutting cutting(before, edges);
-    for (const Cycle& cycle : short_cycles(before, edges, longest, unit)) cutting.cut(cycle);
-    if (cutting.cuts() > 0) cutting.apply(mesh);
-    return cutting.cuts();
+    std::vector<int> left;
+    for (const Cycle& cycle : short_cycles(before, edges, vertices, longest, unit))
+        if (cutting.cut(cycle) == Cutting::Outcome::touches)
+            left.insert(left.end(), cycle.vertices.begin(), cycle.vertices.end());
+    if (cutting.cuts() == 0) return {};
+    cutting.apply(mesh);
+    make_set(left);
+    return left;
+}
+
+void cut_all(RepairedMesh& mesh, Length longest, double unit) {
+    std::vector<int> around(std::size_t(mesh.mesh.vertex_count()));
+    std::iota(around.begin(), around.end(), 0);
+    for (int pass = 0; pass < most_passes && !around.empty(); ++pass)
+        around = cut_around(around, mesh, longest, unit);
 }
 
 }  // namespace
@@ -197,10 +214,7 @@ int cut_once(RepairedMesh& mesh, Length longest, double unit) {
 RepairedMesh handles_cut(RepairedMesh mesh, double length) {
     if (!(length > 0)) return mesh;
     const double unit = std::sqrt(surface_area(mesh.mesh));
-    for (int i = limits - 1; i >= 0; --i) {
-        const auto longest = Length(1e6 * std::ldexp(length, -i));
-        for (int pass = 0; pass < most_passes && cut_once(mesh, longest, unit) > 0; ++pass) continue;
-    }
+    for (int i = limits - 1; i >= 0; --i) cut_all(mesh, Length(1e6 * std::ldexp(length, -i)), unit);
     return mesh;
 }
 
