@@ -34,8 +34,6 @@ constexpr double first_inverse = 0.03;
 /// The first leaves crumpled parts to their replacement; its e swept: 0.15 to 0.6.
 constexpr std::array<Round, 2> rounds{
     {{0.3, 3, 30, first_inverse, first_inverse}, {0.1, 1, 150, first_inverse, 1}}};
-/// In place of both, of a map that was unfolded at a lower resolution: what is folded there is in few places.
-constexpr Round finer{0.1, 1, 30, first_inverse, 1};
 /// The last, of an unfolded map, which settles into the other's inverse and the area bound.
 constexpr Round settling{0.1, 1, 30, 2, 2};
 constexpr int settling_sweeps = 3;       ///< local ones in each of its steps where there are no global ones
@@ -333,7 +331,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
         with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
             map.reconcile(inverse, round == 0);
         });
-    run(there, back, options.local_sweeps == 0 ? rounds[1] : finer);
+    run(there, back, rounds[1]);
     if (options.settling_steps > 0) settle(there, back);
     UntanglingReports reports;
     const PointMap A_to_B = there.points(), B_to_A = back.points();
