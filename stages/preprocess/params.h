@@ -11,7 +11,7 @@ struct PreprocessParams {
     bool mirror = false;
     RepairOptions repair;
     std::string fill_holes = "none";
-    std::string cut_handles = "auto";
+    double cut_handles = 0;
 
     void describe(ParameterList& list) {
         list.add("target_edge_length", target_edge_length,
@@ -27,8 +27,8 @@ struct PreprocessParams {
         list.add(
             "cut_handles", cut_handles,
             "handles and tunnels that a closed path of at most this length goes around are cut and closed; "
-            "units of sqrt(area); auto: 0.05 on surfaces of genus 20 or more; or none",
-            {});
+            "units of sqrt(area); 0: none",
+            0, 1);
     }
 };
 

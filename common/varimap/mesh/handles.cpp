@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 
-#include "varimap/core/error.h"
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/private/short_cycles.h"
@@ -21,10 +19,6 @@ constexpr int limits = 4;
 constexpr double spacing = 1. / 5;
 /// Most searches for paths of one length: a cut may open the way for another.
 constexpr int most_passes = 10;
-/// Of ten mouse skulls from micro-CT the genus is 178 to 351, of which a tenth is left with this length;
-/// shapes that people model or generate rarely have more than 4.
-constexpr int noisy_genus = 20;
-constexpr double noise = 0.05;
 
 /// Cuts of one mesh along paths that have no vertex in common.
 class Cutting {
@@ -215,27 +209,7 @@ void cut_all(RepairedMesh& mesh, Length longest, double unit) {
         around = cut_around(around, mesh, longest, unit);
 }
 
-/// Of all components together.
-int total_genus(const TriangleMesh& mesh) {
-    const std::vector<int> component = vertex_components(mesh);
-    const int components = 1 + *std::max_element(component.begin(), component.end());
-    return summarise_topology(mesh).genus + components - 1;
-}
-
 }  // namespace
-
-double longest_handle(const std::string& words, const TriangleMesh& mesh) {
-    if (words == "none") return 0;
-    if (words == "auto") return total_genus(mesh) >= noisy_genus ? noise : 0;
-    double length = 0;
-    const char* end = words.data() + words.size();
-    const auto [stop, error] = std::from_chars(words.data(), end, length);
-    if (error != std::errc() || stop != end || !(length >= 0 && length <= 1))
-        throw UsageError(
-            "--cut-handles " + words +
-            ": give the length of the longest path around a handle, up to 1 sqrt(area), or auto, or none");
-    return length;
-}
 
 RepairedMesh handles_cut(RepairedMesh mesh, double length) {
     if (!(length > 0)) return mesh;

@@ -1,15 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "varimap/mesh/mesh_repair.h"
 
 namespace varimap {
-
-/// The longest paths along which `words` asks to cut, for handles_cut: a number up to 1, "none" (0), or
-/// "auto": 0.05 where the genus of the mesh, of all its components together, is 20 or more, since so many
-/// handles are a scan's noise rather than a shape; else 0. Throws UsageError for others.
-double longest_handle(const std::string& words, const TriangleMesh& mesh);
 
 /// Cuts small handles and closes small tunnels of a repaired mesh: along closed paths of edges that are at
 /// most `length` long, in units of sqrt(area), and that do not separate the surface, the shortest first. Each

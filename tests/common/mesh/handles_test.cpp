@@ -7,7 +7,6 @@
 
 #include "fixtures/shapes.h"
 #include "fixtures/together.h"
-#include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
 
@@ -86,27 +85,6 @@ TEST(Handles, AreCutOnEveryComponent) {
     EXPECT_EQ(both.mesh.vertex_count(), two.vertex_count() + 24 + 12);
     const std::vector<int> parts = vertex_components(both.mesh);
     EXPECT_EQ(*std::max_element(parts.begin(), parts.end()), 1);
-}
-
-/// Rings side by side, each a component.
-TriangleMesh rings(int count) {
-    TriangleMesh all = ring();
-    for (int i = 1; i < count; ++i) {
-        TriangleMesh next = ring();
-        next.vertices.col(0).array() += 3 * i;
-        all = shapes::together(all, next);
-    }
-    return all;
-}
-
-TEST(Handles, ReadsHowLongTheyMayBe) {
-    EXPECT_EQ(longest_handle("none", ring()), 0);
-    EXPECT_EQ(longest_handle("0.125", ring()), 0.125);
-    EXPECT_EQ(longest_handle("auto", ring()), 0);
-    EXPECT_EQ(longest_handle("auto", rings(19)), 0);
-    EXPECT_EQ(longest_handle("auto", rings(20)), 0.05);
-    for (const char* words : {"", "some", "-1", "2", "0.1x", "nan"})
-        EXPECT_THROW(longest_handle(words, ring()), UsageError) << words;
 }
 
 /// Where a mesh lies, and how large it is, changes nothing.
