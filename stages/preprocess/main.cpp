@@ -1,5 +1,6 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/mesh/bridges.h"
+#include "varimap/mesh/handles.h"
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/surface.h"
@@ -34,6 +35,7 @@ void record(Stage& stage, const RepairCounts& counts) {
     number("filled_holes", counts.filled_holes);
     number("filling_faces", counts.filling_faces);
     number("unfilled_holes", counts.unfilled_holes);
+    number("cut_handles", counts.cut_handles);
     number("bridges", counts.bridges);
     number("dropped_components", counts.dropped_components);
     number("dropped_area_percent", 100 * counts.dropped_area);
@@ -51,7 +53,8 @@ int main(int argc, char** argv) {
         const TriangleMesh file = read_mesh(in);
         RepairedMesh input = repaired(file, params.repair, in);
         stage.record_file("mesh", in);
-        input = bridged(holes_filled(std::move(input), longest_hole(params.fill_holes)));
+        input = holes_filled(std::move(input), longest_hole(params.fill_holes));
+        input = bridged(handles_cut(std::move(input), params.cut_handles));
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());

@@ -11,6 +11,7 @@ struct PreprocessParams {
     bool mirror = false;
     RepairOptions repair;
     std::string fill_holes = "none";
+    double cut_handles = 0;
 
     void describe(ParameterList& list) {
         list.add("target_edge_length", target_edge_length,
@@ -23,6 +24,11 @@ struct PreprocessParams {
         repair.describe(list);
         list.add("fill_holes", fill_holes,
                  "boundary loops of at most so many edges are closed; or all, or none", {});
+        list.add(
+            "cut_handles", cut_handles,
+            "handles and tunnels that a closed path of at most this length goes around are cut and closed; "
+            "units of sqrt(area); 0: none",
+            0, 1);
     }
 };
 

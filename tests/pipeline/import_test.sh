@@ -38,6 +38,25 @@ fbx() {
         }' "$1"
 }
 
+# glb FILE.OFF: as binary glTF.
+glb() {
+    perl -e '
+        local $/;
+        my (undef, $n, $f, undef, @word) = split " ", <>;
+        my @face = splice @word, 3 * $n;
+        my $places = pack "f<*", @word;
+        my $corners = pack "V*", map { @face[4 * $_ + 1 .. 4 * $_ + 3] } 0 .. $f - 1;
+        my ($p, $c) = (length $places, length $corners);
+        my $json = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+            . "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"buffers\":[{\"byteLength\":"
+            . ($p + $c) . "}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":$p},{\"buffer\":0,\"byteOffset\":$p,\"byteLength\":$c}],"
+            . "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":$n,\"type\":\"VEC3\",\"min\":[-9,-9,-9],"
+            . "\"max\":[9,9,9]},{\"bufferView\":1,\"componentType\":5125,\"count\":" . 3 * $f . ",\"type\":\"SCALAR\"}]}";
+        $json .= " " x (-length($json) % 4);
+        print pack("a4VV", "glTF", 2, 28 + length($json) + $p + $c), pack("Va4", length $json, "JSON"), $json,
+            pack("Va4", $p + $c, "BIN\0"), $places, $corners;' "$1"
+}
+
 map a.off b.off -o plain
 dae a.off >a.dae
 fbx b.off >"b b.FBX"
@@ -57,6 +76,13 @@ fbx c.off >"b b.FBX"
 map a.dae "b b.FBX" -o out
 map a.off c.off -o changed
 same changed/source_to_target.csv out/source_to_target.csv
+
+# A batch takes a folder of them, too.
+mkdir folder
+glb a.off >folder/one.glb
+glb b.off >folder/two.GLB
+"$varimap" batch --all-pairs folder -o batch -j 1 "${small_picture[@]}" >out.txt 2>log || fail "batch: $(tail -n 1 log)"
+grep -q '^pairs *1 of 1 done, 0 failed' out.txt || fail "batch: $(<out.txt)"
 
 # make alone.
 mkdir made

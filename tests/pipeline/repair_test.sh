@@ -105,6 +105,20 @@ map holed.off b.off -o open --landmarks tips.txt "${coarse[@]}"
 jq -e '.stages["preprocess holed"] | .boundary_loops == 1 and (has("filled_holes") | not)' open/quality.json >/dev/null ||
     fail "a hole is filled that should stay"
 
+# A handle is cut on request, and every vertex of the file keeps its row and an image.
+mkdir handle
+"$VARIMAP_BIN/varimap-generate" handle 1 handle >log 2>&1 || fail "generate"
+expect_exit 2 "$varimap" map handle/source.ply handle/target.ply -o cut --cut-handles some
+map handle/source.ply handle/target.ply -o cut --landmarks handle/landmarks.txt --cut-handles .3 "${coarse[@]}"
+grep -q 'warning  preprocess target: repaired: 1 small handle or tunnel closed' out.txt || fail "the cut handle is not told"
+jq -e '(.stages["preprocess target"] | .cut_handles == 1 and .genus == 0)
+    and (.stages["preprocess source"] | .genus == 0 and (has("cut_handles") | not))' cut/quality.json >/dev/null ||
+    fail "the cut handle is not counted"
+awk -F, 'NR > 1 && $2 < 0 { bad = 1 } END { exit bad }' cut/target_to_source.csv || fail "rows of a mesh whose handle is cut"
+map handle/source.ply handle/target.ply -o whole --landmarks handle/landmarks.txt "${coarse[@]}"
+jq -e '.stages["preprocess target"] | .genus == 1 and (has("cut_handles") | not)' whole/quality.json >/dev/null ||
+    fail "a handle is cut that should stay"
+
 # Which meshes are taken, and what is repaired.
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 0\n3 0 1 0\n' >nothing.off
 "$varimap" survey a.off holed.off >survey.csv 2>log || fail "survey"

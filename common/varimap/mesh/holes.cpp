@@ -19,7 +19,7 @@ constexpr double thin = 0.02;
 /// Loops of so many edges are triangulated at once.
 constexpr std::size_t at_once = 200;
 
-using Loop = std::vector<int>;  ///< vertices, in the order in which faces that close it name them
+using Loop = BoundaryLoop;
 using Triangle = std::array<int, 3>;
 
 /// By their lowest vertices.
@@ -159,21 +159,30 @@ RepairedMesh holes_filled(RepairedMesh repaired, int edges) {
     if (edges < 3) return repaired;
     const std::vector<Loop> loops = boundary_loops(repaired.mesh);
     if (loops.empty()) return repaired;
+    std::vector<Loop> chosen;
+    for (const Loop& loop : loops)
+        if (int(loop.size()) <= edges) chosen.push_back(loop);
+    const int before = repaired.mesh.face_count();
+    for (const char closed : close_loops(repaired, chosen))
+        ++(closed ? repaired.counts.filled_holes : repaired.counts.unfilled_holes);
+    repaired.counts.filling_faces = repaired.mesh.face_count() - before;
+    return repaired;
+}
+
+std::vector<char> close_loops(RepairedMesh& repaired, const std::vector<Loop>& loops) {
     const Adjacency neighbours = vertex_neighbours(repaired.mesh);
-    const double total_area = surface_area(repaired.mesh);
-    HoleFilling filling(repaired.mesh, neighbours, total_area);
+    HoleFilling filling(repaired.mesh, neighbours, surface_area(repaired.mesh));
     std::vector<Triangle> added;
+    std::vector<char> closed;
     for (const Loop& loop : loops) {
-        if (int(loop.size()) > edges) continue;
         const std::vector<Triangle> faces = filling.fill(loop);
         added.insert(added.end(), faces.begin(), faces.end());
-        ++(faces.empty() ? repaired.counts.unfilled_holes : repaired.counts.filled_holes);
+        closed.push_back(!faces.empty());
     }
-    if (added.empty()) return repaired;
-    repaired.counts.filling_faces = int(added.size());
+    if (added.empty()) return closed;
     if (repaired.link.is_identity()) repaired.link = link_to_itself(repaired.mesh);
     add(added, repaired);
-    return repaired;
+    return closed;
 }
 
 }  // namespace varimap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "varimap/mesh/mesh_repair.h"
 
@@ -17,5 +18,11 @@ int longest_hole(const std::string& words);
 /// closed so stays open. Returns the mesh, with the numbers in `counts`. O(200^2 n + m^2) for loops of n and
 /// m edges.
 RepairedMesh holes_filled(RepairedMesh mesh, int edges);
+
+/// A boundary loop: its vertices, in the order in which faces that close it name them.
+using BoundaryLoop = std::vector<int>;
+
+/// Closes some boundary loops, as above. Returns which could be closed.
+std::vector<char> close_loops(RepairedMesh& mesh, const std::vector<BoundaryLoop>& loops);
 
 }  // namespace varimap

@@ -11,8 +11,6 @@ namespace varimap {
 
 namespace {
 
-constexpr int farthest = 20'000;  ///< faces that the search for a path looks at
-
 double angle(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -103,7 +101,7 @@ LogMap::Vec2 LogMap::seen(const SurfacePoint& from, const TriangleStrip& strip, 
 }
 
 std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b) const {
-    TriangleStrip strip = find_strip(mesh_, edges_, a.face, b.face, farthest);
+    TriangleStrip strip = find_strip(mesh_, edges_, a.face, b.face, farthest_);
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
     const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
     straighten(mesh_, edges_, strip, start, goal);

@@ -14,7 +14,9 @@ namespace varimap {
 class LogMap {
   public:
     using Vec2 = Eigen::Vector2d;
-    explicit LogMap(const TriangleMesh& mesh) : mesh_(mesh), edges_(find_edges(mesh)) {}
+    /// `farthest`: faces that the search for a path looks at.
+    explicit LogMap(const TriangleMesh& mesh, int farthest = 20'000)
+        : mesh_(mesh), edges_(find_edges(mesh)), farthest_(farthest) {}
 
     /// b as seen from a, and a as seen from b. Both must have a face. Where no path is found (other
     /// components, or too far), both are 0.
@@ -26,6 +28,7 @@ class LogMap {
 
     const TriangleMesh& mesh_;
     Edges edges_;
+    int farthest_;
 };
 
 /// The vertex a surface point coincides with; -1: none.

@@ -301,6 +301,7 @@ std::string in_words(const RepairCounts& counts) {
     add(counts.filled_holes, "hole filled", "holes filled");
     add(counts.unfilled_holes, "hole left open, which cannot be filled without new vertices",
         "holes left open, which cannot be filled without new vertices");
+    add(counts.cut_handles, "small handle or tunnel closed", "small handles and tunnels closed");
     add(counts.bridges, "component joined to the rest by a thin bridge",
         "components joined to the rest by thin bridges");
     return text;

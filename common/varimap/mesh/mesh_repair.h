@@ -54,6 +54,7 @@ struct RepairCounts {
     int filled_holes = 0;        ///< boundary loops closed (holes.h)
     int filling_faces = 0;       ///< with so many faces
     int unfilled_holes = 0;      ///< loops that should have been, but could not
+    int cut_handles = 0;         ///< handles cut through and tunnels closed (handles.h)
     int bridges = 0;             ///< tubes that join components (bridges.h)
 
     bool any() const {

@@ -10,15 +10,18 @@ namespace varimap {
 /// cut through: their sides are shortest paths. Keeps a reference to the mesh. Thread-safe.
 class LaidOut {
   public:
-    explicit LaidOut(const TriangleMesh& mesh) : log_map_(mesh) {}
+    explicit LaidOut(const TriangleMesh& mesh) : log_map_(mesh, farthest) {}
 
     /// Which way round the triangle goes: the sum of its signed areas as laid out from each corner, by the
     /// sum of their sizes. 1 where all are counter-clockwise from outside, -1 where clockwise, between where
-    /// they differ, because it lies around a bend. NaN where two corners are not connected, or it has no
-    /// area.
+    /// they differ, because it lies around a bend. NaN where two corners are not connected or as far apart
+    /// along the surface as torn triangles have them, or it has no area.
     double sense(const std::array<SurfacePoint, 3>& corners) const;
 
   private:
+    /// Faces looked at for the path between two corners. Those of torn triangles, near in space and far along
+    /// the surface, are looked for in vain again and again: on a skull, that was most of the time of repair.
+    static constexpr int farthest = 2000;
     LogMap log_map_;
 };
 

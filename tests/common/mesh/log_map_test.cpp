@@ -59,5 +59,19 @@ TEST(LogMap, TurnsOnceAroundTipsAndOrdinaryPoints) {
     }
 }
 
+TEST(LogMap, LooksOnlySoFar) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    const PointMap at = shapes::at_vertices(sphere);
+    const auto distance = [&](int farthest, const SurfacePoint& to) {
+        return LogMap(sphere, farthest)(at[0], to).first.norm();
+    };
+    const SurfacePoint &near = at[std::size_t(vertex_neighbours(sphere)[0][0])],
+                       &far = at[3];  // the opposite pole
+    EXPECT_GT(distance(20, near), 0.05);
+    EXPECT_NEAR(distance(20, near), distance(20'000, near), 1e-12);
+    EXPECT_EQ(distance(20, far), 0);
+    EXPECT_GT(distance(20'000, far), 1);
+}
+
 }  // namespace
 }  // namespace varimap

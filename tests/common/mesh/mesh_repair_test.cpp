@@ -286,6 +286,24 @@ TEST(MeshRepair, BridgesMakeOneSurface) {
     EXPECT_TRUE(one.link.is_identity());
 }
 
+/// A ball within another is joined to it anywhere as well: opposite to the spike, wherever the ball lies.
+TEST(MeshRepair, BridgesOfRoundPartsLieOppositeToATip) {
+    TriangleMesh outer = shapes::ellipsoid(3);
+    Eigen::Index spike = 0;
+    outer.vertices.col(0).maxCoeff(&spike);
+    outer.vertices.row(spike) *= 3;
+    for (const Vec3& shift : {Vec3(0, .03, 0), Vec3(0, -.02, .02)}) {
+        TriangleMesh inner = shapes::ellipsoid(3, Vec3::Constant(.9));
+        inner.vertices.rowwise() += shift.transpose();
+        const RepairedMesh joined = bridged(repaired(together(outer, inner)));
+        ASSERT_EQ(joined.counts.bridges, 1);
+        for (int f = 0; f < joined.mesh.face_count(); ++f) {
+            if (joined.link.face[std::size_t(f)] >= 0) continue;
+            for (const int v : joined.mesh.faces.row(f)) EXPECT_LT(joined.mesh.vertices(v, 0), -.8);
+        }
+    }
+}
+
 TEST(MeshRepair, RefusesWhatItIsNotAskedToRepair) {
     TriangleMesh mixed = shapes::ellipsoid(1);
     std::swap(mixed.faces(0, 1), mixed.faces(0, 2));
