@@ -24,8 +24,8 @@ Points circle() {
 }
 
 /// Turned by so many samples.
-SampledMap turned(int by, double score) {
-    SampledMap map{{}, {}, score};
+SampledMap turned(int by, double probability) {
+    SampledMap map{{}, {}, probability};
     for (int i = 0; i < count; ++i) {
         map.there.push_back((i + by) % count);
         map.back.push_back((i - by + count) % count);
@@ -33,30 +33,39 @@ SampledMap turned(int by, double score) {
     return map;
 }
 
-/// All pairs of circles; each has the right map, the identity, and one that is turned by a half; `wrong`
-/// pairs have the wrong one first.
+/// The right map is the identity, the wrong one is turned by a half.
+constexpr int wrong_turn = count / 2;
+
+/// All pairs of circles; each has both maps. `wrong` pairs have the wrong one first, which they are less sure
+/// of.
 std::vector<PairOfMaps> pairs_of(int surfaces, const std::vector<int>& wrong) {
     std::vector<PairOfMaps> pairs;
     for (int a = 0; a < surfaces; ++a)
         for (int b = a + 1; b < surfaces; ++b) {
             const bool bad = std::count(wrong.begin(), wrong.end(), int(pairs.size())) > 0;
-            pairs.push_back(
-                {a,
-                 b,
-                 {turned(bad ? count / 2 : 0, 1), turned(bad ? 0 : count / 2, 1 + (bad ? .02 : .1))},
-                 bad ? .6 : .9});
+            if (bad)
+                pairs.push_back({a, b, {turned(wrong_turn, .5), turned(0, .4)}});
+            else
+                pairs.push_back({a, b, {turned(0, .8), turned(wrong_turn, .1)}});
         }
     return pairs;
 }
 
+/// Every pair takes the map that is the identity.
+void expect_identities(const Choice& choice, const std::vector<PairOfMaps>& pairs) {
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+        EXPECT_EQ(pairs[p].maps[std::size_t(choice[p])].there, turned(0, 0).there) << "pair " << p;
+}
+
 TEST(Choice, KeepsFirstMapsWhoseLoopsClose) {
     const Samples samples(5, circle());
-    EXPECT_THAT(choose(samples, pairs_of(5, {})), Each(0));
+    auto pairs = pairs_of(5, {});
+    EXPECT_THAT(choose(samples, pairs), Each(0));
 }
 
 TEST(Choice, TakesTheMapsUnderWhichLoopsClose) {
     const Samples samples(5, circle());
-    const auto pairs = pairs_of(5, {2, 7});
+    auto pairs = pairs_of(5, {2, 7});
     Choice expected(pairs.size(), 0);
     expected[2] = expected[7] = 1;
     EXPECT_EQ(choose(samples, pairs), expected);
@@ -69,15 +78,51 @@ TEST(Choice, TakesTheMapsUnderWhichLoopsClose) {
     EXPECT_EQ(after[2].error, 0);
 }
 
-/// Nearly half of the maps are wrong, so that one pair at a time finds no way; the spanning tree of the
-/// trusted does.
-TEST(Choice, FollowsTheTrustedPairs) {
+/// Nearly half of the maps are wrong, so that one pair at a time finds no way.
+TEST(Choice, FollowsThePairsThatAreSurer) {
     const Samples samples(6, circle());
-    const std::vector<int> wrong{5, 6, 7, 9, 12, 13};
-    const auto pairs = pairs_of(6, wrong);
-    const Choice found = choose(samples, pairs);
-    for (int p = 0; p < int(pairs.size()); ++p)
-        EXPECT_EQ(found[std::size_t(p)], std::count(wrong.begin(), wrong.end(), p)) << "pair " << p;
+    auto pairs = pairs_of(6, {5, 6, 7, 9, 12, 13});
+    expect_identities(choose(samples, pairs), pairs);
+}
+
+/// Two of seven surfaces are turned against the others in seven of ten pairs, so that more loops close where
+/// they stay turned; but the three other pairs know.
+TEST(Choice, IsNoMatterOfMajorities) {
+    const Samples samples(7, circle());
+    auto pairs = pairs_of(7, {});
+    int across = 0;
+    for (PairOfMaps& pair : pairs)
+        if (pair.source < 5 && pair.target >= 5)
+            pair.maps = ++across <= 7 ? std::vector{turned(wrong_turn, .5), turned(0, .4)}
+                                      : std::vector{turned(0, .95), turned(wrong_turn, .01)};
+    expect_identities(choose(samples, pairs), pairs);
+}
+
+TEST(Choice, LeavesSurePairsAlone) {
+    const Samples samples(5, circle());
+    auto pairs = pairs_of(5, {2});
+    pairs[2].sure = true;
+    EXPECT_THAT(choose(samples, pairs), Each(0));
+    pairs[2].sure = false;
+    expect_identities(choose(samples, pairs), pairs);
+}
+
+/// What the layout says is one more map where the ways over third surfaces are more probable than the pair's
+/// own first.
+TEST(Choice, AddsAComposedMapWhereNoneFits) {
+    for (const double probability : {.1, .6}) {
+        const Samples samples(3, circle());
+        auto pairs = pairs_of(3, {});
+        for (const std::size_t other : {1, 2}) pairs[other].maps = {turned(0, .7), turned(wrong_turn, .1)};
+        pairs[0].maps = {turned(wrong_turn, probability), turned(wrong_turn - 3, .05)};
+        const bool added = probability < .7 * .7;
+        const Choice choice = choose(samples, pairs);
+        EXPECT_EQ(choice[0], added ? 2 : 0);
+        ASSERT_EQ(pairs[0].maps.size(), added ? 3u : 2u);
+        if (!added) continue;
+        EXPECT_EQ(pairs[0].maps[2].there, turned(0, 0).there);
+        EXPECT_EQ(measure_loops(samples, pairs, choice)[0].closed, 1);
+    }
 }
 
 TEST(Choice, ReversedPairsAndTwoSurfacesAreServed) {
@@ -86,7 +131,7 @@ TEST(Choice, ReversedPairsAndTwoSurfacesAreServed) {
     std::swap(pairs[1].source, pairs[1].target);  // all maps are their own inverses
     EXPECT_THAT(choose(samples, pairs), Each(0));
     EXPECT_EQ(measure_loops(samples, pairs, {0, 0, 0})[0].closed, 1);
-    const std::vector<PairOfMaps> alone{pairs[0]};
+    std::vector<PairOfMaps> alone{pairs[0]};
     EXPECT_THAT(choose(samples, alone), ElementsAre(0));
     EXPECT_EQ(measure_loops(samples, alone, {0})[0].count, 0);
 }
