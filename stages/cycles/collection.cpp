@@ -7,8 +7,6 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/surface.h"
-#include "varimap/results/surface_map.h"
 
 namespace varimap {
 namespace {
@@ -110,15 +108,15 @@ std::vector<double> probabilities(const std::vector<Candidate>& candidates) {
     return result;
 }
 
-std::string table(const Collection& collection, const PairOfMaps& pair, const SampledMap& map) {
-    const auto source = read_artifact<Surface>(collection.sketches[std::size_t(pair.source)]).value;
-    const auto target = read_artifact<Surface>(collection.sketches[std::size_t(pair.target)]).value;
-    const auto near = nearest(source.input.vertices / std::sqrt(surface_area(source.input)),
-                              collection.samples[std::size_t(pair.source)]);
+PointMap on_files(const SampledMap& map, const Surface& source, const Surface& target) {
+    Points samples(Eigen::Index(source.on_input.size()), 3);
+    for (std::size_t i = 0; i < source.on_input.size(); ++i)
+        samples.row(Eigen::Index(i)) = position(source.input, source.on_input[i]).transpose();
+    const auto near = nearest(source.input.vertices, samples);
     PointMap images(near.size());
     for (std::size_t v = 0; v < near.size(); ++v)
         images[v] = target.on_input[std::size_t(map.there[std::size_t(near[v])])];
-    return to_csv(to_file(std::move(images), source, target));
+    return to_file(std::move(images), source, target);
 }
 
 Collection Collection::read(const std::string& manifest) {

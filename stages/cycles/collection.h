@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stages/cycles/choice.h"
+#include "varimap/mesh/surface.h"
 #include "varimap/results/candidates.h"
 
 namespace varimap {
@@ -20,8 +21,9 @@ struct Collection {
     static Collection read(const std::string& manifest);
 };
 
-/// One of a pair's maps as a table of the vertices of the source's file, for --initial-map.
-std::string table(const Collection& collection, const PairOfMaps& pair, const SampledMap& map);
+/// A map of samples, which are the vertices of the surfaces' meshes, as one of the vertices of the source's
+/// file: each goes where the nearest sample goes.
+PointMap on_files(const SampledMap& map, const Surface& source, const Surface& target);
 
 /// Per candidate, how probable it is that it is the right map, as far as its pair alone tells; 0 for mirrored
 /// ones.

@@ -2,9 +2,22 @@
 
 #include "stages/cycles/collection.h"
 #include "varimap/core/log.h"
+#include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;
+
+namespace {
+
+/// What was added to a pair's maps, as a table for --initial-map.
+void write_composed(const Collection& all, std::size_t pair, const std::string& folder) {
+    const auto surface = [&](int s) { return read_artifact<Surface>(all.sketches[std::size_t(s)]).value; };
+    const PairOfMaps& maps = all.pairs[pair];
+    write_file_atomically(folder + "/" + all.names[pair] + ".csv",
+                          to_csv(on_files(maps.maps.back(), surface(maps.source), surface(maps.target))));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     Stage stage("cycles", "Which of the maps found for each pair make the loops of a collection close");
@@ -23,11 +36,8 @@ int main(int argc, char** argv) {
         int others = 0, composed = 0;
         fmt::print("name,candidate,candidates,loops,closed_before,closed,error_before,error\n");
         for (std::size_t p = 0; p < all.pairs.size(); ++p) {
-            const PairOfMaps& pair = all.pairs[p];
             const bool is_composed = std::size_t(choice[p]) == candidates[p];
-            if (is_composed && !folder.empty())
-                write_file_atomically(folder + "/" + all.names[p] + ".csv",
-                                      table(all, pair, pair.maps[std::size_t(choice[p])]));
+            if (is_composed && !folder.empty()) write_composed(all, p, folder);
             composed += is_composed;
             others += !is_composed && choice[p] != 0;
             fmt::print("{},{},{},{},{},{},{:.5f},{:.5f}\n", all.names[p],

@@ -107,6 +107,16 @@ batch --all-pairs meshes -o together --consistent -j 2
 [[ -s together/pairs/a--c/log.txt && ! -s together/pairs/a--b/log.txt ]] || fail "a pair whose choice changed"
 [[ $(jq -r .candidate together/pairs/a--c/result.json) == 1 ]] || fail "the map that is chosen now"
 
+# A composed map is the way that a pair begins with; another choice, and the pair is done again.
+mkdir -p together/batch/composed
+cp all/pairs/a--b/source_to_target.csv together/batch/composed/a--b.csv
+printf 'a--b\tcomposed-0123456789abcdef\n' >together/batch/candidates.tsv
+"$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/together" pair a--b 1 >out.txt 2>log || fail "the job of a composed pair (exit $?)"
+[[ $(jq -r '.candidate, .status' together/pairs/a--b/result.json | xargs) == "composed-0123456789abcdef done" ]] || fail "a composed pair"
+jq -e '.exploration == null' together/pairs/a--b/quality.json >/dev/null || fail "a composed pair was explored"
+batch --all-pairs meshes -o together --consistent -j 2
+same together/pairs/a--b/source_to_target.csv all/pairs/a--b/source_to_target.csv
+
 # Bad input: one line, and nothing is made.
 expect_exit 2 "$varimap" batch
 expect_exit 2 "$varimap" batch lists/pairs.csv

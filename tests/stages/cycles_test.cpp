@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
 #include "stages/cycles/choice.h"
+#include "stages/cycles/collection.h"
 
 namespace varimap {
 namespace {
@@ -134,6 +137,42 @@ TEST(Choice, ReversedPairsAndTwoSurfacesAreServed) {
     std::vector<PairOfMaps> alone{pairs[0]};
     EXPECT_THAT(choose(samples, alone), ElementsAre(0));
     EXPECT_EQ(measure_loops(samples, alone, {0})[0].count, 0);
+}
+
+/// The source has more vertices than samples: each vertex goes where the sample nearest to it goes.
+TEST(OnFiles, VerticesGoWhereTheNearestSampleGoes) {
+    Surface source = shapes::plain_surface(shapes::ellipsoid(2, {3, 2, 1}));
+    const Surface target = shapes::plain_surface(shapes::ellipsoid(1, {1, 2, 3}));
+    source.on_input.resize(42);  // the first vertices are those of the coarser one
+    SampledMap map;
+    for (int i = 0; i < 42; ++i) map.there.push_back(41 - i);
+    const PointMap images = on_files(map, source, target);
+    ASSERT_EQ(images.size(), std::size_t(source.input.vertex_count()));
+    for (int v = 0; v < source.input.vertex_count(); ++v) {
+        int near = 0;
+        for (int i = 1; i < 42; ++i)
+            if ((source.input.vertex(i) - source.input.vertex(v)).norm() <
+                (source.input.vertex(near) - source.input.vertex(v)).norm())
+                near = i;
+        EXPECT_LT((position(target.input, images[std::size_t(v)]) - target.input.vertex(41 - near)).norm(),
+                  1e-12)
+            << "vertex " << v;
+    }
+}
+
+/// Those of all maps and of none of them are one; what is as good as the first is as probable.
+TEST(Probabilities, AreSharedByScore) {
+    Candidate good;
+    good.relief = .9;
+    good.score = 1;
+    Candidate worse = good, mirrored = good;
+    worse.score = 1.2;
+    mirrored.reversed_mass = .9;
+    const auto p = probabilities({good, good, worse, mirrored});
+    EXPECT_EQ(p[0], p[1]);
+    EXPECT_LT(p[2], p[0] / 10);
+    EXPECT_EQ(p[3], 0);
+    EXPECT_NEAR(p[0] + p[1] + p[2], plausibility(good), 1e-12);
 }
 
 }  // namespace
