@@ -13,10 +13,10 @@ namespace varimap {
 namespace {
 
 // Chosen on generated bipeds and quadrupeds.
-constexpr double tolerance = .1;             // distance at which a map hardly agrees with the layout any more
-constexpr double chance = .05;               // that a layout is right which none of a pair's maps agrees with
-constexpr double clearly = 5;                // times more probable is what a first map is given up for
-constexpr int witnesses = 2;                 // ways over third surfaces that a composed map needs
+constexpr double tolerance = .1;  // distance at which a map hardly agrees with the layout any more
+constexpr double chance = .05;    // that a layout is right which none of a pair's maps agrees with
+constexpr double clearly = 4;     // by that much (log) a layout is more probable that gives up a first map
+constexpr int witnesses = 2;      // ways over third surfaces that a composed map needs
 constexpr std::size_t most_loops = 60;       // for each pair; the nearest by number
 constexpr std::size_t most_neighbours = 20;  // over which a surface is tried to be laid out; the surest
 constexpr std::size_t most_roots = 10;       // layouts
@@ -91,9 +91,11 @@ class Layout {
         const auto terms =
             probabilities(p, places_[std::size_t(pair.source)], places_[std::size_t(pair.target)]);
         const auto best = std::max_element(terms.begin(), terms.end());
-        if (*best < clearly * terms.front()) return 0;
         const auto number = std::size_t(best - terms.begin());
-        return number < pair.maps.size() || seen(p) > pair.maps.front().probability ? number : 0;
+        if (number == 0) return 0;
+        const bool given_up = number < pair.maps.size() ? loss_with_first(p) >= clearly
+                                                        : seen(p) > pair.maps.front().probability;
+        return given_up ? number : 0;
     }
 
     /// What the layout says of a pair.
@@ -198,6 +200,17 @@ class Layout {
         }
         terms.push_back(chance * std::max(none, 1e-3));
         return terms;
+    }
+
+    /// How much less probable (log) the layout is with one of the pair's surfaces where the pair's first map
+    /// has it.
+    double loss_with_first(std::size_t p) const {
+        const int source = pairs_[p].source, target = pairs_[p].target;
+        const auto loss = [&](int surface, const Neighbour& over) {
+            return log_probability(surface, places_[std::size_t(surface)]) -
+                   log_probability(surface, place_over(over, 0));
+        };
+        return std::min(loss(source, {p, target, false}), loss(target, {p, source, true}));
     }
 
     /// Probability that what the layout says of a pair is right, as far as the pair alone tells.

@@ -47,9 +47,9 @@ std::vector<PairOfMaps> pairs_of(int surfaces, const std::vector<int>& wrong) {
         for (int b = a + 1; b < surfaces; ++b) {
             const bool bad = std::count(wrong.begin(), wrong.end(), int(pairs.size())) > 0;
             if (bad)
-                pairs.push_back({a, b, {turned(wrong_turn, .5), turned(0, .4)}});
+                pairs.push_back({a, b, {turned(wrong_turn, .3), turned(0, .25)}});
             else
-                pairs.push_back({a, b, {turned(0, .8), turned(wrong_turn, .1)}});
+                pairs.push_back({a, b, {turned(0, .9), turned(wrong_turn, .02)}});
         }
     return pairs;
 }
@@ -81,10 +81,10 @@ TEST(Choice, TakesTheMapsUnderWhichLoopsClose) {
     EXPECT_EQ(after[2].error, 0);
 }
 
-/// Nearly half of the maps are wrong, so that one pair at a time finds no way.
+/// Most maps of surface 3 are wrong; the two that are right know it.
 TEST(Choice, FollowsThePairsThatAreSurer) {
     const Samples samples(6, circle());
-    auto pairs = pairs_of(6, {5, 6, 7, 9, 12, 13});
+    auto pairs = pairs_of(6, {5, 6, 9, 12});
     expect_identities(choose(samples, pairs), pairs);
 }
 
@@ -96,7 +96,7 @@ TEST(Choice, IsNoMatterOfMajorities) {
     int across = 0;
     for (PairOfMaps& pair : pairs)
         if (pair.source < 5 && pair.target >= 5)
-            pair.maps = ++across <= 7 ? std::vector{turned(wrong_turn, .5), turned(0, .4)}
+            pair.maps = ++across <= 7 ? std::vector{turned(wrong_turn, .3), turned(0, .25)}
                                       : std::vector{turned(0, .95), turned(wrong_turn, .01)};
     expect_identities(choose(samples, pairs), pairs);
 }
@@ -170,7 +170,8 @@ TEST(Probabilities, AreSharedByScore) {
     mirrored.reversed_mass = .9;
     const auto p = probabilities({good, good, worse, mirrored});
     EXPECT_EQ(p[0], p[1]);
-    EXPECT_LT(p[2], p[0] / 10);
+    EXPECT_LT(p[2], p[0] / 2);
+    EXPECT_GT(p[2], 0.05);  // scores mislead now and then
     EXPECT_EQ(p[3], 0);
     EXPECT_NEAR(p[0] + p[1] + p[2], plausibility(good), 1e-12);
 }
