@@ -30,6 +30,14 @@ map meshes/a.off meshes/b.off -o alone "${coarse[@]}"
 same all/pairs/a--b/source_to_target.csv alone/source_to_target.csv
 same all/artifacts/a--b.plan alone/artifacts/a--b.plan
 
+# How far off these maps are, of which vertex i goes to vertex i.
+mkdir lists_of
+for surface in a b c; do seq 0 145 >lists_of/$surface.txt; done
+"$VARIMAP_SOURCE/pipelines/batch/errors" all lists_of >errors.csv 2>log || fail "errors (exit $?)"
+[[ $(column errors.csv pair | grep -c -- --) == 3 ]] || fail "errors of three pairs"
+grep -q '^6 of 6 maps are right' errors.csv || fail "the maps are wrong: $(tail -n 3 errors.csv)"
+expect_exit 6 "$VARIMAP_SOURCE/pipelines/batch/errors" all meshes
+
 # As far as a stage, and then on.
 map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse
 [[ -s part/artifacts/a--b.diffusion && ! -e part/artifacts/a--b.plan && ! -e part/quality.json ]] || fail "--until diffuse"
