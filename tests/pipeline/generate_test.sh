@@ -22,7 +22,8 @@ for folder in members more; do
     "$generate" tool 3 $folder --members 3 --vertices 800 >/dev/null 2>log || fail "--members (exit $?)"
 done
 diff -r members more || fail "the same collection twice differs"
-[[ $(ls members | xargs) == "tool_000.ply tool_000.txt tool_001.ply tool_001.txt tool_002.ply tool_002.txt" ]] || fail "it left $(ls members)"
+files=(members/*)
+[[ ${files[*]##*/} == "tool_000.ply tool_000.txt tool_001.ply tool_001.txt tool_002.ply tool_002.txt" ]] || fail "it left ${files[*]}"
 [[ $(wc -l <members/tool_000.txt) -ge 30 ]] || fail "few places"
 for list in members/*.txt; do
     [[ $(wc -l <"$list") == $(wc -l <members/tool_000.txt) ]] || fail "lists of different lengths"
