@@ -1,23 +1,31 @@
 # What jobs cost by the model (cost_model.csv: seconds of a core and megabytes of each stage, linear in thousands of
 # vertices; of a pair, those of both surfaces divided by two).
 #   awk -v what=pending|stages|sum -v full= -v explore= -v cores= -f cost.awk cost_model.csv surfaces.tsv DONE pairs.tsv
-# pending: lines of KIND NAME SECONDS MEGABYTES; stages: of KIND NAME STAGE SECONDS MEGABYTES; sum: all of it in words.
+# pending: lines of KIND NAME SECONDS MEGABYTES ROW (the byte, from 1, at which its row in surfaces.tsv or pairs.tsv begins); stages: of KIND NAME STAGE SECONDS MEGABYTES; sum: all of it in words.
+# Of pairs with landmarks, explore_if_needed is what exploration costs in the mean, with the sketches for it.
 # DONE: lines of KIND and NAME, tab-separated, which cost nothing any more.
-function add(kind, name, size, looked_for,    s, on_all, seconds, megabytes, all, peak) {
+function add(kind, name, size, looked_for, row,    s, on_all, seconds, megabytes, all, peak) {
     for (s = 1; s <= stages; s++) {
-        if (of[s] != kind || (!looked_for && (stage[s] == "explore" || stage[s] == "sketches"))) continue
+        if (of[s] != kind) continue
+        if (looked_for ? stage[s] == "explore_if_needed" : stage[s] == "explore" || stage[s] == "sketches") continue
         # Solved for on every vertex instead of 6000: 24 MB and 2.5 seconds more for a thousand vertices.
         on_all = full && (stage[s] == "diffuse" || stage[s] == "refine")
         seconds = seconds0[s] + (seconds1[s] + 2.5 * on_all) * size
         megabytes = megabytes0[s] + (megabytes1[s] + 24 * on_all) * size
-        if (what == "stages") printf "%s %s %s %.1f %.0f\n", kind, name, stage[s], seconds, megabytes
+        if (what == "stages") printf "%s %s %s %.1f %.0f\n", kind, name, (stage[s] ~ /^explore/ ? "explore" : stage[s]), seconds, megabytes
         all += seconds
         if (megabytes > peak) peak = megabytes
     }
-    if (what == "pending") printf "%s %s %.1f %.0f\n", kind, name, all, peak
+    if (what == "pending") printf "%s %s %.1f %.0f %d\n", kind, name, all, peak, row
     total += all
     if (peak > highest) highest = peak
     count[kind]++
+}
+function row_after(    row) {
+    if (FNR == 1) bytes = 0
+    row = bytes + 1
+    bytes += length($0) + 1
+    return row
 }
 BEGIN { FS = "\t"; count["surface"] = count["pair"] = 0 }
 FILENAME ~ /\/cost_model.csv$/ {
@@ -27,18 +35,19 @@ FILENAME ~ /\/cost_model.csv$/ {
     seconds0[stages] = c[3]; seconds1[stages] = c[4]; megabytes0[stages] = c[5]; megabytes1[stages] = c[6]
     next
 }
-FILENAME ~ /\/surfaces.tsv$/ { size[$1] = $3 / 1000; order[++surfaces] = $1; next }
+FILENAME ~ /\/surfaces.tsv$/ { size[$1] = $3 / 1000; order[++surfaces] = $1; row_of[$1] = row_after(); next }
 FILENAME ~ /\/done$/ { done[$1, $2]; next }
+{ row = row_after() }
 ("pair", $1) in done { next }
 {
     looked_for = $4 == "-" || explore
     needed[$2]; needed[$3]
     if (looked_for) { sketched[$2]; sketched[$3] }
-    add("pair", $1, (size[$2] + size[$3]) / 2, looked_for)
+    add("pair", $1, (size[$2] + size[$3]) / 2, looked_for, row)
 }
 END {
     for (i = 1; i <= surfaces; i++)
-        if (order[i] in needed && !(("surface", order[i]) in done)) add("surface", order[i], size[order[i]], order[i] in sketched)
+        if (order[i] in needed && !(("surface", order[i]) in done)) add("surface", order[i], size[order[i]], order[i] in sketched, row_of[order[i]])
     if (what == "sum")
         printf "about %.2f core-hours for %d surfaces and %d pairs, %.0f MB for one at a time; %.2f hours on %d cores\n",
             total / 3600, count["surface"], count["pair"], highest, total / 3600 / cores, cores

@@ -5,4 +5,4 @@ include class.mk
 .SUFFIXES:
 all: $(JOBS)
 $(JOBS):
-	-@"$$BATCH_JOB" "$$BATCH_OUT" $(KIND) $@ $(THREADS) $(STAGE)
+	-@BATCH_ROW=$(ROW_$@) "$$BATCH_JOB" "$$BATCH_OUT" $(KIND) $@ $(THREADS) $(STAGE)

@@ -1,7 +1,7 @@
-# The result of a pair, one line of JSON, from what report.jq says of its quality.json and from that itself.
-#   jq -c -n --slurpfile quality quality.json --slurpfile report REPORT --arg name .. --arg source .. --arg target .. --arg key ..
+# The result of a pair, one line of JSON, of its quality.json and what report.jq says of it.
+#   jq -c --arg name .. --arg source .. --arg target .. --arg key .. --arg candidate .. "def report: $(cat report.jq); $(cat result.jq)" quality.json
 def digits($n): if . == null then null else . * pow(10; $n) | round / pow(10; $n) end;
-$quality[0] as $q | $report[0] as $r | [$q.source_to_target, $q.target_to_source | select(. != null)] as $both
+. as $q | report as $r | [$q.source_to_target, $q.target_to_source | select(. != null)] as $both
 | {name: $name, source: $source, target: $target, key: $key, status: "done", code: 0, verdict: $r.verdict,
     badness: ([$r.checks[].badness, ($r.warnings | if length > 0 then 1.01 else 0 end)] | max | digits(4)),
     reversed_percent: ([$both[] | .verification.reversed_area_percent // .flipped_area_percent] | max | digits(3)),
@@ -10,4 +10,5 @@ $quality[0] as $q | $report[0] as $r | [$q.source_to_target, $q.target_to_source
     round_trip: ($q.round_trip.mean | digits(5)),
     landmarks_off: (if $q.landmarks | length > 0 then $q.landmarks | max | digits(5) else null end),
     probability: ($q.exploration.probability | digits(3)), sure: $q.exploration.confident,
+    candidate: $candidate,
     warnings: $r.warnings, message: null}

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "varimap/mesh/triangle_mesh.h"
@@ -13,14 +12,15 @@ using Samples = std::vector<Points>;
 /// One of the maps found for a pair: per sample of the one surface the nearest sample of the other.
 struct SampledMap {
     std::vector<int> there, back;
-    double score = 0;  ///< candidate.h: less is better, .01 is about 1% of energy
+    double probability = 0;  ///< that this one is right, as far as the pair alone tells
 };
 
-/// A pair of surfaces and the maps found for it, the best first; at least one.
+/// A pair of surfaces and the maps found for it, the best first; at least one. What is missing to one of the
+/// sum of their probabilities is that of none of them being right.
 struct PairOfMaps {
     int source = 0, target = 0;
     std::vector<SampledMap> maps;
-    double trust = 0;  ///< probability that the first is right
+    bool sure = false;  ///< the first map stays
 };
 
 /// A choice among the maps of every pair, by number from 0.
@@ -36,10 +36,15 @@ inline constexpr double closing = .1;
 std::vector<Loops> measure_loops(const Samples& samples, const std::vector<PairOfMaps>& pairs,
                                  const Choice& choice);
 
-/// The choice under which loops of three pairs close best. It minimises the sum over the pairs of
-///   min(score - first score, 0.2) / 0.2 + 2 * mean over the loops of min(error, 0.2) / 0.2
-/// by coordinate descent from two starts: the first map of every pair; and the maps nearest to compositions
-/// along a spanning tree of the most trusted pairs. The first maps are kept where nothing is better.
-Choice choose(const Samples& samples, const std::vector<PairOfMaps>& pairs);
+/// Synchronisation of the collection: every surface has one map to a common root, so that all loops close,
+/// and of all such ways of laying the collection out, the most probable is looked for. If d_k is the mean
+/// distance (units of sqrt(area)) between what the layout says of a pair and the pair's k-th map, which is
+/// right with probability p_k, the layout's log-probability is the sum over the pairs of
+///   log(sum_k p_k exp(-(d_k / 0.1)^2) + 0.05 (1 - sum_k p_k)).
+/// A pair that is not sure takes the map whose term is largest, unless the layout is nearly as probable (log,
+/// 3) with one of the pair's surfaces laid out over the pair's first map instead. If the last term is the
+/// largest, what the layout says of the pair is added to its maps, with probability 0, and taken where ways
+/// over third surfaces that agree with it are right more often, in the mean, than the first map is.
+Choice choose(const Samples& samples, std::vector<PairOfMaps>& pairs);
 
 }  // namespace varimap

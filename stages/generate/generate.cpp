@@ -120,6 +120,35 @@ GeneratedPair pair_of(const std::string& name, const Shape& source, const Shape&
     return pair;
 }
 
+/// Of points of the first body at rest, those that all others have, as the nearest vertices of all posed
+/// meshes.
+std::vector<std::vector<int>> common_vertices(const std::vector<Shape>& members) {
+    const Shape& first = members.front();
+    std::vector<shapes::Partner> partners;
+    std::vector<TriangleMesh> posed;
+    for (const Shape& member : members) {
+        partners.emplace_back(first.body, member.body);
+        posed.push_back(member.posed());
+    }
+    std::vector<std::vector<int>> rows(members.size());
+    const int step = std::max(1, first.rest.vertex_count() / 1000);
+    for (int v = 0; v < first.rest.vertex_count(); v += step) {
+        std::vector<int> row;
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            const auto image = partners[m](first.rest.vertex(v));
+            if (!image) break;
+            row.emplace_back();
+            (posed[m].vertices.rowwise() - members[m].body.posed(*image).transpose())
+                .rowwise()
+                .squaredNorm()
+                .minCoeff(&row.back());
+        }
+        if (row.size() < members.size()) continue;
+        for (std::size_t m = 0; m < members.size(); ++m) rows[m].push_back(row[m]);
+    }
+    return rows;
+}
+
 GeneratedPair family_pair(int family, unsigned seed, const GenerateParams& params) {
     shapes::Random random(16 * seed + unsigned(family));
     const Shape source = draw_member(family, params, random), target = draw_member(family, params, random);
@@ -161,6 +190,25 @@ std::string landmarks(const GeneratedPair& pair) {
     return list;
 }
 
+/// The number of a family of family_names().
+int family_number(const std::string& family) {
+    const auto& names = shapes::family_names();
+    const auto found = std::find(names.begin(), names.end(), family);
+    if (found == names.end())
+        throw UsageError(fmt::format("no family '{}'; there are {}", printable(family),
+                                     fmt::join(generated_families(), ", ")));
+    return int(found - names.begin());
+}
+
+void require_vertices(const GenerateParams& params) {
+    if (params.vertices != 0 && params.vertices < 500)
+        throw UsageError(fmt::format("--vertices {}: give 500 or more, or 0", params.vertices));
+}
+
+std::string lines_of(const std::vector<int>& numbers) {
+    return fmt::format("{}\n", fmt::join(numbers, "\n"));
+}
+
 }  // namespace
 
 std::vector<std::string> generated_families() {
@@ -171,8 +219,7 @@ std::vector<std::string> generated_families() {
 }
 
 GeneratedPair generate(const std::string& family, unsigned seed, const GenerateParams& params) {
-    if (params.vertices != 0 && params.vertices < 500)
-        throw UsageError(fmt::format("--vertices {}: give 500 or more, or 0", params.vertices));
+    require_vertices(params);
     if (family == "isometric") {
         const GenerateParams usual;
         require_default(params.variation, usual.variation, "variation");
@@ -184,12 +231,40 @@ GeneratedPair generate(const std::string& family, unsigned seed, const GenerateP
     }
     if (auto bodies = shapes::merged_pair(family, params))
         return merged_pair(family, std::move(*bodies), seed, params);
-    const auto& names = shapes::family_names();
-    const auto found = std::find(names.begin(), names.end(), family);
-    if (found == names.end())
-        throw UsageError(fmt::format("no family '{}'; there are {}", printable(family),
-                                     fmt::join(generated_families(), ", ")));
-    return family_pair(int(found - names.begin()), seed, params);
+    return family_pair(family_number(family), seed, params);
+}
+
+GeneratedCollection generate_collection(const std::string& family, unsigned seed,
+                                        const GenerateParams& params) {
+    require_vertices(params);
+    const auto& names = generated_families();
+    if (std::count(names.begin(), names.end(), family) > 0 &&
+        std::count(shapes::family_names().begin(), shapes::family_names().end(), family) == 0)
+        throw UsageError(fmt::format("--members is for families whose members differ: {}",
+                                     fmt::join(shapes::family_names(), ", ")));
+    const int number = family_number(family);
+    shapes::Random random(16 * seed + unsigned(number));
+    std::vector<Shape> members;
+    for (int m = 0; m < params.members; ++m) members.push_back(draw_member(number, params, random));
+    GeneratedCollection collection{family, {}, {}};
+    const auto rows = common_vertices(members);
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        std::vector<int> old_vertex, renumbered(std::size_t(members[m].rest.vertex_count()));
+        collection.meshes.push_back(
+            shapes::shuffled(Placement(random)(members[m].posed()), seed + unsigned(m), &old_vertex));
+        for (std::size_t v = 0; v < old_vertex.size(); ++v) renumbered[std::size_t(old_vertex[v])] = int(v);
+        collection.vertices.emplace_back();
+        for (const int v : rows[m]) collection.vertices.back().push_back(renumbered[std::size_t(v)]);
+    }
+    return collection;
+}
+
+void write_collection(const GeneratedCollection& collection, const std::string& folder) {
+    for (std::size_t m = 0; m < collection.meshes.size(); ++m) {
+        const std::string name = fmt::format("{}/{}_{:03}", folder, collection.kind, m);
+        write_file_atomically(name + ".txt", lines_of(collection.vertices[m]));
+        write_file_atomically(name + ".ply", to_ply(collection.meshes[m]));
+    }
 }
 
 void write_pair(const GeneratedPair& pair, const std::string& folder) {

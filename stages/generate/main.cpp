@@ -31,11 +31,17 @@ int main(int argc, char** argv) {
     const auto& seed = stage.word("seed", "a number: the same one gives the same pair");
     const auto& folder = stage.word("folder",
                                     "that is there, for source.ply, target.ply, source.txt, target.txt "
-                                    "and landmarks.txt");
+                                    "and landmarks.txt, or with --members for FAMILY_000.ply, "
+                                    "FAMILY_000.txt and so on");
     return stage.main(argc, argv, [&] {
         const unsigned number = seed_from(seed);
         if (!std::filesystem::is_directory(folder))
             throw IoError(fmt::format("cannot write into '{}': there is no such folder", folder));
+        if (params.members > 0) {
+            write_collection(generate_collection(family, number, params), folder);
+            fmt::print("{}\n", family);
+            return;
+        }
         const GeneratedPair pair = generate(family, number, params);
         write_pair(pair, folder);
         fmt::print("{}\n", pair.kind);

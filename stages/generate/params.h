@@ -6,6 +6,7 @@ namespace varimap {
 
 struct GenerateParams {
     int vertices = 0;
+    int members = 0;
     double variation = 1;
     double bending = 1;
     double asymmetry = 0;
@@ -18,6 +19,9 @@ struct GenerateParams {
             "vertices of each mesh, at least 500 (isometric: about so many); 0: some number from 2000 to "
             "6000, by the seed",
             0, 10'000'000);
+        list.add("members", members,
+                 "so many members of a family with points that all have, instead of a pair; 0: a pair", 0,
+                 999);
         list.add("variation", variation,
                  "how much proportions differ: 0 not at all, 1 as between animals of several species", 0,
                  1.5);

@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Many pairs: work on a surface is done once, one failing pair stops nobody, and a batch that is killed at random moments ends
-# with the same bytes. VARIMAP_KILLS: how many runs are killed (default 8).
+# Many pairs: work on a surface is done once, one failing pair stops nobody, and a batch that is interrupted ends with the same
+# bytes. (killed_batch_test.sh kills.)
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
-kills=${VARIMAP_KILLS:-8}
 mkdir meshes
 figure meshes/a.off 6
 figure meshes/b.off 6 .5
@@ -15,14 +14,6 @@ batch() {  # ARGUMENTS
 column() {  # FILE NAME: that column of a table without commas in its fields
     awk -F, -v name="$2" '{ gsub(/"/, "") } NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i; next } { print $c }' "$1"
 }
-# Tables, meshes, artifacts, and what is said of them; times differ.
-same_batch() {  # OUT OUT
-    local pair
-    same "$1/status.csv" "$2/status.csv"
-    same "$1/index.html" "$2/index.html"
-    for pair in "$1"/pairs/*; do same_results "$pair" "$2/pairs/${pair##*/}"; done
-}
-
 # All pairs: each surface's stages once, those of its sketch beside it; the second run starts nothing.
 batch --all-pairs meshes -o all -j 2
 [[ $(column all/status.csv name | xargs) == "a--b a--c b--c" && $(column all/status.csv status | sort -u) == "done" ]] || fail "status.csv"
@@ -38,6 +29,14 @@ grep -q '3 done already' log || fail "done pairs are not known"
 map meshes/a.off meshes/b.off -o alone "${coarse[@]}"
 same all/pairs/a--b/source_to_target.csv alone/source_to_target.csv
 same all/artifacts/a--b.plan alone/artifacts/a--b.plan
+
+# How far off these maps are, of which vertex i goes to vertex i.
+mkdir lists_of
+for surface in a b c; do seq 0 145 >lists_of/$surface.txt; done
+"$VARIMAP_SOURCE/pipelines/batch/errors" all lists_of >errors.csv 2>log || fail "errors (exit $?)"
+[[ $(column errors.csv pair | grep -c -- --) == 3 ]] || fail "errors of three pairs"
+grep -q '^6 of 6 maps are right' errors.csv || fail "the maps are wrong: $(tail -n 3 errors.csv)"
+expect_exit 6 "$VARIMAP_SOURCE/pipelines/batch/errors" all meshes
 
 # As far as a stage, and then on.
 map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse
@@ -108,6 +107,23 @@ grep -q '^cycles   100 % of the loops' out.txt || fail "loops are not told"
 same together/pairs/b--c/source_to_target.csv all/pairs/b--c/source_to_target.csv
 batch --all-pairs meshes -o together --consistent -j 2
 grep -q '3 done already' log || fail "consistent pairs are not known"
+# One that was continued from another map than is chosen now is done again, alone.
+jq -c '.candidate = "2"' together/pairs/a--c/result.json >result
+mv result together/pairs/a--c/result.json
+for pair in together/pairs/*; do : >"$pair/log.txt"; done
+batch --all-pairs meshes -o together --consistent -j 2
+[[ -s together/pairs/a--c/log.txt && ! -s together/pairs/a--b/log.txt ]] || fail "a pair whose choice changed"
+[[ $(jq -r .candidate together/pairs/a--c/result.json) == 1 ]] || fail "the map that is chosen now"
+
+# A composed map is the way that a pair begins with; another choice, and the pair is done again.
+mkdir -p together/batch/composed
+cp all/pairs/a--b/source_to_target.csv together/batch/composed/a--b.csv
+printf 'a--b\tcomposed-0123456789abcdef\n' >together/batch/candidates.tsv
+"$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/together" pair a--b 1 >out.txt 2>log || fail "the job of a composed pair (exit $?)"
+[[ $(jq -r '.candidate, .status' together/pairs/a--b/result.json | xargs) == "composed-0123456789abcdef done" ]] || fail "a composed pair"
+jq -e '.exploration == null' together/pairs/a--b/quality.json >/dev/null || fail "a composed pair was explored"
+batch --all-pairs meshes -o together --consistent -j 2
+same together/pairs/a--b/source_to_target.csv all/pairs/a--b/source_to_target.csv
 
 # Bad input: one line, and nothing is made.
 expect_exit 2 "$varimap" batch
@@ -126,34 +142,13 @@ expect_exit 3 "$varimap" batch quotes.csv -o none
 "$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
 grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"
 [[ -z $(ls planned/pairs) ]] || fail "--plan runs something"
-
-# Killed: everything, the front end alone, one job, or one stage; in the end the same bytes.
-start=$EPOCHREALTIME
-batch --all-pairs meshes -o timed -j 2
-milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 1000))
-same_batch all timed
-victims() {  # KIND SESSION
-    case $1 in
-    0) pgrep -s "$2" || true ;;
-    1) echo "$2" ;;
-    2) pgrep -s "$2" job | head -n 1 || true ;;
-    3) pgrep -s "$2" varimap- | head -n 1 || true ;;
-    esac
-}
-RANDOM=1
-for ((i = 0; i < kills; ++i)); do
-    setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o killed -j 2 >/dev/null 2>&1 </dev/null &
-    session=$!
-    sleep "$(printf '%d.%03d' $((RANDOM % milliseconds / 1000)) $((RANDOM % 1000)))"
-    # shellcheck disable=SC2046
-    kill -9 $(victims $((RANDOM % 4)) $session) 2>/dev/null || true
-    wait $session 2>/dev/null || true
-    ((RANDOM % 2)) || rm -rf killed/pairs/a--b killed/artifacts/a--b.plan
-    ((RANDOM % 4)) || rm -rf killed
-done
-batch --all-pairs meshes -o killed -j 2
-same_batch all killed
-nothing_left killed all
+"$varimap" batch --star meshes/b.off meshes -o planned --landmarks-from points --plan >out.txt 2>log || fail "--plan with landmarks"
+grep -q '^pair b--a explore [1-9]' planned/batch/costs || fail "exploration with few landmarks costs nothing"
+# A job finds its row by name, or at the byte that the plan tells; what is not in the plan is refused.
+while read -r kind job _ _ byte; do
+    [[ $(tail -c "+$byte" "planned/batch/${kind}s.tsv" | cut -f 1 | head -n 1) == "$job" ]] || fail "the row of $job"
+done <planned/batch/pending
+expect_exit 2 "$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/planned" pair a--b
 
 # Ended by an interrupt: all that it started ends with it, and it says so.
 setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &
@@ -172,4 +167,3 @@ grep -q 'interrupted; what is finished is kept' log || fail "an interrupt is not
 [[ -z $(find stopped/pairs -name result.json -exec grep -l failed {} +) ]] || fail "an interrupted pair is called failed"
 batch --all-pairs meshes -o stopped -j 2
 same_batch all stopped
-echo "$kills batches of about $milliseconds ms were killed"

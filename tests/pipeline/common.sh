@@ -147,6 +147,14 @@ same_results() {
     artifacts "$1/artifacts/" | while read -r file; do same "$file" "$2/artifacts/${file##*/}"; done
 }
 
+# same_batch OUT OUT: of batches: tables, meshes, artifacts, and what is said of them; times differ.
+same_batch() {  # OUT OUT
+    local pair
+    same "$1/status.csv" "$2/status.csv"
+    same "$1/index.html" "$2/index.html"
+    for pair in "$1"/pairs/*; do same_results "$pair" "$2/pairs/${pair##*/}"; done
+}
+
 # nothing_left FOLDER...: no file of a run that has ended.
 nothing_left() {
     local left

@@ -197,6 +197,31 @@ TEST(Generate, HandlesAreThereAtEverySizeAndContactGrowsTogether) {
     EXPECT_LT(per_size(contact.target), .97 * per_size(contact.source));
 }
 
+/// Without variation all members are one body bent, so that neighbouring places are as far apart on all.
+TEST(Generate, RowsOfACollectionAreTheSamePlaces) {
+    GenerateParams params = small_meshes();
+    params.members = 3;
+    params.variation = params.bending = params.relief = 0;
+    const GeneratedCollection collection = generate_collection("quadruped", 4, params);
+    ASSERT_EQ(collection.meshes.size(), 3u);
+    for (std::size_t m = 0; m < 3; ++m) expect_sphere(collection.meshes[m]);
+    const auto distances = [&](std::size_t m) {
+        const TriangleMesh& mesh = collection.meshes[m];
+        std::vector<double> list;
+        for (const int v : collection.vertices[m])
+            list.push_back((mesh.vertex(v) - mesh.vertex(collection.vertices[m][0])).norm() /
+                           std::sqrt(surface_area(mesh)));
+        return list;
+    };
+    const auto first = distances(0);
+    EXPECT_GE(first.size(), 50u);
+    for (std::size_t m = 1; m < 3; ++m) {
+        const auto other = distances(m);
+        ASSERT_EQ(other.size(), first.size());
+        for (std::size_t i = 0; i < first.size(); ++i) EXPECT_NEAR(other[i], first[i], .1) << "row " << i;
+    }
+}
+
 TEST(Generate, SaysWhatFamiliesThereAre) {
     EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, biped"));
     GenerateParams varied;

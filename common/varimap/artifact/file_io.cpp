@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -60,7 +59,17 @@ void write_all(int descriptor, const std::string& bytes, const std::string& path
     }
 }
 
-constexpr const char* temporary_mark = ".tmp.";
+/// Temporary files beside `path` have small numbers, so that those that a kill left are found without reading
+/// the folder: of a collection it holds a million files.
+std::string temporary_name(const std::string& path, int number) {
+    return path + ".tmp." + std::to_string(number);
+}
+constexpr int most_temporaries = 16;  // that are looked for; one for each writer at a time
+
+void remove_if_dead(const std::string& path) {
+    const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    if (file.descriptor >= 0 && ::flock(file.descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+}
 
 /// A new file beside `path` under a name nobody else uses; removed again unless it is renamed to `path`.
 /// Locked as long as its writer lives, which tells it from one that a kill left.
@@ -78,17 +87,17 @@ class TemporaryFile {
     int descriptor() const { return file_.descriptor; }
     void become_target() {
         if (::fsync(file_.descriptor) != 0 && errno != EINVAL) throw io_error("write", path_);
-        if (::close(file_.release()) != 0) throw io_error("write", path_);
+        // Still locked: else another might take it for a dead one, and its name for a file of its own.
         if (::rename(name_.c_str(), path_.c_str()) != 0) throw io_error("write", path_);
         name_.clear();
     }
 
   private:
     void open_new() {
-        static std::atomic<unsigned> counter{0};
         if (file_.descriptor >= 0) ::close(file_.release());
+        int number = 0;
         do {
-            name_ = path_ + temporary_mark + std::to_string(::getpid()) + "." + std::to_string(counter++);
+            name_ = temporary_name(path_, number++);
             file_.descriptor = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         } while (file_.descriptor < 0 && errno == EEXIST);
         if (file_.descriptor < 0) throw io_error("write", path_);
@@ -103,18 +112,6 @@ class TemporaryFile {
     std::string path_, name_;
     File file_;
 };
-
-/// Whether `name` is what TemporaryFile calls a file beside `target`.
-bool is_temporary_name(std::string_view name, std::string_view target) {
-    const std::string start = std::string(target) + temporary_mark;
-    return name.size() > start.size() && name.starts_with(start) &&
-           name.find_first_not_of("0123456789.", start.size()) == std::string_view::npos;
-}
-
-void remove_if_dead(const std::string& path) {
-    const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-    if (file.descriptor >= 0 && ::flock(file.descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
-}
 
 void require_replaceable(const std::string& path) {
     struct stat status;
@@ -161,14 +158,7 @@ void write_file_atomically(const std::string& path, const std::string& bytes) {
 }
 
 void remove_dead_temporaries(const std::string& path) {
-    namespace fs = std::filesystem;
-    const fs::path target(path);
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    std::error_code failure;
-    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
-         entry.increment(failure))
-        if (is_temporary_name(entry->path().filename().string(), target.filename().string()))
-            remove_if_dead(entry->path().string());
+    for (int number = 0; number < most_temporaries; ++number) remove_if_dead(temporary_name(path, number));
 }
 
 }  // namespace varimap

@@ -1,8 +1,10 @@
 #include "varimap/artifact/artifact.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +12,7 @@
 #include <fstream>
 
 #include "fixtures/temporary_folder.h"
+#include "varimap/artifact/temporaries.h"
 #include "varimap/core/error.h"
 
 namespace varimap {
@@ -182,11 +185,23 @@ TEST(AtomicWrite, ReplacesAndLeavesNothingElseBehind) {
 
 TEST(AtomicWrite, WorksBesideATemporaryFileLeftByAKilledProcess) {
     const TemporaryFolder folder;
-    for (int i = 0; i < 1000; ++i)
-        overwrite(folder / ("file.tmp." + std::to_string(::getpid()) + "." + std::to_string(i)), "left over");
+    for (int i = 0; i < 1000; ++i) overwrite(folder / ("file.tmp." + std::to_string(i)), "left over");
     write_file_atomically(folder / "file", "new");
     EXPECT_EQ(read_file(folder / "file"), "new");
     EXPECT_EQ(folder.file_count(), 1001u);
+}
+
+TEST(AtomicWrite, WhatKilledWritersLeftIsRemovedAndNothingElse) {
+    const TemporaryFolder folder;
+    for (const char* name : {"file.tmp.0", "file.tmp.3", "other.tmp.0", "file.tmp.x"})
+        overwrite(folder / name, "left over");
+    // Of a writer that lives.
+    const int held = ::open((folder / "file.tmp.1").c_str(), O_WRONLY | O_CREAT, 0666);
+    ASSERT_EQ(::flock(held, LOCK_EX), 0);
+    remove_dead_temporaries(folder / "file");
+    EXPECT_EQ(folder.file_count(), 3u);
+    EXPECT_TRUE(std::filesystem::exists(folder / "file.tmp.1"));
+    ::close(held);
 }
 
 TEST(AtomicWrite, FailsWhereNothingCanBeWritten) {

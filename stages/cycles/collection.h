@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stages/cycles/choice.h"
+#include "varimap/mesh/surface.h"
+#include "varimap/results/candidates.h"
+
+namespace varimap {
+
+/// The surfaces and pairs of a batch and what exploration found for them. The manifest is JSON of
+/// {"surfaces": {NAME: sketch}, "pairs": [{"name", "source", "target", "candidates"}]}.
+struct Collection {
+    std::vector<std::string> surfaces, names;  ///< of surfaces and of pairs
+    Samples samples;                           ///< the vertices of the sketches
+    std::vector<PairOfMaps> pairs;
+    std::vector<std::string> sketches;  ///< files, of the surfaces
+
+    /// Throws InputError, ArtifactError and IoError.
+    static Collection read(const std::string& manifest);
+};
+
+/// A map of samples, which are the vertices of the surfaces' meshes, as one of the vertices of the source's
+/// file: each goes where the nearest sample goes.
+PointMap on_files(const SampledMap& map, const Surface& source, const Surface& target);
+
+/// Per candidate, how probable it is that it is the right map, as far as its pair alone tells; 0 for mirrored
+/// ones.
+std::vector<double> probabilities(const std::vector<Candidate>& candidates);
+
+}  // namespace varimap
