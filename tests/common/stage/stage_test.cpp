@@ -485,16 +485,16 @@ TEST_F(StageRun, TheLockIsHeldWhileTheOutputIsMadeAndLeavesNothing) {
 }
 
 TEST_F(StageRun, TemporaryFilesOfTheDeadAreRemovedAndOthersStay) {
-    for (const char* name : {"out.sample.tmp.1.0", "out.sample.run.json.tmp.99.7"})
+    for (const char* name : {"out.sample.tmp.0", "out.sample.run.json.tmp.7"})
         std::ofstream(folder / name) << "left by a kill";
     std::ofstream(folder / "out.sample.tmp.mine") << "no name of ours";
-    const std::string held = folder / "out.sample.tmp.5.5";
+    const std::string held = folder / "out.sample.tmp.5";
     std::ofstream(held) << "being written";
     const int writer = ::open(held.c_str(), O_RDONLY);
     ASSERT_EQ(::flock(writer, LOCK_EX), 0);
     ASSERT_EQ(run_sample({in, out}).code, 0);
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.sample.tmp.1.0"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.sample.run.json.tmp.99.7"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.sample.tmp.0"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.sample.run.json.tmp.7"));
     EXPECT_TRUE(std::filesystem::exists(folder / "out.sample.tmp.mine"));
     EXPECT_TRUE(std::filesystem::exists(held));
     ::close(writer);
