@@ -122,6 +122,8 @@ void AlternatingMinimization::renew_support() {
 
 /// The half-step over the plan, with the rest fixed. Returns the gamma that it ends with, too.
 SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
+    if (solution_.plan.support.entries() == 0)
+        throw ConvergenceError("nothing is left of the transport plan; rerun varimap-hierarchy");
     const Eigen::VectorXd cost =
         CostFactors(averaged_X(), averaged_Y(), solution_.step.centres, solution_.relaxed)
             .on(solution_.plan.support);
