@@ -20,7 +20,7 @@ constexpr int witnesses = 2;      // ways over third surfaces that a composed ma
 constexpr std::size_t most_loops = 60;       // for each pair; the nearest by number
 constexpr std::size_t most_neighbours = 20;  // over which a surface is tried to be laid out; the surest
 constexpr std::size_t most_roots = 10;       // layouts
-constexpr std::size_t step = 3;              // of a thousand samples
+constexpr std::size_t stride = 3;            // of a thousand samples
 
 using Images = std::vector<int>;
 
@@ -35,7 +35,7 @@ template <class ImageOf>
 double distance(const Images& images, const ImageOf& other, const Points& target) {
     double sum = 0;
     std::size_t count = 0;
-    for (std::size_t v = 0; v < images.size(); v += step, ++count)
+    for (std::size_t v = 0; v < images.size(); v += stride, ++count)
         sum += (target.row(images[v]) - target.row(other(v))).norm();
     return sum / double(count);
 }
