@@ -3,10 +3,10 @@
 // varimap_fuzz TARGET FILE...                               reads these
 // varimap_fuzz --list                                       the targets
 //
-// An input that takes longer than 10 s of the processor, or 100 s in all, ends the process, throws anything
-// but an Error, or takes more memory than 400 times its length and the target's base (known under the address
-// sanitizer only) is written to fuzz-TARGET-NUMBER, and the exit status is 1. Number N of seed S is the same
-// input on every machine.
+// An input that takes longer than 10 s of the processor (a stage: 60), or 100 s in all, ends the process,
+// throws anything but an Error, or takes more memory than 400 times its length and the target's base (known
+// under the address sanitizer only) is written to fuzz-TARGET-NUMBER, and the exit status is 1. Number N of
+// seed S is the same input on every machine.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ __attribute__((weak)) std::size_t __sanitizer_get_allocated_size(const volatile 
 namespace varimap::fuzz {
 namespace {
 
-constexpr unsigned longest_cpu_seconds = 10, longest_seconds = 100;
+constexpr unsigned longest_seconds = 100;
 constexpr std::size_t memory_factor = 400;
 
 std::string current_input, current_name;
@@ -76,7 +76,7 @@ void keep_input() {
 }
 
 void on_signal(int signal) {
-    if (signal == SIGPROF) fail("an input takes longer than 10 s of the processor");
+    if (signal == SIGPROF) fail("an input takes too long");
     fail(signal == SIGALRM ? "an input takes longer than 100 s" : fmt::format("signal {}", signal));
 }
 
@@ -132,7 +132,7 @@ void note_worst(const Target& target, const std::string& bytes, std::size_t take
 void run_one(const Target& target, const std::string& bytes, const std::string& name) {
     current_input = bytes;
     current_name = name;
-    start_timers(longest_cpu_seconds, longest_seconds);
+    start_timers(target.longest_cpu_seconds, longest_seconds);
     const auto start = Clock::now();
     const std::int64_t before = allocated;
     most_allocated = before;

@@ -246,6 +246,7 @@ Target stage(const std::string& name, const Names& artifacts,
     Target target{"stage_" + name, {}, {}, read_and_run, 64 << 20};
     target.forge = [artifacts](std::uint64_t number) { return forged(artifacts, number); };
     target.prepare = [] { good(); };
+    target.longest_cpu_seconds = 60;  // exploration of this pair takes .7 s, under sanitizers 9
     return target;
 }
 

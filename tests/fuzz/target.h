@@ -16,6 +16,7 @@ struct Target {
     /// Reads and uses one input. Throws nothing but an Error that the user can act on.
     std::function<void(const std::string& bytes)> run;
     std::size_t memory_base = 4 << 20;  ///< bytes that it may take, beside a multiple of the input's length
+    unsigned longest_cpu_seconds = 10;  ///< for one input
     /// Makes input `number` where changing bytes of the seeds would not do.
     std::function<std::string(std::uint64_t number)> forge = {};
     /// Makes what all inputs need, before the first: its time and memory are no input's.
