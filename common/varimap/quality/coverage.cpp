@@ -3,6 +3,7 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/disc.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/image_mesh.h"
@@ -60,20 +61,16 @@ bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const 
 /// Smaller parts are found at ends of limbs and in folds of most good maps.
 constexpr double least_part = 0.005;
 
-int central_vertex(const TriangleMesh& mesh, const std::vector<int>& faces) {
-    Vec3 centre = Vec3::Zero();
-    double area = 0;
-    for (const int f : faces) {
-        const double part = face_normal(mesh, f).norm();
-        centre += part * position(mesh, {f, Vec3::Constant(1.0 / 3)});
-        area += part;
-    }
-    centre /= area;
-    int nearest = mesh.faces(faces.front(), 0);
-    for (const int f : faces)
-        for (const int v : mesh.faces.row(f))
-            if ((mesh.vertex(v) - centre).norm() < (mesh.vertex(nearest) - centre).norm()) nearest = v;
-    return nearest;
+/// faces: none twice.
+int central_vertex(const TriangleMesh& mesh, std::vector<int> faces) {
+    std::sort(faces.begin(), faces.end());
+    const SubMesh part(mesh, std::move(faces));
+    Eigen::Index nearest;
+    (part.mesh.vertices.rowwise() - area_centroid(part.mesh).transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&nearest);
+    return part.vertex[std::size_t(nearest)];
 }
 
 std::vector<UncoveredPart> uncovered_parts(const TriangleMesh& mesh, std::vector<char> uncovered) {
