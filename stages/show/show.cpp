@@ -28,6 +28,21 @@ class FacesViewer {
     Points normals_;
 };
 
+/// Whether a weight is centred on its point (Sec. 3.2): how far its maximum lies from the point, and the
+/// centre of mass of the neighbourhood in which it is above one half.
+struct Centring {
+    double maximum, centre;
+};
+
+Centring centring(const Domain& domain, const Eigen::VectorXd& weight, int point) {
+    const Points& places = domain.mesh.vertices;
+    Eigen::Index largest;
+    weight.maxCoeff(&largest);
+    const Eigen::VectorXd inside = (weight.array() > .5).select(weight.cwiseProduct(domain.mass), 0);
+    const Eigen::RowVector3d mean = inside.transpose() * places / inside.sum();
+    return {(places.row(largest) - places.row(point)).norm(), (mean - places.row(point)).norm()};
+}
+
 const std::string purple = "#7020a0", green = "#108030", black = "#202020";
 
 }  // namespace
@@ -52,7 +67,9 @@ std::string show_weights(const Domain& domain, const Basis& basis, int point, do
             if (weights[k][v] > .5 && faces_viewer(int(v)))
                 drawing.dot(seen.row(v), 1.8 * weights[k][v], green, frame);
         drawing.dot(seen.row(point), 4, purple, frame);
-        drawing.label(k, names[k]);
+        const Centring off = centring(domain, weights[k], point);
+        drawing.label(
+            k, fmt::format("{}: maximum {:.3f}, centre {:.3f} away", names[k], off.maximum, off.centre));
     }
     return drawing.svg(3);
 }

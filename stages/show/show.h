@@ -10,7 +10,9 @@ namespace varimap {
 // Pictures as SVG of what artifacts hold.
 
 /// The three weights among which Sec. 3.2 chooses (Fig. 4), of one point at one diffusion time: K,
-/// K / sqrt(K K), and Eq. (7), each relative to its largest value. Dots: where it is above one half.
+/// K / sqrt(K K), and Eq. (7), each relative to its largest value. Dots: where it is above one half. The
+/// labels say how far from the point the maximum and the centre of mass of that neighbourhood lie, in units
+/// of sqrt(area).
 std::string show_weights(const Domain& domain, const Basis& basis, int point, double time);
 
 /// The samples of the last diffusion level (Fig. 6).
