@@ -13,7 +13,7 @@ install(PROGRAMS pipelines/varimap TYPE BIN)
 set(share ${CMAKE_INSTALL_DATADIR}/varimap)
 install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/script.sh pipelines/progress.sh
   DESTINATION ${share})
-install(PROGRAMS pipelines/bench pipelines/debian-meshes pipelines/gallery pipelines/plot pipelines/register pipelines/scaling
+install(PROGRAMS pipelines/bench pipelines/bench-list pipelines/debian-meshes pipelines/gallery pipelines/plot pipelines/register pipelines/scaling
   pipelines/selftest pipelines/survey pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/experiments DESTINATION ${share} USE_SOURCE_PERMISSIONS)
 install(DIRECTORY pipelines/help DESTINATION ${share})

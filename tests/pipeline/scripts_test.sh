@@ -64,6 +64,7 @@ check_front_end() {  # VARIMAP
     says "--landmark-weight W" "$1" map --help
     says "--count" "$1" help eigen
     says "bench LIST" "$1" bench --help
+    says "bench-list FOLDER PAIRS" "$1" bench-list --help
     says "varimap batch LIST" "$1" batch --help
     says "varimap register TEMPLATE" "$1" register --help
     expect_exit 2 "$1" help nothing
@@ -77,7 +78,7 @@ check_front_end "$varimap"
 # From an installed prefix, and through a link to it.
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
-cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,script.sh,progress.sh,bench,debian-meshes,gallery,plot,register,scaling,selftest,torus} prefix/share/varimap
+cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,script.sh,progress.sh,bench,bench-list,debian-meshes,gallery,plot,register,scaling,selftest,torus} prefix/share/varimap
 cp -r "$VARIMAP_SOURCE/pipelines/batch" prefix/share/varimap
 cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap

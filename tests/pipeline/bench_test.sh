@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# Data sets in their published layouts, listed for bench; runs that go on, curves, and comparison with other results.
+# shellcheck source=tests/pipeline/common.sh
+. "$(dirname "$0")/common.sh"
+list() { "$varimap" bench-list "$@" >out.txt 2>log || fail "bench-list $*"; }
+field() { awk -F, -v row="$2" -v column="$3" 'NR == row + 1 { print $column }' "$1"; }
+
+# Ren et al. 2018: lists that start at 1, mirrored lists beside them, pairs parted by tabs.
+mkdir -p set/vtx_5k/corres
+figure set/vtx_5k/cat0.off 6
+figure set/vtx_5k/cat1.off 6 .3
+for name in cat0 cat1; do
+    seq 1 146 >set/vtx_5k/corres/$name.vts
+    seq 146 -1 1 >set/vtx_5k/corres/$name.sym.vts
+done
+printf 'cat0\tcat1\ncat1\tcat0\n\n' >set/test_pairs.txt
+list set set/test_pairs.txt -o ren.csv --group cats --landmarks 3
+[[ $(wc -l <ren.csv) == 3 && $(field ren.csv 1 1) == cats && $(field ren.csv 1 7) == 1 ]] || fail "ren.csv: $(cat ren.csv)"
+[[ $(field ren.csv 1 2) == "$PWD/set/vtx_5k/cat0.off" && $(field ren.csv 2 5) == "$PWD/set/vtx_5k/corres/cat1.vts" ]] ||
+    fail "paths of ren.csv: $(cat ren.csv)"
+# Landmarks: three points, each where it belongs, far from each other: no two on one limb.
+[[ $(sort -u "$(field ren.csv 1 4)" | wc -l) == 3 ]] || fail "landmarks"
+awk '$1 != $2 { exit 1 }' "$(field ren.csv 1 4)" || fail "landmarks of two points"
+awk 'NR == FNR { if (FNR > 2 && NF == 3) { x[FNR - 3] = $1; y[FNR - 3] = $2; z[FNR - 3] = $3 } next } { v[++n] = $1 }
+    END { for (i = 1; i <= n; ++i) for (k = 1; k < i; ++k)
+        if ((x[v[i]] - x[v[k]]) ^ 2 + (y[v[i]] - y[v[k]]) ^ 2 + (z[v[i]] - z[v[k]]) ^ 2 < 1) exit 1 }' \
+    set/vtx_5k/cat0.off "$(field ren.csv 1 4)" || fail "landmarks near each other"
+
+# SHREC'07 with coordinates behind the vertex: from 0. Names of files in the list, parted by commas.
+mkdir seven
+for name in 381 382; do
+    figure seven/$name.off 6
+    awk 'FNR > 2 && NF == 3 && FNR % 20 == 3 { print FNR - 3, $1, $2, $3 }' seven/$name.off >seven/$name.vts
+done
+echo 381.off,382.off >pairs.txt
+list seven pairs.txt -o seven.csv
+[[ $(field seven.csv 1 1) == seven && $(field seven.csv 1 7) == 0 ]] || fail "seven.csv: $(cat seven.csv)"
+
+# SHREC'19: a file for every pair.
+mkdir -p nineteen/off nineteen/corres
+figure nineteen/off/1.off 6
+figure nineteen/off/2.off 6 .3
+seq 1 146 >nineteen/corres/1_2.map
+printf '1 2\n2 1\n' >pairs.txt
+list nineteen pairs.txt -o nineteen.csv
+grep -q 'pairs: 2, 1 without known points' out.txt || fail "missing points: $(cat out.txt)"
+[[ $(field nineteen.csv 1 7) == 1 && -z $(field nineteen.csv 2 5) ]] || fail "nineteen.csv: $(cat nineteen.csv)"
+same "$(field nineteen.csv 1 5)" nineteen/corres/1_2.map
+seq 0 145 >nineteen/corres/1_2.map
+list nineteen pairs.txt -o nineteen.csv
+[[ $(field nineteen.csv 1 7) == 0 ]] || fail "numbers from 0: $(cat nineteen.csv)"
+same "$(field nineteen.csv 1 5)" nineteen/corres/1_2.map
+
+refused() {  # CODE TEXT ARGUMENT...
+    rm -f bad.csv
+    expect_exit "$1" "$varimap" bench-list "${@:3}" -o bad.csv
+    grep -q -- "$2" log || fail "no '$2' in: $(cat log)"
+    [[ ! -e bad.csv ]] || fail "a list was left"
+}
+refused 6 'no such folder' nowhere pairs.txt
+refused 6 'no such file' set none.txt
+refused 2 'bench-list --help' set
+echo cat0 cat7 >bad.txt
+refused 6 'bad.txt: row 1: there is no mesh of the name cat7' set bad.txt
+echo cat0 cat1 cat0 >bad.txt
+refused 3 'row 1 has 3 names' set bad.txt
+echo '# none' >bad.txt
+refused 3 'names no pair' set bad.txt
+cp -r set twice
+cp -r twice/vtx_5k twice/vtx_10k
+refused 3 'the same name; say which with --meshes' twice set/test_pairs.txt
+list twice set/test_pairs.txt -o twice.csv --meshes vtx_10k
+seq 1 140 >set/vtx_5k/corres/cat1.vts
+refused 3 'has 146 points, .* has 140' set set/test_pairs.txt
+echo one >set/vtx_5k/corres/cat1.vts
+refused 3 'line 1 begins with no number of a vertex: one' set set/test_pairs.txt
+echo 147 >set/vtx_5k/corres/cat0.vts
+echo 1 >set/vtx_5k/corres/cat1.vts
+refused 3 'has no vertex 147' set set/test_pairs.txt --landmarks 2
+for name in cat0 cat1; do seq 1 146 >set/vtx_5k/corres/$name.vts; done
+
+# bench takes the list, goes on where it ended, and draws curves.
+bench() { "$varimap" bench "$@" "${coarse[@]}" --set render.width=64 --set render.samples=1 >out.txt 2>log || fail "bench $*: $(cat out.txt)"; }
+bench ren.csv -o benched
+[[ $(wc -l <benched/bench.csv) == 3 ]] || fail "bench.csv: $(cat benched/bench.csv)"
+awk -F, 'NR > 1 && !($3 < .2) { exit 1 }' benched/bench.csv || fail "errors: $(cat benched/bench.csv)"
+awk -F, '$1 != "cats" || $3 < before { exit 1 } { before = $3 } END { exit !(NR > 10 && before > 90) }' benched/curves.csv ||
+    fail "curves.csv: $(cat benched/curves.csv)"
+grep -q 'cats' benched/curves.svg || fail "curves.svg"
+made() { find benched -name '*.plan' -printf '%p %T@\n' -o -name '*.map' -printf '%p %T@\n' | sort; }
+made >before.txt
+[[ -s before.txt ]] || fail "no artifacts"
+bench ren.csv -o benched
+made >after.txt
+same before.txt after.txt
+
+# Compared with itself, and with means that were made better and worse by .01.
+mkdir was
+cp benched/bench.csv was/bench.csv
+bench ren.csv -o benched --compare was
+grep -q 'of 2 pairs 0 better, 0 worse, 2 the same (within .003); sign test: p = 1$' out.txt || fail "compared: $(tail -n 1 out.txt)"
+[[ $(grep -c '^  same   cats' out.txt) == 2 ]] || fail "by pair: $(cat out.txt)"
+awk -F, -v OFS=, 'NR > 1 { $3 += .01 } { print }' benched/bench.csv >was/bench.csv
+bench ren.csv -o benched --compare was
+grep -q 'of 2 pairs 2 better, 0 worse, 0 the same (within .003); sign test: p = 0.5$' out.txt || fail "compared: $(tail -n 1 out.txt)"
+[[ $(grep -c '^  better cats' out.txt) == 2 ]] || fail "by pair: $(cat out.txt)"
+expect_exit 6 "$varimap" bench ren.csv -o benched --compare nowhere
