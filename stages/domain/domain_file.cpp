@@ -167,14 +167,11 @@ class EdgeCollector {
   public:
     void add(const TextScanner& row, int a, int b, double weight) {
         if (!(weight > 0))
-            row.fail(
-                fmt::format("the weight {} of the edge {} {} is not positive; a graph needs positive weights",
-                            weight, a, b));
+            row.fail(fmt::format("the weight {} is not positive; a graph needs positive weights", weight));
         if (a == b) return;
         const auto [known, is_new] = weight_.emplace(std::minmax(a, b), weight);
         if (!is_new && known->second != weight)
-            row.fail(
-                fmt::format("the edge {} {} has weight {} here and {} before", a, b, weight, known->second));
+            row.fail(fmt::format("the edge has weight {} here and {} before", weight, known->second));
     }
     std::vector<DomainEdge> edges() const {
         std::vector<DomainEdge> result;

@@ -53,9 +53,9 @@ void require_connected(int points, const std::vector<DomainEdge>& edges, const s
     const std::vector<int> part = components(points, edges);
     const auto other = std::find_if(part.begin(), part.end(), [](int p) { return p > 0; });
     if (other != part.end())
-        throw InputError(fmt::format("{}: falls into {} parts: point {} is not joined to point 0; {}", path,
-                                     1 + *std::max_element(part.begin(), part.end()), other - part.begin(),
-                                     advice));
+        throw InputError(
+            fmt::format("{}: falls into {} parts: point {} (from 0) is not joined to point 0; {}", path,
+                        1 + *std::max_element(part.begin(), part.end()), other - part.begin(), advice));
 }
 
 /// Half of the length of the edges at each point: its share of the curve.
