@@ -140,10 +140,8 @@ std::vector<Appraised> quickly_found(const PairContext& context, const ExplorePa
 }
 
 /// Whether the map that landmarks lead to is so good that nothing else is looked for.
-bool suffices(const std::vector<PooledMap>& led, const PairContext& context, const ExploreParams& params) {
+bool suffices(const Candidate& map) {
     constexpr double good = 0.985;  // chosen by hand on half of the known pairs
-    const std::vector<Appraised> list = finished(led, context, quick_finishing(params));
-    const Candidate& map = list.front().candidate;
     const double found = is_mirrored(map) ? 0 : plausibility(map);
     log("the landmarks lead to a map that is plausible by {:.3f} (Dirichlet energy {:.3f}, relief {:.3f})",
         found, map.dirichlet, map.relief);
@@ -200,6 +198,26 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
     return found;
 }
 
+namespace {
+
+Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& context) {
+    Candidates found;
+    for (const Appraised& one : list) {
+        found.list.push_back(one.candidate);
+        found.maps.push_back(correspondences(one.map.maps, context.A().surface, context.B().surface));
+    }
+    return found;
+}
+
+/// Where the map that landmarks lead to is good.
+Candidates led(std::vector<Appraised> list, const PairContext& context, const ExploreParams& params) {
+    if (!params.keep_led) return {};
+    list.resize(1);
+    return candidates_of(list, context);
+}
+
+}  // namespace
+
 Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A,
                    const Candidates& self_maps_B) {
     // Chosen by hand on half of the known pairs. With landmarks, fewer maps are wrong.
@@ -212,7 +230,10 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     const Surface &A = context.A().surface, &B = context.B().surface;
     const Known known{led_by_landmarks(context, params), images_of(self_maps_A, A),
                       images_of(self_maps_B, B)};
-    if (if_needed && suffices(known.led, context, params)) return {};
+    if (if_needed) {
+        const std::vector<Appraised> list = finished(known.led, context, quick_finishing(params));
+        if (suffices(list.front().candidate)) return led(list, context, params);
+    }
     std::vector<Appraised> list = quickly_found(context, params, known);
     if (const double found = plausibility(list.front().candidate);
         found < (if_needed ? plausible_with_landmarks : plausible)) {
@@ -220,13 +241,9 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         list = thoroughly_found(context, params, known);
     } else if (if_needed && list.front().candidate.explored == 0) {
         log("none of {} maps is clearly better than where the landmarks lead", list.size());
-        return {};
+        return led(list, context, params);
     }
-    Candidates found;
-    for (const Appraised& one : list) {
-        found.list.push_back(one.candidate);
-        found.maps.push_back(correspondences(one.map.maps, A, B));
-    }
+    Candidates found = candidates_of(list, context);
     constexpr std::size_t shown = 3;
     if (!confidence_of(found.list).confident)
         for (std::size_t k = 0; k < std::min(list.size(), shown); ++k)

@@ -13,6 +13,7 @@ struct ExploreParams {
     FinishingOptions finishing;
     bool self_maps = false;
     bool only_if_needed = false;  ///< with landmarks: unless the map that they lead to is a good one
+    bool keep_led = false;        ///< with only_if_needed: a good map that they lead to is written
     int few_landmarks = 10;       ///< with more, they are taken to decide
     int composed = 2;             ///< maps that self-maps are composed with
     LandmarkSpace landmark_space = LandmarkSpace::stated;
@@ -35,6 +36,9 @@ struct ExploreParams {
         list.add("only_if_needed", only_if_needed,
                  "with landmarks: looks for maps only where that which they lead to is doubtful; writes none "
                  "where it is not");
+        list.add("keep_led", keep_led,
+                 "with only_if_needed: writes the map that landmarks lead to where it is good, for a "
+                 "varimap-diffuse with another area bound, which may be led elsewhere");
         list.add("few_landmarks", few_landmarks, "with more landmarks than these, nothing is needed", 0,
                  1000000);
         list.add("composed", composed, "of how many maps compositions with self-maps are tried", 0, 100);
