@@ -156,7 +156,7 @@ bool suffices(const std::vector<PooledMap>& led, const PairContext& context, con
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
                                         const Known& known) {
     std::vector<ExplorationOptions> explorations;
-    for (const double factor : {1.0, 2.0, 0.5}) {
+    for (const double factor : {1.0, 0.5}) {
         ExplorationOptions options = params.exploration;
         options.area_bound = std::max(1.0, factor * options.area_bound);
         options.tip_starts = 3 * options.tip_starts / 2;
