@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
@@ -14,6 +15,9 @@ namespace {
 // Numbers in this file were chosen by hand on the known pairs, not swept.
 
 constexpr int start_levels = 3;
+constexpr int most_tips = 8;
+/// On coarser levels several tips share a sample.
+constexpr int tip_samples = 30;
 constexpr int extremities = 8;
 
 /// Least samples of levels on which images of extremities are exchanged, and for how many of the best maps.
@@ -24,9 +28,10 @@ constexpr SwapRule swap_rules[] = {{18, 4}, {45, 3}, {100, 2}};
 
 /// Distinct maps that go on from a level with that many samples. Wrong ones stand out from about 250 samples
 /// on.
-int promoted(int samples, int last) {
+int promoted(int samples, const ExplorationOptions& options) {
+    const int last = options.candidates;
     if (samples < 18) return 1000;
-    if (samples < 100) return std::max(last, 10);
+    if (samples < 100) return std::max(last, options.coarse);
     if (samples < 250) return std::max(last, 5);
     if (samples < 500) return std::max(last, 4);
     return last;
@@ -103,6 +108,17 @@ void Exploration::add_starts() {
     try_all(starts);
 }
 
+void Exploration::add_tip_starts() {
+    const LevelPair& level = descent_.level();
+    const Tips A = find_tips(context_.graph_A(), level.A.level.samples, most_tips),
+               B = find_tips(context_.graph_B(), level.B.level.samples, most_tips);
+    std::vector<Start> starts;
+    for (const TipMatching& tips : match_tips(A, B, options_.tip_starts))
+        starts.push_back({centres_of(level, matching_by_tips(A, B, tips, level)), {}});
+    log("{} starts from {} and {} ends of limbs", starts.size(), A.vertices.size(), B.vertices.size());
+    try_all(starts);
+}
+
 void Exploration::add_swaps(int best) {
     const LevelPair& level = descent_.level();
     const LevelSwitch back(extremities_.A, extremities_.B, level);
@@ -116,7 +132,7 @@ void Exploration::add_swaps(int best) {
 }
 
 void Exploration::prune() {
-    const int keep = promoted(descent_.samples(), options_.candidates);
+    const int keep = promoted(descent_.samples(), options_);
     std::stable_sort(pool_.begin(), pool_.end(), [](const Trial& a, const Trial& b) {
         return std::pair(a.is_mirrored(), a.energy()) < std::pair(b.is_mirrored(), b.energy());
     });
@@ -157,11 +173,12 @@ Trial Exploration::follow_landmarks() {
 
 std::vector<Trial> Exploration::run() {
     const SwapRule* swap = std::begin(swap_rules);
-    int started = 0;
+    int started = 0, before = 0;
     for (int l = 0; l < context_.diffusion_levels(); ++l) {
         enter(l);
         const int samples = descent_.samples();
         if (started < start_levels && samples >= 5 * started) add_starts(), ++started;
+        if (before < tip_samples && samples >= tip_samples) add_tip_starts();
         if (samples < swap_rules[0].samples)
             extremities_ = {descent_.level().A.level, descent_.level().B.level};
         prune();
@@ -171,6 +188,7 @@ std::vector<Trial> Exploration::run() {
         }
         log_pool(l);
         if (samples >= options_.last_samples) break;
+        before = samples;
     }
     return pool_;
 }

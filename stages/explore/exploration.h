@@ -16,6 +16,8 @@ namespace varimap {
 struct ExplorationOptions {
     int random_starts = 16;  ///< at each of the three coarsest levels worth it
     int seed = 1;
+    int tip_starts = 32;     ///< from matched ends of limbs
+    int coarse = 10;         ///< maps that go on from levels with fewer than a hundred samples
     int candidates = 6;      ///< maps that reach the last level
     int last_samples = 150;  ///< the first level with so many samples is the last
     double distinct = 0.2;   ///< maps closer than this are duplicates: squared distance of centres / variance
@@ -49,6 +51,7 @@ class Exploration {
   private:
     void enter(int level);
     void add_starts();
+    void add_tip_starts();
     void add_swaps(int best);
     void prune();
     void log_pool(int level) const;

@@ -148,15 +148,18 @@ bool suffices(const Candidate& map) {
     return found >= good;
 }
 
-/// For shapes that differ much: explorations with looser and with exact areas, more compositions, and maps
+/// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with
+/// looser and with exact areas, that give more maps and more alike ones a chance, more compositions, and maps
 /// finished with care.
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
                                         const Known& known) {
     std::vector<ExplorationOptions> explorations;
-    for (const double factor : {1.0, 2.0, 0.5}) {
+    for (const double factor : {1.0, 0.5}) {
         ExplorationOptions options = params.exploration;
         options.area_bound = std::max(1.0, factor * options.area_bound);
-        options.random_starts *= 2;
+        options.tip_starts = 3 * options.tip_starts / 2;
+        options.coarse *= 3;
+        options.distinct /= 2;
         options.seed += int(explorations.size());
         explorations.push_back(options);
     }

@@ -26,6 +26,7 @@ struct ExploreParams {
         varimap::describe(list, ironing);
         list.add("random_starts", exploration.random_starts, "random starts at each of three coarse levels",
                  0, 10000);
+        list.add("tip_starts", exploration.tip_starts, "starts from matched ends of limbs", 0, 10000);
         list.add("seed", exploration.seed, "of the random starts", 0, 1000000000);
         list.add("candidates", exploration.candidates, "maps that are kept to the last level", 1, 100);
         list.add("distinct", exploration.distinct,

@@ -17,13 +17,6 @@ int nearest_row(const RowMatrix& points, const Eigen::RowVectorXd& point) {
     return nearest;
 }
 
-Matching nearest_to_each_other(const RowMatrix& a, const RowMatrix& b) {
-    Matching matching;
-    for (int i = 0; i < a.rows(); ++i) matching.emplace_back(i, nearest_row(b, a.row(i)));
-    for (int j = 0; j < b.rows(); ++j) matching.emplace_back(nearest_row(a, b.row(j)), j);
-    return matching;
-}
-
 /// The same permutation for the same state on every platform, which std::shuffle does not promise.
 std::vector<int> random_permutation(int count, std::mt19937& random) {
     std::vector<int> order(count);
@@ -44,6 +37,13 @@ Coupling swap_rows(const Coupling& plan, int first, int second) {
 }
 
 }  // namespace
+
+Matching nearest_to_each_other(const RowMatrix& a, const RowMatrix& b) {
+    Matching matching;
+    for (int i = 0; i < a.rows(); ++i) matching.emplace_back(i, nearest_row(b, a.row(i)));
+    for (int j = 0; j < b.rows(); ++j) matching.emplace_back(nearest_row(a, b.row(j)), j);
+    return matching;
+}
 
 std::vector<Matching> spectral_matchings(const PairContext& context, const LevelPair& pair) {
     const Eigen::Index functions = std::min<Eigen::Index>(

@@ -7,6 +7,9 @@
 
 namespace varimap {
 
+/// Each row of one matrix with the nearest row of the other, and the converse.
+Matching nearest_to_each_other(const RowMatrix& a, const RowMatrix& b);
+
 /// Samples with the most alike low eigenfunctions, once for each choice of their signs: nearly all
 /// near-isometries of generic surfaces are among these.
 std::vector<Matching> spectral_matchings(const PairContext& context, const LevelPair& pair);

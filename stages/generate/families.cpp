@@ -31,6 +31,8 @@ class Proportions {
     double shifted(double typical, double spread) {
         return typical + params_.variation * spread * random_.between(-1, 1);
     }
+    /// From 0, slender, to 1, as a hippopotamus. Nothing is drawn where all are slender.
+    double stoutness() { return params_.build > 0 ? params_.build * random_.between(0, 1) : 0; }
     /// Limbs, bent about the middle of the first.
     Part bent(std::vector<Limb> limbs, double root) {
         const Limb& limb = limbs.front();
@@ -108,12 +110,15 @@ Body biped(Proportions& p) {
 }
 
 /// Neck, head, snout and ears.
-Part quadruped_head(Proportions& p, const Vec3& withers, double girth) {
-    const double neck = p.length(0.6, 0.45), rise = p.shifted(0.8, 0.5), head = p.length(0.22, 0.3);
-    const double snout = p.length(0.4, 0.5), ear = p.length(0.3, 0.6);
+Part quadruped_head(Proportions& p, const Vec3& withers, double girth, double stoutness) {
+    const double neck = p.length(0.6 * std::exp(-0.5 * stoutness), 0.45),
+                 rise = p.shifted(0.8 - 0.5 * stoutness, 0.5);
+    const double head = p.length(0.22 * std::exp(0.4 * stoutness), 0.3);
+    const double snout = p.length(0.4, 0.5), ear = p.length(0.3 * std::exp(-1.2 * stoutness), 0.6);
+    const double muzzle = 0.6 + 0.3 * stoutness;
     const Vec3 crown = withers + neck * Vec3(std::cos(rise), 0, std::sin(rise)) + Vec3(0.6 * girth, 0, 0);
     std::vector<Limb> limbs{{withers, crown, p.length(0.22, 0.3), head},
-                            {crown, crown + Vec3(snout, 0, -0.12), head, p.length(0.6, 0.3) * head}};
+                            {crown, crown + Vec3(snout, 0, -0.12), head, p.length(muzzle, 0.3) * head}};
     for (const double side : {0.7, -0.7}) {
         const Limb limb{crown + Vec3(-0.04, side * head, 0.4 * head),
                         crown + Vec3(-0.08, side * (head + 0.6 * ear), 0.5 * head + ear), 0.1, 0.08};
@@ -124,13 +129,16 @@ Part quadruped_head(Proportions& p, const Vec3& withers, double girth) {
 
 /// Legs of one member are apart at rest, so that they do not grow together.
 Body quadruped(Proportions& p) {
-    const double half = p.length(0.8, 0.25), girth = p.length(0.38, 0.3), rump = p.length(0.38, 0.25);
-    const double fore = p.length(0.95, 0.4), hind = fore * p.length(1, 0.2), stout = p.length(0.16, 0.35);
+    const double stoutness = p.stoutness(), wide = std::exp(0.35 * stoutness);
+    const double half = p.length(0.8, 0.25), girth = p.length(0.38 * wide, 0.3),
+                 rump = p.length(0.38 * wide, 0.25);
+    const double fore = p.length(0.95 * std::exp(-0.5 * stoutness), 0.4), hind = fore * p.length(1, 0.2);
+    const double stout = p.length(0.16 * std::exp(0.25 * stoutness), 0.35);
     const double rise = p.shifted(0.05, 0.1), belly = p.length(0.1, 0.8);
     Body body;
     body.parts.push_back(unbent(
         {{{-half, 0, 0}, {half, 0, rise}, rump, girth}, {{-0.2, 0, 0}, {0.2, 0, -belly}, girth, girth}}));
-    const double track = std::max(p.length(0.22, 0.25), 1.2 * stout), hoof = p.length(0.14, 0.4);
+    const double track = std::max(p.length(0.22 * wide, 0.25), 1.2 * stout), hoof = p.length(0.14, 0.4);
     for (const auto& [x, length] : {std::pair(0.85 * half, fore), std::pair(-0.85 * half, hind)}) {
         const Vec3 top(x, track, -0.15), end(x + (x < 0 ? -0.06 : 0.03), 1.15 * track, -0.2 - length);
         p.add_sides(body,
@@ -138,8 +146,8 @@ Body quadruped(Proportions& p) {
                      {end, end + Vec3(hoof, 0, -0.02), 0.8 * stout, 0.7 * stout}},
                     0.3);
     }
-    body.parts.push_back(quadruped_head(p, {half, 0, 0.1}, girth));
-    const double tail = p.length(0.8, 0.6), droop = p.shifted(0, 0.6);
+    body.parts.push_back(quadruped_head(p, {half, 0, 0.1}, girth, stoutness));
+    const double tail = p.length(0.8 * std::exp(-1.2 * stoutness), 0.6), droop = p.shifted(0, 0.6);
     const Vec3 dock(-half, 0, 0.1), away(-std::cos(droop), 0, -std::sin(droop));
     body.parts.push_back(p.bent(
         {p.dispensable({dock, dock + (tail + rump) * away, p.length(0.13, 0.3), p.length(0.09, 0.3)})}, 0.3));

@@ -223,6 +223,7 @@ GeneratedPair generate(const std::string& family, unsigned seed, const GenerateP
     if (family == "isometric") {
         const GenerateParams usual;
         require_default(params.variation, usual.variation, "variation");
+        require_default(params.build, usual.build, "build");
         require_default(params.bending, usual.bending, "bending");
         require_default(params.asymmetry, usual.asymmetry, "asymmetry");
         require_default(params.missing, usual.missing, "missing");

@@ -8,6 +8,7 @@ struct GenerateParams {
     int vertices = 0;
     int members = 0;
     double variation = 1;
+    double build = 0;
     double bending = 1;
     double asymmetry = 0;
     double missing = 0;
@@ -25,6 +26,11 @@ struct GenerateParams {
         list.add("variation", variation,
                  "how much proportions differ: 0 not at all, 1 as between animals of several species", 0,
                  1.5);
+        list.add(
+            "build", build,
+            "how stout quadrupeds may be, each to a degree of its own: 1 up to a hippopotamus, with short "
+            "legs, a barrel of a belly, a large head and a small tail",
+            0, 1.2);
         list.add("bending", bending, "how far limbs are bent: 0 not at all, 1 by up to 45 degrees", 0, 2);
         list.add("asymmetry", asymmetry,
                  "how much right limbs differ from left ones: 1 by up to a third in length", 0, 1);

@@ -5,6 +5,8 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <set>
 
 #include "fixtures/known_pair.h"
@@ -12,6 +14,7 @@
 #include "stages/explore/appraisal.h"
 #include "stages/explore/pool.h"
 #include "stages/explore/starts.h"
+#include "stages/explore/tips.h"
 
 namespace varimap {
 namespace {
@@ -173,6 +176,48 @@ TEST(Starts, SpectralMatchingsHoldTheTrueOne) {
         return std::all_of(m.begin(), m.end(), [](auto p) { return p.first == p.second; });
     };
     EXPECT_EQ(std::count_if(matchings.begin(), matchings.end(), is_identity), 1);
+}
+
+Tips tips_of(const PairContext& context, bool of_A) {
+    const LevelPair level = context.diffusion_level(context.diffusion_levels() - 1);
+    return find_tips(of_A ? context.graph_A() : context.graph_B(),
+                     of_A ? level.A.level.samples : level.B.level.samples, 8);
+}
+
+TEST(Tips, AreTheEndsOfAnEllipsoid) {
+    const TriangleMesh mesh = shapes::ellipsoid(3, {.5, .6, 2});
+    const GeodesicGraph graph(mesh);
+    std::vector<int> all(std::size_t(mesh.vertex_count()));
+    std::iota(all.begin(), all.end(), 0);
+    const Tips tips = find_tips(graph, all, 8);
+    ASSERT_EQ(tips.vertices.size(), 2u);
+    double product = 1;
+    for (const int tip : tips.vertices) {
+        EXPECT_GT(std::abs(mesh.vertex(tip)[2]), 1.8);
+        product *= mesh.vertex(tip)[2];
+    }
+    EXPECT_LT(product, 0);
+    EXPECT_EQ(tips.distance(tips.vertices[1], 1), 0);
+    EXPECT_TRUE(match_tips(tips, tips, 5).empty());  // two are too few to tell anything
+}
+
+TEST(Tips, OfAFigureAndItsPoseAreMatchedRightAmongTheBest) {
+    const KnownPair& pair = figures();
+    const PairContext context = pair.context();
+    const Tips A = tips_of(context, true), B = tips_of(context, false);
+    ASSERT_GE(A.vertices.size(), 4u);
+    const std::vector<TipMatching> matchings = match_tips(A, B, 32);
+    ASSERT_FALSE(matchings.empty());
+    ASSERT_LE(matchings.size(), 32u);
+    const auto is_right = [&](const TipMatching& tips) {
+        return std::all_of(tips.begin(), tips.end(), [&](const auto& match) {
+            const Vec3 truth = pair.A_on_B.row(A.vertices[std::size_t(match.first)]).transpose();
+            return (pair.B.surface.mesh.vertex(B.vertices[std::size_t(match.second)]) - truth).norm() < .15;
+        });
+    };
+    EXPECT_TRUE(std::any_of(matchings.begin(), matchings.end(), is_right));
+    EXPECT_FALSE(std::all_of(matchings.begin(), matchings.end(), is_right));
+    EXPECT_TRUE(match_tips(A, B, 0).empty());
 }
 
 TEST(Starts, RandomMatchingsUseEverySampleAndRepeatForASeed) {

@@ -94,6 +94,25 @@ TEST(Generate, TheSeedDecidesAll) {
     }
 }
 
+TEST(Generate, StoutQuadrupedsHaveMoreVolumeForTheirArea) {
+    const auto compactness = [](const TriangleMesh& mesh) {
+        return signed_volume(mesh) / std::pow(surface_area(mesh), 1.5);
+    };
+    GenerateParams slender = small_meshes(), stout = small_meshes();
+    stout.build = 1.2;
+    double least = 1, most = 0, usual = 0;
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const GeneratedPair pair = generate("quadruped", seed, stout);
+        expect_sphere(pair.source);
+        expect_truth(pair);
+        most = std::max({most, compactness(pair.source), compactness(pair.target)});
+        least = std::min({least, compactness(pair.source), compactness(pair.target)});
+        usual = std::max(usual, compactness(generate("quadruped", seed, slender).source));
+    }
+    EXPECT_GT(most, 1.2 * usual);
+    EXPECT_GT(most, 1.3 * least);
+}
+
 /// Without variation and relief two members are the same shape at rest, and unbent the same one.
 TEST(Generate, MembersOfNoVariationAreCongruentUpToTheirPlace) {
     GenerateParams params = small_meshes();
