@@ -148,9 +148,9 @@ bool suffices(const Candidate& map) {
     return found >= good;
 }
 
-/// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with
-/// looser and with exact areas, that give more maps and more alike ones a chance, more compositions, and maps
-/// finished with care.
+/// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with the
+/// area bound and with exact areas, that give more maps and more alike ones a chance, more compositions, and
+/// maps finished with care. Chosen by hand on one hippopotamus.
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
                                         const Known& known) {
     std::vector<ExplorationOptions> explorations;
