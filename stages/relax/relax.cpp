@@ -18,6 +18,9 @@ namespace {
 constexpr double coarse_input = 0.5;
 /// Over a map that was carried over from the meshes to the inputs.
 constexpr int fine_sweeps = 3;
+/// Its folds are small and soon removed, or none of its own but where the map is torn. On a pair of skulls:
+/// 5, 20 and 150 visits leave 308, 93 and 251 triangles reversed, and take 29, 38 and 72 s.
+constexpr double fine_fold_visits = 20;
 
 /// Whether mesh and input differ in resolution, so that the map is untangled on the meshes first.
 bool is_apart(const Surface& surface) {
@@ -131,6 +134,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = fine_sweeps;
+        options.most_fold_visits = fine_fold_visits;
         options.replace_parts = false;
     }
     MapPair inputs = on_inputs(maps, A, B, landmarks, options.enabled);

@@ -11,6 +11,10 @@ namespace varimap {
 
 namespace {
 
+/// Points near in space and farther along the surface lie on two sides of a tear. Those of torn maps are
+/// many, and searches for ways between them were most of the time of repair and verification of a skull's.
+constexpr double detour = 6;
+
 double angle(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -101,7 +105,7 @@ LogMap::Vec2 LogMap::seen(const SurfacePoint& from, const TriangleStrip& strip, 
 }
 
 std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b) const {
-    TriangleStrip strip = find_strip(mesh_, edges_, a.face, b.face, farthest_);
+    TriangleStrip strip = find_strip(mesh_, edges_, a.face, b.face, farthest_, detour);
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
     const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
     straighten(mesh_, edges_, strip, start, goal);

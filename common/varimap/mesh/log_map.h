@@ -19,7 +19,7 @@ class LogMap {
         : mesh_(mesh), edges_(find_edges(mesh)), farthest_(farthest) {}
 
     /// b as seen from a, and a as seen from b. Both must have a face. Where no path is found (other
-    /// components, or too far), both are 0.
+    /// components, too far, or a detour of more than 6 times their distance), both are 0.
     std::pair<Vec2, Vec2> operator()(const SurfacePoint& a, const SurfacePoint& b) const;
 
   private:

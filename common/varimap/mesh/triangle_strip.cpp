@@ -1,6 +1,7 @@
 #include "varimap/mesh/triangle_strip.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -106,6 +107,12 @@ Vec3 centre(const TriangleMesh& mesh, int f) {
            3;
 }
 
+double longest_edge(const TriangleMesh& mesh, int f) {
+    const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
+               c = mesh.vertex(mesh.faces(f, 2));
+    return std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+}
+
 /// A face that the search for a strip has reached.
 struct Reached {
     int face;
@@ -185,7 +192,8 @@ struct Way {
 
 }  // namespace
 
-TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most) {
+TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most,
+                         double detour) {
     if (from == to) return {{from}, {}};
     for (int side = 3 * from; side < 3 * from + 3; ++side)  // most ways are that short
         for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]])
@@ -195,6 +203,8 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
     reached.clear();
     open.clear();
     const Vec3 goal = centre(mesh, to), start = centre(mesh, from);
+    const double longest =
+        detour * ((start - goal).norm() + std::max(longest_edge(mesh, from), longest_edge(mesh, to)));
     const auto open_way = [](const Way& way) {
         open.push_back(way);
         std::push_heap(open.begin(), open.end());
@@ -202,6 +212,7 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
     open_way({(start - goal).norm(), from, reached.add({from, 0, -1, -1, start, 0})});
     for (int settled = 0; !open.empty() && settled < most;) {
         std::pop_heap(open.begin(), open.end());
+        if (open.back().length > longest) break;
         const int here = open.back().number;
         open.pop_back();
         if (std::exchange(reached[here].settled, true)) continue;

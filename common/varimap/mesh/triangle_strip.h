@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,9 +22,12 @@ struct TriangleStrip {
 double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
                   const Vec3& goal);
 
-/// The strip of least length by the faces' centres, from one face to another; empty if they are not connected
-/// or more than `most` faces have to be looked at (A*). No geodesic yet: `straighten` makes one of it.
-TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most);
+/// The strip of least length by the faces' centres, from one face to another (A*). Empty if they are not
+/// connected, if more than `most` faces have to be looked at, or if the way is longer than `detour` times the
+/// centres' distance and the longest edge of both faces together. No geodesic yet: `straighten` makes one of
+/// it.
+TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most,
+                         double detour = std::numeric_limits<double>::infinity());
 
 /// The direction in which the shortest path through the strip leaves `start`, in the plane of the first face,
 /// times the path's length: where `goal` lies as seen from `start` along the surface.

@@ -21,8 +21,11 @@ namespace {
 constexpr std::array<int, 10> ring_counts{2, 3, 4, 5, 6, 8, 10, 13, 2, 4};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
-constexpr double most_tried = 2;      ///< faces in discs that are tried, by all: bounds the time
-constexpr int polishing = 15;         ///< sweeps
+/// Faces in discs that are tried, by all the faces, or so many of them if there are more: bounds the time. A
+/// map of a large mesh has few defects, or is torn beyond repair.
+constexpr double most_tried = 2;
+constexpr int most_counted = 40'000;
+constexpr int polishing = 15;  ///< sweeps
 constexpr int careful_polishing = 6;
 constexpr int most_with_care = 200;  ///< vertices
 constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
@@ -219,7 +222,7 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
     std::vector<int> touched(std::size_t(map_.source().face_count()));
     std::iota(touched.begin(), touched.end(), 0);
     std::vector<int> defects = defects_among(touched), all_touched;
-    double budget = most_tried * map_.source().face_count();
+    double budget = most_tried * std::min(map_.source().face_count(), most_counted);
     for (const int rings : ring_counts) {
         touched.clear();
         for (const std::vector<int>& cluster : clusters_of(defects)) {

@@ -19,8 +19,8 @@ class LaidOut {
     double sense(const std::array<SurfacePoint, 3>& corners) const;
 
   private:
-    /// Faces looked at for the path between two corners. Those of torn triangles, near in space and far along
-    /// the surface, are looked for in vain again and again: on a skull, that was most of the time of repair.
+    /// Faces looked at for the path between two corners. Those of torn triangles are looked for in vain again
+    /// and again.
     static constexpr int farthest = 2000;
     LogMap log_map_;
 };

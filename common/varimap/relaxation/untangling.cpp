@@ -192,7 +192,7 @@ class Untangling {
     void end_relaxation(const Round& round) {
         if (relaxation_) report_.global_steps += relaxation_->steps();
         relaxation_.reset();
-        report_.sweeps += FoldRemoval{options_.fold_sweeps, round.fold_visits}(sliding_, held());
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(round.fold_visits)}(sliding_, held());
     }
 
     void replace_parts(const PointMap& back) {
@@ -228,6 +228,7 @@ class Untangling {
         return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, steps,
                                             options_);
     }
+    double fold_visits(double of_round) const { return std::min(of_round, options_.most_fold_visits); }
     void sweep(const Round& round) {
         if (options_.local_sweeps > 0)
             sweep(free_vertices(sliding_, fixed_, landmarks_), round, options_.local_sweeps);
@@ -265,7 +266,7 @@ class Untangling {
         ChartRepair repair(sliding_, agreement, back);
         const std::vector<int> touched = repair(stays);
         // What is upright along the target may still be reversed by the normals at its corners.
-        report_.sweeps += FoldRemoval{options_.fold_sweeps, last_fold_visits}(sliding_, stays);
+        report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(last_fold_visits)}(sliding_, stays);
         left.insert(left.end(), touched.begin(), touched.end());
         make_set(left);
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());

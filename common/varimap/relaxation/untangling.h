@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "varimap/mesh/triangle_mesh.h"
@@ -33,6 +34,8 @@ struct UntanglingOptions {
     int settling_steps = 15;
     double area_bound = 0;  ///< that areas around vertices are to keep (area_bound.h); 0: none
     int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
+    /// Visits per vertex that each removal of folds may take, if fewer than otherwise.
+    double most_fold_visits = std::numeric_limits<double>::infinity();
     MirrorGate gate;
     PartReplacementOptions parts;
     bool replace_parts = true;

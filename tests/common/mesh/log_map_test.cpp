@@ -8,6 +8,7 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "varimap/mesh/closest_point.h"
 
 namespace varimap {
 namespace {
@@ -71,6 +72,17 @@ TEST(LogMap, LooksOnlySoFar) {
     EXPECT_NEAR(distance(20, near), distance(20'000, near), 1e-12);
     EXPECT_EQ(distance(20, far), 0);
     EXPECT_GT(distance(20'000, far), 1);
+}
+
+TEST(LogMap, SeesAroundARimButNotThroughAPlate) {
+    const TriangleMesh plate = shapes::ellipsoid(4, {1, 1, 0.02});
+    const LogMap log_map(plate);
+    const ClosestPoint closest(plate);
+    const auto distance_through = [&](double x) {
+        return log_map(closest(Vec3(x, 0.01, 0.02)).point, closest(Vec3(x, 0.01, -0.02)).point).first.norm();
+    };
+    EXPECT_NEAR(distance_through(0.95), 0.1, 0.05);
+    EXPECT_EQ(distance_through(0), 0);
 }
 
 }  // namespace
