@@ -8,17 +8,9 @@ TriangleMesh normalised_input(const Surface& surface) {
     return mesh;
 }
 
-TriangleMesh input_laid_on_mesh(const Surface& surface) {
-    TriangleMesh laid = normalised_input(surface);
-    for (int v = 0; v < laid.vertex_count(); ++v)
-        if (const SurfacePoint& place = surface.on_mesh[std::size_t(v)]; place.face >= 0)
-            laid.vertices.row(v) = position(surface.mesh, place);
-    return laid;
-}
-
 SurfacePoint InputLocator::operator()(const SurfacePoint& on_mesh) const {
     if (!surface_.input_face.empty()) return to_input(surface_, on_mesh);
-    return (*laid_)(position(surface_.mesh, on_mesh), face_normal(surface_.mesh, on_mesh.face)).point;
+    return (*this)(position(surface_.mesh, on_mesh), face_normal(surface_.mesh, on_mesh.face));
 }
 
 SurfacePoint InputLocator::operator()(const Vec3& x, const Vec3& normal, int guess) const {

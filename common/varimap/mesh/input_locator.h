@@ -8,18 +8,13 @@ namespace varimap {
 /// The input in the coordinates of the mesh.
 TriangleMesh normalised_input(const Surface& surface);
 
-/// The input with every vertex at its place on the mesh, and vertices without one where they are.
-TriangleMesh input_laid_on_mesh(const Surface& surface);
-
 /// Where points of a surface's mesh, and points in space near it, lie on its input: exactly where the mesh
 /// was made by bisection; else the closest point of the input that faces the same way. Keeps a reference to
 /// the surface. Thread-safe once built.
 class InputLocator {
   public:
     explicit InputLocator(const Surface& surface)
-        : surface_(surface),
-          closest_([&surface] { return normalised_input(surface); }),
-          laid_([&surface] { return input_laid_on_mesh(surface); }) {}
+        : surface_(surface), closest_([&surface] { return normalised_input(surface); }) {}
 
     SurfacePoint operator()(const SurfacePoint& on_mesh) const;
     /// x in the coordinates of the mesh, near it; `normal`: of the surface there, of any length; `guess`: a
@@ -28,7 +23,7 @@ class InputLocator {
 
   private:
     const Surface& surface_;
-    ClosestPointOnDemand closest_, laid_;  ///< on the input, as it is and laid on the mesh
+    ClosestPointOnDemand closest_;  ///< on the input; not needed where the way there is exact
 };
 
 /// Where points of a surface's input lie on its mesh: as its corners do, linearly between them. Keeps a
