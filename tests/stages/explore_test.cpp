@@ -83,6 +83,22 @@ TriangleMesh turnable() {
     return shapes::ellipsoid(3, {.6, 1, 2});
 }
 
+TEST(Explore, HandsOnWhereGoodLandmarksLeadOnlyForAnotherAreaBound) {
+    const KnownPair pair = shapes::figure_pair(1, true, 1000);
+    ExploreParams params;
+    params.only_if_needed = true;
+    const auto found = [&](double bound) {
+        params.next_area_bound = bound;
+        return explore(pair.context(), params);
+    };
+    EXPECT_TRUE(found(0).list.empty());
+    EXPECT_TRUE(found(params.alternation.area_bound).list.empty());
+    const Candidates led = found(4);
+    ASSERT_EQ(led.list.size(), 1u);
+    EXPECT_EQ(led.list[0].explored, 0);
+    EXPECT_LT(mean_error(diffuse(pair.context(), {}, led), pair), .035);
+}
+
 TEST(SelfMaps, AreTheTurnsOfAnEllipsoid) {
     const TriangleMesh mesh = turnable();
     const KnownPair pair = shapes::known_pair(mesh, mesh, {}, 60, {});
