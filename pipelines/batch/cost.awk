@@ -8,10 +8,12 @@ function add(kind, name, size, looked_for, row,    s, on_all, seconds, megabytes
     for (s = 1; s <= stages; s++) {
         if (of[s] != kind) continue
         if (looked_for ? stage[s] == "explore_if_needed" : stage[s] == "explore" || stage[s] == "sketches") continue
-        # Solved for on every vertex instead of 6000: 24 MB and 2.5 seconds more for a thousand vertices.
-        on_all = full && (stage[s] == "diffuse" || stage[s] == "refine")
-        seconds = seconds0[s] + (seconds1[s] + 2.5 * on_all) * size
-        megabytes = megabytes0[s] + (megabytes1[s] + 24 * on_all) * size
+        # Solved for on every vertex instead of 6000: 24 MB and 2.5 seconds more for a thousand vertices. On up to
+        # 24,000 of them where walls are thin, which is not known in advance: room for it, but no time.
+        solves = stage[s] == "diffuse" || stage[s] == "refine"
+        further = full ? size : size > 24 ? 18 : size > 6 ? size - 6 : 0
+        seconds = seconds0[s] + seconds1[s] * size + (full && solves ? 2.5 * size : 0)
+        megabytes = megabytes0[s] + megabytes1[s] * size + (solves ? 24 * further : 0)
         if (what == "stages") printf "%s %s %s %.1f %.0f\n", kind, name, (stage[s] ~ /^explore/ ? "explore" : stage[s]), seconds, megabytes
         all += seconds
         if (megabytes > peak) peak = megabytes

@@ -33,6 +33,7 @@ SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapO
 SurfaceData sketch(const Surface& surface) {
     CoarsenParams params;
     params.vertices = 1000;
+    params.most_lost = 1;
     SurfaceData data;
     data.surface = coarsened(surface, params);
     data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});

@@ -30,7 +30,8 @@ Surface coarsened(Surface surface, const CoarsenParams& params) {
         vertex.push_back(point.face >= 0 ? vertex_of(surface.mesh, point) : -1);
         if (point.face >= 0 && vertex.back() < 0) inside.push_back(point);
     }
-    const Coarsening coarsening = coarsen(surface.mesh, params.vertices, inside);
+    const Coarsening coarsening =
+        coarsen(surface.mesh, params.vertices, inside, {params.thin_vertices, params.most_lost});
     log("coarsened from {} vertices to {}, {:.2f}% of the area lost", surface.mesh.vertex_count(),
         coarsening.mesh.vertex_count(), 100 * (1 - surface_area(coarsening.mesh)));
     auto next_inside = coarsening.points.begin();

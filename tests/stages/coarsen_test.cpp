@@ -22,6 +22,7 @@ TriangleMesh input() {
 CoarsenParams to(int vertices) {
     CoarsenParams params;
     params.vertices = vertices;
+    params.most_lost = 1;
     return params;
 }
 

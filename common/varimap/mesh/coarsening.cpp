@@ -91,7 +91,8 @@ double rounded(double cost) {
 class Coarsener {
   public:
     Coarsener(const TriangleMesh& mesh, const PointMap& points);
-    void reduce_to(int vertices);
+    /// `most_lost`: an area.
+    void reduce_to(int vertices, int vertices_if_thin, double most_lost);
     Coarsening result(const TriangleMesh& before) const;
 
   private:
@@ -109,6 +110,7 @@ class Coarsener {
     bool leaves_enough_faces(const Disc& disc, int target) const;
     bool is_upright(const Disc& disc, int target) const;
     void collapse(const Disc& disc, int target);
+    double area_lost(const Disc& disc, int target) const;
     void move_points(const Disc& disc, int target);
     void put(int point, int face, const Vec3& barycentric);
 
@@ -119,6 +121,7 @@ class Coarsener {
     std::vector<int> version_;
     std::priority_queue<Entry> queue_;
     int left_;
+    double lost_ = 0;                ///< area
     PointMap on_mesh_;               ///< of vertices that are gone; then of the further points
     std::vector<int> first_, next_;  ///< per face, per point: lists of the points on each face
 };
@@ -330,7 +333,24 @@ void Coarsener::move_points(const Disc& disc, int target) {
     }
 }
 
+/// By the collapse, of the faces around the vertex that goes.
+double Coarsener::area_lost(const Disc& disc, int target) const {
+    const auto corner = [&](int i) { return position(disc.spokes[std::size_t(i)].to()); };
+    const auto twice_area = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return (b - a).cross(c - a).norm();
+    };
+    const Vec3 centre = position(disc.centre), apex = corner(target);
+    double twice = 0;
+    for (int i = 0; i < disc.faces(); ++i) {
+        const Vec3 a = corner(i), b = corner(disc.next(i));
+        twice += twice_area(centre, a, b);
+        if (i != target && disc.next(i) != target) twice -= twice_area(apex, a, b);
+    }
+    return twice / 2;
+}
+
 void Coarsener::collapse(const Disc& disc, int target) {
+    lost_ += area_lost(disc, target);
     move_points(disc, target);
     const auto collapsed = disc.spokes[std::size_t(target)];
     const VertexHandle apex = collapsed.to();
@@ -362,8 +382,9 @@ int Coarsener::cheapest_target(const Disc& disc) {
     return best;
 }
 
-void Coarsener::reduce_to(int vertices) {
+void Coarsener::reduce_to(int vertices, int vertices_if_thin, double most_lost) {
     while (left_ > vertices && !queue_.empty()) {
+        if (left_ <= vertices_if_thin && lost_ > most_lost) break;
         const Entry entry = queue_.top();
         queue_.pop();
         const VertexHandle v = mesh_.vertex_handle(unsigned(entry.vertex));
@@ -403,9 +424,9 @@ Coarsening Coarsener::result(const TriangleMesh& before) const {
 
 }  // namespace
 
-Coarsening coarsen(const TriangleMesh& mesh, int vertices, const PointMap& points) {
+Coarsening coarsen(const TriangleMesh& mesh, int vertices, const PointMap& points, const ThinParts& thin) {
     Coarsener coarsener(mesh, points);
-    coarsener.reduce_to(vertices);
+    coarsener.reduce_to(vertices, thin.vertices, thin.most_lost * surface_area(mesh));
     return coarsener.result(mesh);
 }
 

@@ -14,6 +14,13 @@ struct Coarsening {
     PointMap points;   ///< the points that were given, on `mesh`
 };
 
+/// Where a surface has walls so thin that a coarse mesh cannot hold them apart, they shrink, and it loses
+/// area.
+struct ThinParts {
+    int vertices = 0;      ///< with so many or fewer left, coarsening ends where
+    double most_lost = 1;  ///< more than this share of the area is lost
+};
+
 /// Collapses half-edges, each removing a vertex, until `vertices` are left or no more can go: next the one
 /// that costs least by the quadric error (Garland and Heckbert 1997), plus a share of its squared way and
 /// area, which keeps vertices even.
@@ -26,6 +33,7 @@ struct Coarsening {
 /// The mesh must be manifold and its vertices used; topology and boundary loops stay. Deterministic; costs
 /// count as equal within a millionth, so that rounding hardly matters. O(n log n).
 /// `points`: others of the mesh, inside its faces, whose places are wanted too.
-Coarsening coarsen(const TriangleMesh& mesh, int vertices, const PointMap& points = {});
+Coarsening coarsen(const TriangleMesh& mesh, int vertices, const PointMap& points = {},
+                   const ThinParts& thin = {});
 
 }  // namespace varimap

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "fixtures/shapes.h"
@@ -103,6 +104,21 @@ TEST(Coarsen, LeavesAMeshOfFewVerticesAsItIs) {
     const Coarsening coarse = coarsen(sphere, 100);
     EXPECT_EQ(coarse.mesh.vertices, sphere.vertices);
     EXPECT_EQ(coarse.mesh.faces, sphere.faces);
+}
+
+TEST(Coarsen, KeepsMoreOfWhatWouldLoseItsArea) {
+    TriangleMesh waves = shapes::square(60);
+    for (int v = 0; v < waves.vertex_count(); ++v)
+        waves.vertices(v, 2) = .05 * std::sin(40 * waves.vertices(v, 0));
+    const double area = surface_area(waves);
+    EXPECT_LT(surface_area(coarsen(waves, 30).mesh), .9 * area);
+    const Coarsening kept = coarsen(waves, 30, {}, {1000, .05});
+    EXPECT_NEAR(surface_area(kept.mesh) / area, .95, .003);
+    EXPECT_GT(kept.mesh.vertex_count(), 100);
+    EXPECT_LT(kept.mesh.vertex_count(), 1000);
+    EXPECT_EQ(coarsen(waves, 30, {}, {100, .05}).mesh.vertex_count(), 100);
+    const TriangleMesh figure = shapes::figure(.15);
+    EXPECT_EQ(coarsen(figure, 700, {}, {2000, .05}).vertex, coarsen(figure, 700).vertex);
 }
 
 TEST(Coarsen, DoesNotDependOnPlaceAndScale) {
