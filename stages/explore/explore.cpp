@@ -214,8 +214,7 @@ Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& 
 
 /// Where the map that landmarks lead to is good.
 Candidates led(std::vector<Appraised> list, const PairContext& context, const ExploreParams& params) {
-    const double next = params.next_area_bound;
-    if (next == 0 || next == params.alternation.area_bound) return {};
+    if (params.next_area_bound == params.alternation.area_bound) return {};
     list.resize(1);
     return candidates_of(list, context);
 }

@@ -13,9 +13,9 @@ struct ExploreParams {
     FinishingOptions finishing;
     bool self_maps = false;
     bool only_if_needed = false;  ///< with landmarks: unless the map that they lead to is a good one
-    /// Area bound of the map that is made in the end; 0: that of the maps that are finished here. With
-    /// only_if_needed, and where it is another, a good map that landmarks lead to is written.
-    double next_area_bound = 0;
+    /// Area bound of the map that is made in the end. With only_if_needed, and where it is not that of the
+    /// maps that are finished here, a good map that landmarks lead to is written.
+    double next_area_bound = AlternationOptions().area_bound;
     int few_landmarks = 10;  ///< with more, they are taken to decide
     int composed = 2;        ///< maps that self-maps are composed with
     LandmarkSpace landmark_space = LandmarkSpace::stated;
@@ -43,7 +43,7 @@ struct ExploreParams {
             "next_area_bound", next_area_bound,
             "with only_if_needed: area bound of the varimap-diffuse that follows; where it is not 2, a good "
             "map that landmarks lead to is written, since with another bound they may lead elsewhere",
-            0.0, 1e6);
+            1.0, 1e6);
         list.add("few_landmarks", few_landmarks, "with more landmarks than these, nothing is needed", 0,
                  1000000);
         list.add("composed", composed, "of how many maps compositions with self-maps are tried", 0, 100);

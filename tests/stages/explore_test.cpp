@@ -91,7 +91,6 @@ TEST(Explore, HandsOnWhereGoodLandmarksLeadOnlyForAnotherAreaBound) {
         params.next_area_bound = bound;
         return explore(pair.context(), params);
     };
-    EXPECT_TRUE(found(0).list.empty());
     EXPECT_TRUE(found(params.alternation.area_bound).list.empty());
     const Candidates led = found(4);
     ASSERT_EQ(led.list.size(), 1u);
