@@ -4,7 +4,7 @@
 # pending: lines of KIND NAME SECONDS MEGABYTES ROW (the byte, from 1, at which its row in surfaces.tsv or pairs.tsv begins); stages: of KIND NAME STAGE SECONDS MEGABYTES; sum: all of it in words.
 # Of pairs with landmarks, explore_if_needed is what exploration costs in the mean, with the sketches for it.
 # DONE: lines of KIND and NAME, tab-separated, which cost nothing any more.
-function add(kind, name, size, looked_for, row,    s, on_all, seconds, megabytes, all, peak) {
+function add(kind, name, size, looked_for, row,    s, solves, further, seconds, megabytes, all, peak) {
     for (s = 1; s <= stages; s++) {
         if (of[s] != kind) continue
         if (looked_for ? stage[s] == "explore_if_needed" : stage[s] == "explore" || stage[s] == "sketches") continue

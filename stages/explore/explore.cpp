@@ -170,6 +170,22 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
     return finished(pooled(context, explorations, 2 * params.composed, params, known), context, finishing);
 }
 
+Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& context) {
+    Candidates found;
+    for (const Appraised& one : list) {
+        found.list.push_back(one.candidate);
+        found.maps.push_back(correspondences(one.map.maps, context.A().surface, context.B().surface));
+    }
+    return found;
+}
+
+/// Where the map that landmarks lead to is good.
+Candidates led(std::vector<Appraised> list, const PairContext& context, const ExploreParams& params) {
+    if (params.next_area_bound == params.alternation.area_bound) return {};
+    list.resize(1);
+    return candidates_of(list, context);
+}
+
 }  // namespace
 
 Candidates find_self_maps(const PairContext& context, const ExploreParams& params) {
@@ -200,26 +216,6 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
     }
     return found;
 }
-
-namespace {
-
-Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& context) {
-    Candidates found;
-    for (const Appraised& one : list) {
-        found.list.push_back(one.candidate);
-        found.maps.push_back(correspondences(one.map.maps, context.A().surface, context.B().surface));
-    }
-    return found;
-}
-
-/// Where the map that landmarks lead to is good.
-Candidates led(std::vector<Appraised> list, const PairContext& context, const ExploreParams& params) {
-    if (params.next_area_bound == params.alternation.area_bound) return {};
-    list.resize(1);
-    return candidates_of(list, context);
-}
-
-}  // namespace
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const Candidates& self_maps_A,
                    const Candidates& self_maps_B) {
