@@ -119,6 +119,20 @@ void Exploration::add_tip_starts() {
     try_all(starts);
 }
 
+/// Apart from the others, whose energies are less on coarse levels.
+void Exploration::add_axes_starts() {
+    const LevelPair& level = descent_.level();
+    std::vector<Start> starts;
+    for (const Matching& m : axes_matchings(context_, level)) starts.push_back({centres_of(level, m), {}});
+    std::vector<Trial> others = std::exchange(pool_, {});
+    try_all(starts, false);  // finishing irons them
+    prune(options_.axes_maps);
+    std::erase_if(pool_, [](const Trial& trial) { return trial.is_mirrored(); });
+    log("{} of {} maps from principal axes", pool_.size(), starts.size());
+    std::move(pool_.begin(), pool_.end(), std::back_inserter(others));
+    pool_ = std::move(others);
+}
+
 void Exploration::add_swaps(int best) {
     const LevelPair& level = descent_.level();
     const LevelSwitch back(extremities_.A, extremities_.B, level);
@@ -131,8 +145,7 @@ void Exploration::add_swaps(int best) {
     try_all(starts, false);  // most are no good: those that are get ironed on the next level
 }
 
-void Exploration::prune() {
-    const int keep = promoted(descent_.samples(), options_);
+void Exploration::prune(int keep) {
     std::stable_sort(pool_.begin(), pool_.end(), [](const Trial& a, const Trial& b) {
         return std::pair(a.is_mirrored(), a.energy()) < std::pair(b.is_mirrored(), b.energy());
     });
@@ -181,15 +194,17 @@ std::vector<Trial> Exploration::run() {
         if (before < tip_samples && samples >= tip_samples) add_tip_starts();
         if (samples < swap_rules[0].samples)
             extremities_ = {descent_.level().A.level, descent_.level().B.level};
-        prune();
+        const int keep = promoted(samples, options_);
+        prune(keep);
         if (swap != std::end(swap_rules) && samples >= swap->samples && !extremities_.A.samples.empty()) {
             add_swaps((swap++)->best);
-            prune();
+            prune(keep);
         }
         log_pool(l);
         if (samples >= options_.last_samples) break;
         before = samples;
     }
+    if (options_.axes_maps > 0) add_axes_starts();
     return pool_;
 }
 

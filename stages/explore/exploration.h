@@ -17,6 +17,7 @@ struct ExplorationOptions {
     int random_starts = 16;  ///< at each of the three coarsest levels worth it
     int seed = 1;
     int tip_starts = 32;     ///< from matched ends of limbs
+    int axes_maps = 0;       ///< maps from principal axes, besides the others
     int coarse = 10;         ///< maps that go on from levels with fewer than a hundred samples
     int candidates = 6;      ///< maps that reach the last level
     int last_samples = 150;  ///< the first level with so many samples is the last
@@ -52,8 +53,9 @@ class Exploration {
     void enter(int level);
     void add_starts();
     void add_tip_starts();
+    void add_axes_starts();
     void add_swaps(int best);
-    void prune();
+    void prune(int keep);
     void log_pool(int level) const;
     Trial tried(const Start& start, bool ironed) const;
     void try_all(const std::vector<Start>& starts, bool ironed = true);

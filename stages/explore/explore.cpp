@@ -150,7 +150,7 @@ bool suffices(const Candidate& map) {
 
 /// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with the
 /// area bound and with exact areas, that give more maps and more alike ones a chance, more compositions, and
-/// maps finished with care. Chosen by hand on one hippopotamus.
+/// maps finished with care. Chosen by hand on two hippopotamuses.
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
                                         const Known& known) {
     std::vector<ExplorationOptions> explorations;
@@ -158,6 +158,7 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
         ExplorationOptions options = params.exploration;
         options.area_bound = std::max(1.0, factor * options.area_bound);
         options.tip_starts = 3 * options.tip_starts / 2;
+        options.axes_maps = 4;
         options.coarse *= 3;
         options.distinct /= 2;
         options.seed += int(explorations.size());

@@ -1,6 +1,8 @@
 #include "stages/explore/starts.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 
 namespace varimap {
 
@@ -26,6 +28,48 @@ std::vector<int> random_permutation(int count, std::mt19937& random) {
         order[j] = i;
     }
     return order;
+}
+
+/// Principal axes of a surface, right-handed, and how far it reaches along them. Its centroid is the origin.
+struct PrincipalAxes {
+    Eigen::Matrix3d axes;  ///< columns
+    Eigen::Vector3d deviation;
+};
+PrincipalAxes principal_axes(const Surface& surface) {
+    const Points& x = surface.mesh.vertices;
+    const Eigen::Matrix3d covariance = x.transpose() * surface.mass.asDiagonal() * x;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    PrincipalAxes principal{solver.eigenvectors(), solver.eigenvalues().cwiseMax(1e-12).cwiseSqrt()};
+    if (principal.axes.determinant() < 0) principal.axes.col(0) *= -1;
+    return principal;
+}
+
+/// Samples x 6: places along the principal axes, in deviations, and normals in the same frame.
+RowMatrix places_along_axes(const Surface& surface, const std::vector<int>& samples) {
+    constexpr double normal_weight = 0.5;
+    const PrincipalAxes principal = principal_axes(surface);
+    const Points normals = vertex_normals(surface.mesh);
+    RowMatrix places(samples.size(), 6);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Eigen::RowVector3d x = surface.mesh.vertices.row(samples[i]), n = normals.row(samples[i]);
+        places.row(Eigen::Index(i)) << (x * principal.axes).cwiseQuotient(principal.deviation.transpose()),
+            normal_weight * n * principal.axes;
+    }
+    return places;
+}
+
+/// The 24 rotations that lay coordinate axes onto coordinate axes.
+std::vector<Eigen::Matrix3d> axis_rotations() {
+    std::vector<Eigen::Matrix3d> rotations;
+    std::array<int, 3> order{0, 1, 2};
+    do {
+        for (int signs = 0; signs < 8; ++signs) {
+            Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
+            for (int k = 0; k < 3; ++k) rotation(k, order[std::size_t(k)]) = signs >> k & 1 ? -1 : 1;
+            if (rotation.determinant() > 0) rotations.push_back(rotation);
+        }
+    } while (std::next_permutation(order.begin(), order.end()));
+    return rotations;
 }
 
 Coupling swap_rows(const Coupling& plan, int first, int second) {
@@ -55,6 +99,18 @@ std::vector<Matching> spectral_matchings(const PairContext& context, const Level
         Eigen::VectorXd factor(functions);
         for (Eigen::Index k = 0; k < functions; ++k) factor[k] = signs >> k & 1 ? -1 : 1;
         matchings.push_back(nearest_to_each_other(a * factor.asDiagonal(), b));
+    }
+    return matchings;
+}
+
+std::vector<Matching> axes_matchings(const PairContext& context, const LevelPair& pair) {
+    const RowMatrix a = places_along_axes(context.A().surface, pair.A.level.samples),
+                    b = places_along_axes(context.B().surface, pair.B.level.samples);
+    std::vector<Matching> matchings;
+    for (const Eigen::Matrix3d& rotation : axis_rotations()) {
+        RowMatrix turned(a.rows(), a.cols());
+        turned << a.leftCols<3>() * rotation, a.rightCols<3>() * rotation;
+        matchings.push_back(nearest_to_each_other(turned, b));
     }
     return matchings;
 }

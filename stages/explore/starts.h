@@ -14,6 +14,11 @@ Matching nearest_to_each_other(const RowMatrix& a, const RowMatrix& b);
 /// near-isometries of generic surfaces are among these.
 std::vector<Matching> spectral_matchings(const PairContext& context, const LevelPair& pair);
 
+/// Samples with the most alike places and normals in space, each surface stretched along its principal axes
+/// to variance one, once for each way to lay these axes onto the other surface's that is no reflection. One
+/// of them is near the right map where the poses are, however much proportions differ.
+std::vector<Matching> axes_matchings(const PairContext& context, const LevelPair& pair);
+
 /// Each sample with a random one.
 std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random);
 

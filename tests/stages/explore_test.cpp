@@ -235,6 +235,25 @@ TEST(Tips, OfAFigureAndItsPoseAreMatchedRightAmongTheBest) {
     EXPECT_TRUE(match_tips(A, B, 0).empty());
 }
 
+TEST(Starts, AxesMatchingsHoldTheTrueOneWhateverTheProportions) {
+    // A figure turned in space, twice as stout and half as tall: the places of samples tell which is which.
+    KnownPair pair = figures();
+    pair.B = pair.A;
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    pair.B.surface.mesh.vertices =
+        pair.A.surface.mesh.vertices * Vec3(2, 2, .5).asDiagonal() * turn.transpose();
+    const PairContext context = pair.context();
+    const auto matchings = axes_matchings(context, context.diffusion_level(context.diffusion_levels() - 1));
+    EXPECT_EQ(matchings.size(), 24u);
+    const auto right = [](const Matching& m) {
+        return double(std::count_if(m.begin(), m.end(), [](auto p) { return p.first == p.second; })) /
+               double(m.size());
+    };
+    EXPECT_GT(right(*std::max_element(matchings.begin(), matchings.end(),
+                                      [&](auto& m, auto& n) { return right(m) < right(n); })),
+              .9);
+}
+
 TEST(Starts, RandomMatchingsUseEverySampleAndRepeatForASeed) {
     std::mt19937 random(3), again(3);
     const auto matchings = random_matchings(5, 8, 4, random);
