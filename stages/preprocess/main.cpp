@@ -54,7 +54,8 @@ int main(int argc, char** argv) {
         RepairedMesh input = repaired(file, params.repair, in);
         stage.record_file("mesh", in);
         input = holes_filled(std::move(input), longest_hole(params.fill_holes));
-        input = bridged(handles_cut(std::move(input), params.cut_handles));
+        const double longest = longest_handle(params.cut_handles, input.mesh);
+        input = bridged(handles_cut(std::move(input), longest));
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());

@@ -11,7 +11,7 @@ struct PreprocessParams {
     bool mirror = false;
     RepairOptions repair;
     std::string fill_holes = "none";
-    double cut_handles = 0;
+    std::string cut_handles = "auto";
 
     void describe(ParameterList& list) {
         list.add("target_edge_length", target_edge_length,
@@ -24,11 +24,10 @@ struct PreprocessParams {
         repair.describe(list);
         list.add("fill_holes", fill_holes,
                  "boundary loops of at most so many edges are closed; or all, or none", {});
-        list.add(
-            "cut_handles", cut_handles,
-            "handles and tunnels that a closed path of at most this length goes around are cut and closed; "
-            "units of sqrt(area); 0: none",
-            0, 1);
+        list.add("cut_handles", cut_handles,
+                 "handles and tunnels that a closed path of at most this length goes around, in units of "
+                 "sqrt(area), are cut and closed; or none; or auto: 0.05 where there are more than 20",
+                 {});
     }
 };
 

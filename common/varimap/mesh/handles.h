@@ -1,8 +1,15 @@
 #pragma once
 
+#include <string>
+
 #include "varimap/mesh/mesh_repair.h"
 
 namespace varimap {
+
+/// The length of handles_cut that `words` asks for: a number up to 1, "none" (0), or "auto": .05 for a mesh
+/// of more than 20 handles, which are noise, as in scans of bones; otherwise none. Throws UsageError for
+/// others.
+double longest_handle(const std::string& words, const TriangleMesh& mesh);
 
 /// Cuts small handles and closes small tunnels of a repaired mesh: along closed paths of edges that are at
 /// most `length` long, in units of sqrt(area), and that do not separate the surface, the shortest first. Each

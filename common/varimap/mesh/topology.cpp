@@ -155,22 +155,25 @@ std::vector<int> vertex_components(const TriangleMesh& mesh) {
 
 TopologySummary summarise_topology(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
-    DisjointSets loops(mesh.vertex_count());
+    DisjointSets loops(mesh.vertex_count()), components(mesh.vertex_count());
     std::vector<char> used(mesh.vertex_count(), 0), on_boundary(mesh.vertex_count(), 0);
     for (int e = 0; e < edges.size(); ++e) {
         const auto [a, b] = edges.vertices[e];
         used[a] = used[b] = 1;
+        components.join(a, b);
         if (edges.sides[e].size() > 1) continue;
         on_boundary[a] = on_boundary[b] = 1;
         loops.join(a, b);
     }
     TopologySummary summary;
+    int component_count = 0;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         summary.used_vertices += used[v];
+        component_count += used[v] && components.lowest(v) == v;
         summary.boundary_loops += on_boundary[v] && loops.lowest(v) == v;
     }
     const int euler = summary.used_vertices - edges.size() + mesh.face_count();
-    summary.genus = (2 - summary.boundary_loops - euler) / 2;
+    summary.genus = (2 * component_count - summary.boundary_loops - euler) / 2;
     return summary;
 }
 

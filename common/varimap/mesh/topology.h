@@ -53,7 +53,7 @@ std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<ch
 /// Per vertex: its connected component, numbered by lowest vertex from 0; -1 where no face uses it.
 std::vector<int> vertex_components(const TriangleMesh& mesh);
 
-/// Numbers of a connected manifold surface. genus = (2 - boundary_loops - V + E - F) / 2.
+/// Numbers of a manifold surface. genus = components - (boundary_loops + V - E + F) / 2: that of all of them.
 struct TopologySummary {
     int used_vertices = 0;
     int boundary_loops = 0;

@@ -7,6 +7,7 @@
 
 #include "fixtures/shapes.h"
 #include "fixtures/together.h"
+#include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
 
@@ -45,6 +46,21 @@ TEST(Handles, LongerOnesStay) {
     EXPECT_EQ(result.counts.cut_handles, 0);
     EXPECT_TRUE(result.link.is_identity());
     EXPECT_EQ(result.mesh.faces, ring().faces);
+}
+
+TEST(Handles, ManyAreTakenForNoise) {
+    TriangleMesh rings = ring();
+    const auto add = [&](int count) {
+        for (int i = 0; i < count; ++i) rings = shapes::together(rings, ring());
+    };
+    add(19);
+    EXPECT_EQ(longest_handle("auto", rings), 0);
+    add(1);
+    EXPECT_EQ(longest_handle("auto", rings), 0.05);
+    EXPECT_EQ(longest_handle("none", rings), 0);
+    EXPECT_EQ(longest_handle(".1", rings), .1);
+    for (const char* words : {"", "some", "-1", "2", "nan", ".1 ", "inf"})
+        EXPECT_THROW(longest_handle(words, rings), UsageError) << words;
 }
 
 /// The way back: rows of the file keep their meaning, faces that close a rim are added ones.
