@@ -47,7 +47,6 @@ std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, c
     if (!options.initial_map.empty()) return {};
     ExploreParams params;
     params.only_if_needed = !options.explore;
-    params.next_area_bound = options.area_bound;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
     Candidates self_maps_A, self_maps_B;
     if (options.landmarks.empty()) {

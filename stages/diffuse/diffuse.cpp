@@ -52,9 +52,9 @@ Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const Pa
 
 Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
                   const std::optional<Candidates>& found, const std::optional<Correspondences>& initial_map) {
-    // Exploration may have found that landmarks suffice.
+    const bool decided = found && landmarks_decide(*found);
     const Candidates* candidates = found && !found->list.empty() ? &*found : nullptr;
-    if (found && !candidates && params.candidate > 1)
+    if (decided && params.candidate > 1)
         throw UsageError(
             fmt::format("candidate {}: the landmarks decide, and no other map was kept; "
                         "explore in any case (varimap map --explore)",
@@ -82,7 +82,7 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
     diffusion.trace = descent.take_trace();
     if (params.check_landmarks)
         diffusion.record.landmark_checks = check_landmarks(context, params.alternation);
-    if (candidates) {
+    if (candidates && !decided) {
         diffusion.record.candidates = candidates->list;
         diffusion.record.candidate = params.candidate;
     }

@@ -180,9 +180,9 @@ Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& 
     return found;
 }
 
-/// Where the map that landmarks lead to is good.
-Candidates led(std::vector<Appraised> list, const PairContext& context, const ExploreParams& params) {
-    if (params.next_area_bound == params.alternation.area_bound) return {};
+/// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
+/// at full resolution, landmarks may lead elsewhere.
+Candidates led(std::vector<Appraised> list, const PairContext& context) {
     list.resize(1);
     return candidates_of(list, context);
 }
@@ -232,7 +232,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
                       images_of(self_maps_B, B)};
     if (if_needed) {
         const std::vector<Appraised> list = finished(known.led, context, quick_finishing(params));
-        if (suffices(list.front().candidate)) return led(list, context, params);
+        if (suffices(list.front().candidate)) return led(std::move(list), context);
     }
     std::vector<Appraised> list = quickly_found(context, params, known);
     if (const double found = plausibility(list.front().candidate);
@@ -241,7 +241,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         list = thoroughly_found(context, params, known);
     } else if (if_needed && list.front().candidate.explored == 0) {
         log("none of {} maps is clearly better than where the landmarks lead", list.size());
-        return led(list, context, params);
+        return led(std::move(list), context);
     }
     Candidates found = candidates_of(list, context);
     constexpr std::size_t shown = 3;

@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
                                             : explore(context, params, self_maps_A, self_maps_B);
         if (params.self_maps)
             report_self_maps(found.list);
-        else if (found.list.empty())
+        else if (landmarks_decide(found))
             log("varimap-diffuse follows the landmarks");
         else
             report(found.list, !landmark_files.empty());

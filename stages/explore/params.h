@@ -13,11 +13,8 @@ struct ExploreParams {
     FinishingOptions finishing;
     bool self_maps = false;
     bool only_if_needed = false;  ///< with landmarks: unless the map that they lead to is a good one
-    /// Area bound of the map that is made in the end. With only_if_needed, and where it is not that of the
-    /// maps that are finished here, a good map that landmarks lead to is written.
-    double next_area_bound = AlternationOptions().area_bound;
-    int few_landmarks = 10;  ///< with more, they are taken to decide
-    int composed = 2;        ///< maps that self-maps are composed with
+    int few_landmarks = 10;       ///< with more, they are taken to decide
+    int composed = 2;             ///< maps that self-maps are composed with
     LandmarkSpace landmark_space = LandmarkSpace::stated;
     double landmark_weight = 1;  ///< W of pull_landmarks (cost.h); 1: pinned
 
@@ -37,13 +34,8 @@ struct ExploreParams {
                  1.0, 1e6);
         list.add("onto_itself", self_maps, "looks for maps of one surface, given twice, onto itself");
         list.add("only_if_needed", only_if_needed,
-                 "with landmarks: looks for maps only where that which they lead to is doubtful; writes none "
-                 "where it is not");
-        list.add(
-            "next_area_bound", next_area_bound,
-            "with only_if_needed: area bound of the varimap-diffuse that follows; where it is not 2, a good "
-            "map that landmarks lead to is written, since with another bound they may lead elsewhere",
-            1.0, 1e6);
+                 "with landmarks: looks for maps only where that which they lead to is doubtful; where it is "
+                 "not, writes that alone");
         list.add("few_landmarks", few_landmarks, "with more landmarks than these, nothing is needed", 0,
                  1000000);
         list.add("composed", composed, "of how many maps compositions with self-maps are tried", 0, 100);

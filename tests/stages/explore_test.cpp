@@ -83,19 +83,20 @@ TriangleMesh turnable() {
     return shapes::ellipsoid(3, {.6, 1, 2});
 }
 
-TEST(Explore, HandsOnWhereGoodLandmarksLeadOnlyForAnotherAreaBound) {
+TEST(Explore, HandsOnWhereGoodLandmarksLead) {
     const KnownPair pair = shapes::figure_pair(1, true, 1000);
+    const PairContext context = pair.context();
     ExploreParams params;
     params.only_if_needed = true;
-    const auto found = [&](double bound) {
-        params.next_area_bound = bound;
-        return explore(pair.context(), params);
-    };
-    EXPECT_TRUE(found(params.alternation.area_bound).list.empty());
-    const Candidates led = found(4);
+    const Candidates led = explore(context, params);
     ASSERT_EQ(led.list.size(), 1u);
-    EXPECT_EQ(led.list[0].explored, 0);
-    EXPECT_LT(mean_error(diffuse(pair.context(), {}, led), pair), .035);
+    EXPECT_TRUE(landmarks_decide(led));
+    EXPECT_LT(mean_error(diffuse(context, {}, led), pair), .035);
+    EXPECT_TRUE(diffuse(context, {}, led).record.candidates.empty());  // there was no choice
+    params.few_landmarks = 0;
+    EXPECT_TRUE(explore(context, params).list.empty());
+    params.only_if_needed = false;
+    EXPECT_FALSE(landmarks_decide(explore(context, params)));
 }
 
 TEST(SelfMaps, AreTheTurnsOfAnEllipsoid) {

@@ -47,6 +47,10 @@ void serialize(Archive& archive, Candidates& c) {
     archive(c.sketched_A, c.sketched_B, c.list, c.maps, c.previews);
 }
 
+bool landmarks_decide(const Candidates& found) {
+    return found.list.empty() || (found.list.size() == 1 && found.list.front().explored == 0);
+}
+
 std::string encode(const Candidates& candidates) {
     return cereal_encode(candidates);
 }

@@ -21,6 +21,10 @@ struct Candidates {
     std::vector<PointMap> previews;
 };
 
+/// Whether landmarks are followed: nothing else was looked for, or nothing better found. The list is empty,
+/// or holds the map alone that they lead to.
+bool landmarks_decide(const Candidates& found);
+
 template <>
 struct ArtifactType<Candidates> {
     static constexpr const char* kind = "candidates";
