@@ -95,8 +95,6 @@ TEST(Explore, HandsOnWhereGoodLandmarksLead) {
     EXPECT_TRUE(diffuse(context, {}, led).record.candidates.empty());  // there was no choice
     params.few_landmarks = 0;
     EXPECT_TRUE(explore(context, params).list.empty());
-    params.only_if_needed = false;
-    EXPECT_FALSE(landmarks_decide(explore(context, params)));
 }
 
 TEST(SelfMaps, AreTheTurnsOfAnEllipsoid) {
