@@ -142,7 +142,9 @@ expect_exit 3 "$varimap" batch quotes.csv -o none
 "$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
 grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"
 [[ -z $(ls planned/pairs) ]] || fail "--plan runs something"
-"$varimap" batch --star meshes/b.off meshes -o planned --landmarks-from points --plan >out.txt 2>log || fail "--plan with landmarks"
+"$varimap" batch --star meshes/b.off meshes -o planned --landmarks-from points --plan --cut-handles none --fill-holes=30 >out.txt 2>log ||
+    fail "--plan with landmarks"
+tr '\n' ' ' <planned/batch/options | grep -q -- '--cut-handles none --fill-holes 30 ' || fail "repairs of all surfaces of a batch"
 grep -q '^pair b--a explore [1-9]' planned/batch/costs || fail "exploration with few landmarks costs nothing"
 # A job finds its row by name, or at the byte that the plan tells; what is not in the plan is refused.
 while read -r kind job _ _ byte; do
