@@ -8,7 +8,8 @@
 namespace varimap {
 
 double score_of(const Candidate& candidate) {
-    return std::log(candidate.energy) + std::log(candidate.dirichlet) / 2 - candidate.relief;
+    return std::log(candidate.energy) + std::log(candidate.dirichlet) / 2 - candidate.relief +
+           candidate.reversed_mass / 2;
 }
 
 bool is_mirrored(const Candidate& candidate) {
