@@ -91,8 +91,9 @@ TEST(Explore, HandsOnWhereGoodLandmarksLead) {
     const Candidates led = explore(context, params);
     ASSERT_EQ(led.list.size(), 1u);
     EXPECT_TRUE(landmarks_decide(led));
-    EXPECT_LT(mean_error(diffuse(context, {}, led), pair), .035);
-    EXPECT_TRUE(diffuse(context, {}, led).record.candidates.empty());  // there was no choice
+    const Diffusion continued = diffuse(context, {}, led);
+    EXPECT_LT(mean_error(continued, pair), .035);
+    EXPECT_TRUE(continued.record.candidates.empty());  // there was no choice
     params.few_landmarks = 0;
     EXPECT_TRUE(explore(context, params).list.empty());
 }
@@ -242,9 +243,10 @@ TEST(Starts, AxesMatchingsHoldTheTrueOneWhateverTheProportions) {
     pair.B.surface.mesh.vertices =
         pair.A.surface.mesh.vertices * Vec3(2, 2, .5).asDiagonal() * turn.transpose();
     const PairContext context = pair.context();
-    const auto matchings = axes_matchings(context, context.diffusion_level(context.diffusion_levels() - 1));
+    const LevelPair level = context.diffusion_level(context.diffusion_levels() - 1);
+    const auto matchings = axes_matchings(context, level);
     EXPECT_EQ(matchings.size(), 24u);
-    const std::vector<int> samples = context.diffusion_level(context.diffusion_levels() - 1).A.level.samples;
+    const std::vector<int>& samples = level.A.level.samples;
     const TriangleMesh& mesh = pair.A.surface.mesh;
     std::vector<double> errors;
     for (const Matching& m : matchings) {
