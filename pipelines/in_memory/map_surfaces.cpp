@@ -9,7 +9,6 @@
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"
 #include "stages/relax/relax.h"
-#include "varimap/mesh/bridges.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {
@@ -22,7 +21,7 @@ SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapO
     PreprocessParams params;
     params.mirror = mirror;
     SurfaceData data;
-    data.surface = preprocess(bridged(repaired(input, params.repair, name)), params);
+    data.surface = preprocess(prepared(input, params, name), params);
     if (!options.full_resolution) data.surface = coarsened(std::move(data.surface), CoarsenParams{});
     data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
     data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
@@ -74,15 +73,17 @@ Plan solve(const PairContext& context, const PointPairs& landmark_points,
     return refine(context, diffusion, fine);
 }
 
-DirectionQuality measure(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+DirectionQuality measure(const PointMap& map, const Surface& from, const Surface& onto) {
+    const TriangleMesh source = without_added_faces(from);
+    const TriangleMesh& target = onto.input;
     return {measure_distortion(map, source, target), measure_coverage(map, source, target).share};
 }
 
 /// Fills in the quality, measured where both surfaces have the same handedness.
 void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
     const PointMap onto_B = from_file(mapped.A_to_B, A, B), onto_A = from_file(mapped.B_to_A, B, A);
-    mapped.A_to_B_quality = measure(onto_B, A.input, B.input);
-    mapped.B_to_A_quality = measure(onto_A, B.input, A.input);
+    mapped.A_to_B_quality = measure(onto_B, A, B);
+    mapped.B_to_A_quality = measure(onto_A, B, A);
     mapped.round_trip = measure_round_trip(onto_B, onto_A, A.input, B.input);
 }
 

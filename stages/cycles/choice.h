@@ -42,7 +42,7 @@ std::vector<Loops> measure_loops(const Samples& samples, const std::vector<PairO
 /// right with probability p_k, the layout's log-probability is the sum over the pairs of
 ///   log(sum_k p_k exp(-(d_k / 0.1)^2) + 0.05 (1 - sum_k p_k)).
 /// A pair that is not sure takes the map whose term is largest, unless the layout is nearly as probable (log,
-/// 3) with one of the pair's surfaces laid out over the pair's first map instead. If the last term is the
+/// 4) with one of the pair's surfaces laid out over the pair's first map instead. If the last term is the
 /// largest, what the layout says of the pair is added to its maps, with probability 0, and taken where ways
 /// over third surfaces that agree with it are right more often, in the mean, than the first map is.
 Choice choose(const Samples& samples, std::vector<PairOfMaps>& pairs);

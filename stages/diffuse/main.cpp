@@ -1,6 +1,6 @@
 #include "stages/diffuse/diffuse.h"
-#include "varimap/pair_stage/likely_part.h"
 #include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/pair_stage/unlike_surfaces.h"
 #include "varimap/results/map_file.h"
 #include "varimap/stage/stage_main.h"
 
@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
         const auto initial_map =
             read_initial_map(stage, initial_map_in, params.map_base, A.surface, B.surface);
         warn_of_part(A.surface, B.surface);
+        warn_of_inside_out(A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stages/explore/pool.h"
+#include "varimap/core/rotation.h"
 #include "varimap/quality/quality.h"
 #include "varimap/relaxation/relief_agreement.h"
 
@@ -20,11 +21,7 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
                              mean_y = mass.transpose() * y / mass.sum();
     const Eigen::Matrix3d products =
         (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    const Eigen::Matrix3d R =
-        svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
-    return Eigen::AngleAxisd(R).angle() * 180 / M_PI;
+    return Eigen::AngleAxisd(nearest_rotation(products)).angle() * 180 / M_PI;
 }
 
 double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& mass) {

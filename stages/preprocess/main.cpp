@@ -1,7 +1,4 @@
 #include "stages/preprocess/preprocess.h"
-#include "varimap/mesh/bridges.h"
-#include "varimap/mesh/handles.h"
-#include "varimap/mesh/holes.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
@@ -51,11 +48,8 @@ int main(int argc, char** argv) {
     const std::string& out = stage.output("surface", ArtifactType<Surface>::schema, "artifact to write");
     return stage.main(argc, argv, [&] {
         const TriangleMesh file = read_mesh(in);
-        RepairedMesh input = repaired(file, params.repair, in);
+        RepairedMesh input = prepared(file, params, in);
         stage.record_file("mesh", in);
-        input = holes_filled(std::move(input), longest_hole(params.fill_holes));
-        const double longest = longest_handle(params.cut_handles, input.mesh);
-        input = bridged(handles_cut(std::move(input), longest));
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());

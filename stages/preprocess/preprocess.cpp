@@ -8,6 +8,9 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/bisection.h"
+#include "varimap/mesh/bridges.h"
+#include "varimap/mesh/handles.h"
+#include "varimap/mesh/holes.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
@@ -171,6 +174,12 @@ void report(const RepairCounts& counts) {
 double target_edge_length(const PreprocessParams& params, int used_vertices) {
     if (params.target_edge_length > 0) return params.target_edge_length;
     return 2 * 1.0746 / std::sqrt(std::max(used_vertices, 2500));
+}
+
+RepairedMesh prepared(const TriangleMesh& file, const PreprocessParams& params, const std::string& path) {
+    RepairedMesh mesh = holes_filled(repaired(file, params.repair, path), longest_hole(params.fill_holes));
+    const double longest = longest_handle(params.cut_handles, mesh.mesh);
+    return bridged(handles_cut(std::move(mesh), longest));
 }
 
 Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {

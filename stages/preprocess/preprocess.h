@@ -1,9 +1,15 @@
 #pragma once
 
+#include <string>
+
 #include "stages/preprocess/params.h"
 #include "varimap/mesh/surface.h"
 
 namespace varimap {
+
+/// The mesh of a file made fit for preprocessing, by the parameters: repaired, holes filled, handles cut, and
+/// components joined. Errors as of repaired (mesh_repair.h); UsageError for unknown words.
+RepairedMesh prepared(const TriangleMesh& file, const PreprocessParams& params, const std::string& path);
 
 /// Unit area, area centroid at the origin, edges no longer than the target (Sec. 5, Limitations), and Voronoi
 /// masses. `input` must have passed require_manifold. Vertices that no face uses are left out of the result's

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "varimap/core/statistics.h"
 #include "varimap/landmarks/landmark_points.h"
 
 namespace varimap {
@@ -11,19 +12,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The middle of an odd number of values, the mean of the two in the middle of an even one.
-double middle(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return (values[(n - 1) / 2] + values[n / 2]) / 2;
-}
-
 Vec3 middle_position(const std::vector<Vec3>& positions) {
     Vec3 result;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         std::vector<double> values;
         for (const Vec3& position : positions) values.push_back(position[axis]);
-        result[axis] = middle(std::move(values));
+        result[axis] = mean_median(std::move(values));
     }
     return result;
 }
@@ -93,7 +87,7 @@ TransferredLandmarks transfer_landmarks(const std::vector<Answer>& answers,
         result.positions.row(i) = place.transpose();
         result.spread[i] = std::sqrt(squares) / unit;
         if (returns[std::size_t(i)].empty()) continue;
-        result.round_trip[i] = middle(returns[std::size_t(i)]);
+        result.round_trip[i] = mean_median(returns[std::size_t(i)]);
         const double deviation = std::hypot(result.round_trip[i], result.spread[i]) / far_from_surface;
         result.confidence[i] = 1 / (1 + deviation * deviation);
     }

@@ -63,8 +63,7 @@ NamedLandmarks read_named_landmarks(const std::string& path, const TriangleMesh&
     return result;
 }
 
-/// The points of another template's landmarks in the first one's order, nowhere where it has none of that
-/// number.
+/// The points of another template's landmarks in the first one's order, of which there must be as many.
 PointMap in_order_of(const NamedLandmarks& first, NamedLandmarks other, const std::string& path) {
     if (other.names.size() != first.names.size())
         throw InputError(fmt::format("{}: {} landmarks, but the first template has {}", path,
@@ -85,16 +84,6 @@ std::string array_of(const std::vector<Points>& shapes) {
     for (const Points& shape : shapes)
         numbers.insert(numbers.end(), shape.data(), shape.data() + shape.size());
     return to_npy("<f8", {(long long)(shapes.size()), (long long)(shapes.front().rows()), 3}, numbers);
-}
-
-std::string to_ascii_ply(const Points& points, const Faces& faces) {
-    std::string text = fmt::format(
-        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        points.rows(), faces.rows());
-    for (const auto& row : points.rowwise()) text += fmt::format("{} {} {}\n", row[0], row[1], row[2]);
-    for (const auto& row : faces.rowwise()) text += fmt::format("3 {} {} {}\n", row[0], row[1], row[2]);
-    return text;
 }
 
 std::string points_csv(const Points& points) {
@@ -164,6 +153,7 @@ Registration read_registration(const std::string& path) {
                 else
                     on_templates.push_back(carried(result.landmarks.points, result.first, answer));
             }
+            if (answers.empty()) throw InputError(path + ": " + text_of(specimen, "name") + ": no answers");
             log("{}: {} answers", text_of(specimen, "name"), answers.size());
             result.names.push_back(text_of(specimen, "name"));
             result.points.push_back(corresponding_points(answers));
@@ -255,9 +245,10 @@ void write_points(const Folder& folder, const Registration& all, const Common& c
     folder.write("points.npy", array_of(all.points));
     for (std::size_t i = 0; i < all.names.size(); ++i) {
         folder.write("specimens/" + all.names[i] + ".csv", points_csv(all.points[i]));
-        folder.write("specimens/" + all.names[i] + ".ply",
-                     to_ascii_ply(on_template(common, common.of(all.points[i]), all.first.vertex_count()),
-                                  common.faces));
+        folder.write(
+            "specimens/" + all.names[i] + ".ply",
+            to_ply({on_template(common, common.of(all.points[i]), all.first.vertex_count()), common.faces},
+                   PlyFormat::ascii));
     }
 }
 
@@ -270,7 +261,8 @@ void write_shapes(const Folder& folder, const Registration& all, const Common& c
     const Components components = principal_components(alignment, common.weights, params.components);
     const std::vector<bool> odd = outliers(alignment.distances);
     const auto mesh = [&](const Points& points) {
-        return to_ascii_ply(on_template(common, points, all.first.vertex_count()), common.faces);
+        return to_ply({on_template(common, points, all.first.vertex_count()), common.faces},
+                      PlyFormat::ascii);
     };
     std::vector<Points> aligned;
     for (const Points& shape : alignment.shapes) {

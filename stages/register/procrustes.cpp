@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "varimap/core/rotation.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {
@@ -21,10 +22,7 @@ double size_of(const Points& points, const Eigen::VectorXd& weights) {
 
 /// The rotation R for which the rows of points * R are nearest to those of `onto` (Kabsch 1976).
 Eigen::Matrix3d best_rotation(const Points& points, const Points& onto, const Eigen::VectorXd& weights) {
-    const Eigen::Matrix3d covariance = points.transpose() * weights.asDiagonal() * onto;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    return svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    return nearest_rotation(points.transpose() * weights.asDiagonal() * onto);
 }
 
 Points average(const std::vector<Points>& shapes) {

@@ -23,8 +23,7 @@ constexpr FoldRemoval fold_removal{120, 30};
 }  // namespace
 
 Prolongation::Prolongation(const PointMap& images, const Surface& source, const Surface& target)
-    : source_(source),
-      locate_(target),
+    : locate_(target),
       target_(normalised_input(target)),
       normals_{vertex_normals(target_), target_.faces},
       level_(source.mesh),

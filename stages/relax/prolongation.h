@@ -31,7 +31,6 @@ class Prolongation {
     void refine();
     void relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks);
 
-    const Surface& source_;
     InputLocator locate_;
     TriangleMesh target_, normals_;  ///< the target's input; its normals, as a mesh to interpolate on
     TriangleMesh level_;             ///< the source's mesh, subdivided

@@ -8,9 +8,9 @@
 namespace varimap {
 
 /// The map in both directions on the INPUT meshes: `images` (read_out.h) are those of the preprocessed
-/// surfaces' vertices, of which the input vertices are the first; they go to the input faces that hold them,
-/// where they are untangled (untangling.h). Where bisection made most of the vertices, the preprocessed
-/// surfaces are untangled first: the input alone would be too coarse to find the way. Points lie on the faces
+/// surfaces' vertices. These are untangled on the input faces (untangling.h), where the input's vertices are
+/// the first of them; of surfaces that were coarsened, or most of whose vertices bisection made, on the
+/// preprocessed meshes first, and then carried over to the inputs (prolongation.h). Points lie on the faces
 /// of the mesh files, also where a surface is mirrored.
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
                  double area_bound, const RelaxParams& params = {});

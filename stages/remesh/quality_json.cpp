@@ -73,15 +73,6 @@ Json mass_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass
     return {{"min", ratio.minCoeff()}, {"max", ratio.maxCoeff()}};
 }
 
-/// The input with the faces of its file alone.
-TriangleMesh without_added_faces(const Surface& surface) {
-    std::vector<int> left;
-    for (int f = 0; f < int(surface.link.face.size()); ++f)
-        if (surface.link.face[std::size_t(f)] >= 0) left.push_back(f);
-    if (left.size() == surface.link.face.size()) return surface.input;
-    return {surface.input.vertices, surface.input.faces(left, Eigen::all), surface.input.space};
-}
-
 Json sizes(const Surface& surface) {
     const TriangleMesh& file = file_of(surface);
     return {{"input_vertices", file.vertex_count()},

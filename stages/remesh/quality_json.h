@@ -17,18 +17,18 @@ namespace varimap {
 ///                     [1 / sqrt(B), sqrt(B)]
 ///   landmarks         distance of each landmark's image from its partner
 ///   landmark_weight   W of soft landmarks, 1 where they are pinned (cost.h); absent without landmarks
-///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted (definitions:
-///   landmark_check.h) exploration       without landmarks: which candidate was continued, confident, margin,
-///   levels_agree, and the
-///                     candidates: energies, score, reversed_percent, moved_percent, turn_degrees, mirrored
-///                     (definitions: candidates.h)
+///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted
+///                     (definitions: landmark_check.h)
+///   exploration       where it chose the map: which candidate was continued, confident, margin, probability,
+///                     doubt in words, and the candidates: origin, energy, dirichlet_energy,
+///                     relief_agreement, score, reversed_percent, moved_percent, turn_degrees, mirrored
+///                     (definitions: candidate.h)
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
-///       conformal_distortion {the same}, dirichlet_energy, coverage, and
+///       within_area_bound, conformal_distortion {as area_ratio}, dirichlet_energy, coverage, and
 ///       uncovered         of each part: area_percent, vertex of the file     (definitions: quality.h)
 ///       verification      reversed_count, reversed_area_percent, cutting_count, branch_points,
-///       signed_area_ratio; degree
-///                         between closed surfaces (definitions: verification.h)
+///                         signed_area_ratio; degree between closed surfaces (definitions: verification.h)
 ///       untangling        flipped_before, flipped_area_percent_before, flipped_after,
 ///                         flipped_area_percent_after, global_steps, sweeps, parts_tried,
 ///                         parts_replaced, replaced_area_percent, mirrored_parts, gated_area_percent,
@@ -36,8 +36,7 @@ namespace varimap {
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-/// Warns where much is reversed, uncovered or strained, so that a map that cannot be right does not pass as
-/// one.
+/// Warns where much is reversed or uncovered, so that a map that cannot be right does not pass as one.
 std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
 
 }  // namespace varimap

@@ -24,8 +24,8 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
 PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup& polygons,
                                     const PointMap& map, const Surface& source, const Surface& target);
 
-/// `vertex,ratio`: transported mass by mass at the vertices of the file that are samples of the plan; with
-/// the plan of varimap-refine these are all that have an image.
+/// `vertex,ratio`: transported mass by mass at the vertices of the file, linear between the samples of the
+/// plan; those that do not lie among samples are left out.
 std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
                        const Eigen::VectorXd& transported, const Eigen::VectorXd& mass);
 

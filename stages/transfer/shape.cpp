@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "varimap/core/parallel.h"
+#include "varimap/core/rotation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/results/surface_map.h"
 
@@ -50,11 +51,7 @@ Points normals_at_images(const Correspondence& map) {
 /// The orthogonal matrix nearest to the covariance, of that sign, times the scale.
 Frame similarity(const Moments& sums, bool mirrored) {
     if (!(sums.from > 0)) return Frame::Zero();
-    const Eigen::JacobiSVD<Frame> svd(sums.covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Frame sign = Frame::Identity();
-    const bool reflects = svd.matrixU().determinant() * svd.matrixV().determinant() < 0;
-    if (reflects != mirrored) sign(2, 2) = -1;
-    return std::sqrt(sums.to / sums.from) * svd.matrixU() * sign * svd.matrixV().transpose();
+    return std::sqrt(sums.to / sums.from) * nearest_rotation(sums.covariance, mirrored);
 }
 
 std::vector<Frame> smoothed(const std::vector<Frame>& frames, const Adjacency& neighbours) {

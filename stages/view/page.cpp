@@ -12,6 +12,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
+#include "varimap/core/rotation.h"
 #include "varimap/mesh/mesh_repair.h"
 #include "varimap/mesh/pattern_axes.h"
 #include "varimap/mesh/topology.h"
@@ -163,10 +164,7 @@ Eigen::Matrix3d target_to_source(const Correspondence& map) {
         products += from * to.transpose();
     }
     if (count > 0) products -= from_mean * to_mean.transpose() / count;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-    if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign(2, 2) = -1;
-    return svd.matrixU() * sign * svd.matrixV().transpose();
+    return nearest_rotation(products);
 }
 
 Json position_json(const TriangleMesh& mesh, const SurfacePoint& point) {

@@ -13,16 +13,18 @@ cmake -S "$work" -B "$work/found" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH
 cmake --build "$work/found"
 "$work/found/transport"
 
-# In memory and through files: the same map.
+# In memory and through files: the same map, and the same is said of it.
 for how in landmarks explore; do
     mkdir "$work/$how"
-    "$work/found/map" "$work/$how" "$how" 2>"$work/log" || { cat "$work/log"; exit 1; }
+    "$work/found/map" "$work/$how" "$how" >"$work/in_memory" 2>"$work/log" || { cat "$work/log"; exit 1; }
     arguments=("$work/$how/A.ply" "$work/$how/B.ply" -o "$work/$how/out")
     [[ $how == explore ]] || arguments+=(--landmarks "$work/$how/landmarks.txt")
     VARIMAP_BIN=$work/prefix/bin "$source/pipelines/varimap" map "${arguments[@]}" >"$work/log" 2>&1 ||
         { cat "$work/log"; exit 1; }
     cmp "$work/$how/A_to_B.csv" "$work/$how/out/source_to_target.csv"
     cmp "$work/$how/B_to_A.csv" "$work/$how/out/target_to_source.csv"
+    jq -r '[.source_to_target.coverage, .round_trip.mean, .source_to_target.flipped_count] | @tsv' "$work/$how/out/quality.json" |
+        awk '{ printf "%.12g %.12g %d\n", $1, $2, $3 }' | diff - "$work/in_memory"
 done
 
 version=$("$work/prefix/bin/varimap-preprocess" --version)

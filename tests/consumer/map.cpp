@@ -63,6 +63,16 @@ TriangleMesh body(int n, double twist) {
     return mesh;
 }
 
+/// A ball beside the body, which preprocessing joins to it.
+TriangleMesh with_ball(const TriangleMesh& body) {
+    const TriangleMesh ball = sphere(4);
+    const Eigen::Index vertices = body.vertices.rows(), faces = body.faces.rows();
+    TriangleMesh both{Points(vertices + ball.vertices.rows(), 3), Faces(faces + ball.faces.rows(), 3)};
+    both.vertices << body.vertices, (.3 * ball.vertices).rowwise() + Eigen::RowVector3d(1.6, 0, 0);
+    both.faces << body.faces, ball.faces.array() + int(vertices);
+    return both;
+}
+
 int tip(const TriangleMesh& mesh, const Vec3& limb) {
     Eigen::Index v;
     (mesh.vertices * limb).maxCoeff(&v);
@@ -72,11 +82,11 @@ int tip(const TriangleMesh& mesh, const Vec3& limb) {
 }  // namespace
 
 /// map FOLDER landmarks|explore: maps two bodies in memory and writes them, their landmarks and the map's
-/// tables.
+/// tables; prints coverage, round trip and how many triangles are reversed.
 int main(int argc, char** argv) {
     if (argc != 3) return 2;
     const std::string folder = argv[1];
-    const TriangleMesh A = body(9, 0), B = body(9, .5);
+    const TriangleMesh A = with_ball(body(9, 0)), B = with_ball(body(9, .5));
     MapOptions options;
     std::string lines;
     if (std::string(argv[2]) == "landmarks")
@@ -90,7 +100,7 @@ int main(int argc, char** argv) {
     write_file_atomically(folder + "/landmarks.txt", lines);
     write_file_atomically(folder + "/A_to_B.csv", to_csv(mapped.A_to_B));
     write_file_atomically(folder + "/B_to_A.csv", to_csv(mapped.B_to_A));
-    std::printf("coverage %.17g, round trip %.17g, %d reversed\n", mapped.A_to_B_quality.coverage,
-                mapped.round_trip.mean, mapped.A_to_B_quality.distortion.flipped_count);
+    std::printf("%.12g %.12g %d\n", mapped.A_to_B_quality.coverage, mapped.round_trip.mean,
+                mapped.A_to_B_quality.distortion.flipped_count);
     return mapped.A_to_B_quality.coverage > 0.9 && mapped.round_trip.mean < 0.05 ? 0 : 1;
 }

@@ -138,6 +138,9 @@ printf 'source,target\nmeshes/a.off,meshes/b.off\nmeshes/a.off,meshes/b.off\n' >
 expect_exit 3 "$varimap" batch twice.csv -o none
 printf 'mesh,name\n"meshes/a.off,x\n' >quotes.csv
 expect_exit 3 "$varimap" batch quotes.csv -o none
+echo '0 0' >'back\slash.txt'
+printf 'source,target,landmarks\nmeshes/a.off,meshes/b.off,back\\slash.txt\n' >slash.csv
+expect_exit 3 "$varimap" batch slash.csv -o none
 [[ ! -e none ]] || fail "a refused batch left files"
 "$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
 grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"

@@ -67,4 +67,7 @@ expect_exit 6 "$varimap" register template.off meshes -o none --points-from abse
 expect_exit 3 "$VARIMAP_BIN/varimap-register" template.off --out none
 echo '{"template": "template.off", "specimens": []}' >empty.json
 expect_exit 3 "$VARIMAP_BIN/varimap-register" empty.json --out none
+echo '{"template": "template.off", "landmarks": "", "specimens": [{"name": "s1", "mesh": "meshes/s1.off", "answers": []}]}' >empty.json
+expect_exit 3 "$VARIMAP_BIN/varimap-register" empty.json --out none
+grep -q 's1: no answers' log || fail "whose answers are missing"
 [[ ! -e none ]] || fail "what is refused left files"

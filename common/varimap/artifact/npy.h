@@ -21,7 +21,7 @@ std::string to_npy(const char* type, const std::vector<long long>& shape, const 
 }
 
 /// A zip archive of files (name, bytes), stored as they are, with the date 1980-01-01: the same bytes for the
-/// same files. An .npz is one of .npy files. Throws IoError beyond 4 GB.
+/// same files. An .npz is one of .npy files. Throws IoError beyond 2 GB.
 std::string to_zip(const std::vector<std::pair<std::string, std::string>>& files);
 
 /// The files of a sparse matrix as SciPy's load_npz reads it (compressed rows): format, shape, data, indices,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "varimap/core/linear_algebra.h"
 
 namespace varimap {
@@ -8,6 +11,14 @@ namespace varimap {
 inline double variance(const RowMatrix& points, const Eigen::VectorXd& mass) {
     const Eigen::RowVectorXd mean = mass.transpose() * points;
     return mass.dot(Eigen::VectorXd((points.rowwise() - mean).rowwise().squaredNorm()));
+}
+
+/// The middle of an odd number of values, the mean of the two in the middle of an even one. (median of mass.h
+/// takes the upper of the two, which needs no sorting.)
+inline double mean_median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    return (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
 }  // namespace varimap

@@ -13,6 +13,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
@@ -181,10 +182,8 @@ Snapped snap(const std::vector<Vec3>& positions, const TriangleMesh& mesh) {
     Snapped snapped;
     for (const Vec3& position_in_space : positions) {
         const SurfacePoint point = closest(position_in_space).point;
-        int corner;
-        point.barycentric.maxCoeff(&corner);
         snapped.points.push_back(point);
-        snapped.vertices.push_back(mesh.faces(point.face, corner));
+        snapped.vertices.push_back(nearest_vertex(mesh, point));
         snapped.distances.push_back((position_in_space - position(mesh, point)).stableNorm() / unit);
     }
     return snapped;

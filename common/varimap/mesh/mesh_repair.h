@@ -72,9 +72,9 @@ struct RepairedMesh {
 };
 
 /// Makes the mesh of a file oriented and manifold, perhaps of several components. By `options.repair`:
-///   weld        boundary vertices in the same place, within the tolerance, become one: seams of textures,
-///   the
-///               separate triangles of some STL files. Vertices inside a surface stay apart
+///   weld        boundary vertices in the same place, within the tolerance, become one: seams of
+///               textures, the separate triangles of some STL files. Vertices inside a surface
+///               stay apart
 ///   faces       faces with a corner that is not finite, that name a vertex twice, or that lie on another one
 ///               are dropped. Of two back to back, both, where they are a fin on a surface; else one
 ///   sheets      at edges of three or more faces sheets are separated: where as many faces run one way as the
@@ -93,7 +93,7 @@ inline const TriangleMesh& file_of(const RepairedMesh& repaired) {
     return repaired.link.is_identity() ? repaired.mesh : repaired.link.file;
 }
 
-/// What was repaired, in words: "3 vertices welded, 1 duplicate face dropped"; empty if nothing.
+/// What was repaired, in words: "3 vertices welded, 1 face that lies on another dropped"; empty if nothing.
 std::string in_words(const RepairCounts& counts);
 
 }  // namespace varimap

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "varimap/artifact/cereal_eigen.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/serialization.h"
 #include "varimap/mesh/surface_check.h"
 
 namespace varimap {
@@ -11,11 +12,6 @@ namespace varimap {
 template <class Archive>
 void serialize(Archive& archive, TriangleMesh& mesh) {
     archive(mesh.vertices, mesh.faces);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SurfacePoint& point) {
-    archive(point.face, point.barycentric);
 }
 
 template <class Archive>
@@ -99,10 +95,7 @@ SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {
 
 MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex) {
     const SurfacePoint& point = surface.on_mesh[std::size_t(vertex.index)];
-    if (point.face < 0) return {};
-    Eigen::Index corner;
-    point.barycentric.maxCoeff(&corner);
-    return {surface.mesh.faces(point.face, corner)};
+    return {nearest_vertex(surface.mesh, point)};
 }
 
 }  // namespace varimap

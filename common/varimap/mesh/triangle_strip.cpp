@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "varimap/mesh/face_geometry.h"
+
 namespace varimap {
 
 namespace {
@@ -102,15 +104,9 @@ std::optional<TriangleStrip> pass_other_side(const Edges& edges, const TriangleS
     return other;
 }
 
-Vec3 centre(const TriangleMesh& mesh, int f) {
+Vec3 centroid(const TriangleMesh& mesh, int f) {
     return (mesh.vertex(mesh.faces(f, 0)) + mesh.vertex(mesh.faces(f, 1)) + mesh.vertex(mesh.faces(f, 2))) /
            3;
-}
-
-double longest_edge(const TriangleMesh& mesh, int f) {
-    const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
-               c = mesh.vertex(mesh.faces(f, 2));
-    return std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
 }
 
 /// A face that the search for a strip has reached.
@@ -202,7 +198,7 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
     thread_local std::vector<Way> open;  // a heap
     reached.clear();
     open.clear();
-    const Vec3 goal = centre(mesh, to), start = centre(mesh, from);
+    const Vec3 goal = centroid(mesh, to), start = centroid(mesh, from);
     const double longest =
         detour * ((start - goal).norm() + std::max(longest_edge(mesh, from), longest_edge(mesh, to)));
     const auto open_way = [](const Way& way) {
@@ -229,7 +225,7 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
                 int there = reached.find(g);
                 const bool is_new = there < 0;
                 if (is_new) {
-                    const Vec3 middle = centre(mesh, g);
+                    const Vec3 middle = centroid(mesh, g);
                     there = reached.add({g, 0, edge, here, middle, (middle - goal).norm()});
                 }
                 Reached& next = reached[there];

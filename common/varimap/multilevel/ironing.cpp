@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "varimap/core/log.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/ray_mesh.h"
 #include "varimap/multilevel/reanchoring.h"
 
@@ -20,10 +21,7 @@ class Antipodes {
         constexpr double lift = 1e-4;  // units of sqrt(area): past the faces around the vertex itself
         const Vec3 inward = -normals_.row(vertex).transpose();
         const SurfacePoint hit = rays_.first_hit(mesh_.vertex(vertex) + lift * inward, inward);
-        if (hit.face < 0) return vertex;
-        int corner;
-        hit.barycentric.maxCoeff(&corner);
-        return mesh_.faces(hit.face, corner);
+        return hit.face < 0 ? vertex : nearest_vertex(mesh_, hit);
     }
 
   private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
 
 namespace varimap {
@@ -12,10 +13,7 @@ class NearestCorner {
   public:
     explicit NearestCorner(const Surface& surface) : surface_(surface), locate_(surface) {}
     int operator()(const SurfacePoint& on_input) const {
-        const SurfacePoint point = locate_(on_input);
-        int corner;
-        point.barycentric.maxCoeff(&corner);
-        return surface_.mesh.faces(point.face, corner);
+        return nearest_vertex(surface_.mesh, locate_(on_input));
     }
 
   private:

@@ -4,6 +4,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/disc.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/image_mesh.h"
@@ -27,14 +28,6 @@ TriangleMesh visible_image(const ImageMesh& images) {
     }
     image.faces.conservativeResize(count, 3);
     return image;
-}
-
-double longest_edge(const TriangleMesh& mesh, int f) {
-    double longest = 0;
-    for (int k = 0; k < 3; ++k)
-        longest = std::max(longest,
-                           (mesh.vertex(mesh.faces(f, k)) - mesh.vertex(mesh.faces(f, (k + 1) % 3))).norm());
-    return longest;
 }
 
 /// Largest |q - c| / |p - c| of a face that is hit; chosen by hand: 0 behind the image, 1 beside its rim.

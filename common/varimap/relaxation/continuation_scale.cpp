@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "varimap/mesh/face_geometry.h"
+
 namespace varimap {
 
 namespace {
@@ -18,12 +20,6 @@ VertexData<double> distances(const GeodesicGraph& graph, const std::vector<int>&
         return true;
     });
     return distance;
-}
-
-int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
-    int corner;
-    point.barycentric.maxCoeff(&corner);
-    return mesh.faces(point.face, corner);
 }
 
 /// The mapped vertices that are not open: those that share a face with one that is, their images, and the

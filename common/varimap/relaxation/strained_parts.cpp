@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "varimap/mesh/mass.h"
 #include "varimap/relaxation/face_energy.h"
 
 namespace varimap {
@@ -47,13 +48,6 @@ FaceData<double> strain(const SlidingMap& map) {
     return value;
 }
 
-/// The upper one of two.
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Marks the faces around `ring` that are not inside yet, and returns them.
 std::vector<int> grow(const SlidingMap& map, const std::vector<int>& ring, FaceData<bool>& inside) {
     std::vector<int> next;
@@ -94,7 +88,9 @@ double area_of(const SlidingMap& map, const FaceData<bool>& marked) {
 std::vector<std::vector<int>> strained_parts(const SlidingMap& map, const Edges& edges,
                                              const FaceData<bool>& rejected, const StrainLimits& limits) {
     const FaceData<double> value = strain(map);
-    const double limit = std::max(limits.excess, limits.contrast * median(value));
+    const std::vector<double>& values = value;
+    const double middle = median(Eigen::Map<const Eigen::VectorXd>(values.data(), value.size()));
+    const double limit = std::max(limits.excess, limits.contrast * middle);
     FaceData<bool> strained(value.size());
     for (int f = 0; f < value.size(); ++f) strained[f] = value[f] > limit;
     auto parts = face_components(edges, strained);

@@ -42,10 +42,10 @@ Confidence confidence_of(const std::vector<Candidate>& candidates);
 /// Why the choice is not sure, in words; for a choice that is, "".
 std::string doubt(const std::vector<Candidate>& candidates);
 
-/// "turned by 170 degrees, 80% elsewhere": what a candidate is to the best one.
+/// "80% of the surface elsewhere, turned by 170 degrees": what a candidate is to the best one.
 std::string relation(const Candidate& candidate);
 
-/// "found first, then self-map 2 of the target": where a candidate comes from.
+/// "map 1, then self-map 2 of the target": where a candidate comes from.
 std::string origin(const Candidate& candidate);
 
 }  // namespace varimap

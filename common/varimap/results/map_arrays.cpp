@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "varimap/artifact/npy.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/results/surface_map.h"
 
 namespace varimap {
@@ -32,13 +33,6 @@ struct Csr {
     }
 };
 
-std::int32_t nearest_vertex(const SurfacePoint& point, const TriangleMesh& target) {
-    if (point.face < 0) return -1;
-    int corner;
-    point.barycentric.maxCoeff(&corner);
-    return target.faces(point.face, corner);
-}
-
 }  // namespace
 
 std::string to_npz(const PointMap& map, const TriangleMesh& target) {
@@ -48,7 +42,7 @@ std::string to_npz(const PointMap& map, const TriangleMesh& target) {
     Csr csr;
     for (const SurfacePoint& point : map) {
         faces.push_back(point.face);
-        nearest.push_back(nearest_vertex(point, target));
+        nearest.push_back(nearest_vertex(target, point));
         barycentric.insert(barycentric.end(), point.barycentric.begin(), point.barycentric.end());
         csr.add_row(point, target);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/artifact/cereal_eigen.h"
+#include "varimap/mesh/serialization.h"
 #include "varimap/results/solved_pair.h"
 
 /// What cereal writes of the parts that several artifacts share.
@@ -9,11 +9,6 @@ namespace varimap {
 template <class Archive>
 void serialize(Archive& archive, MeshVertex& vertex) {
     archive(vertex.index);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SurfacePoint& point) {
-    archive(point.face, point.barycentric);
 }
 
 template <class Archive>

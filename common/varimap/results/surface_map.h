@@ -50,4 +50,8 @@ std::string to_npz(const PointMap& map, const TriangleMesh& target);
 /// Positions on `target` of a map's images; rows without an image keep the given fallback row.
 Points image_positions(const PointMap& map, const TriangleMesh& target, const Points& fallback);
 
+/// The surface's input with the faces of its file alone, without those that a repair added: what maps are
+/// measured on.
+TriangleMesh without_added_faces(const Surface& surface);
+
 }  // namespace varimap

@@ -7,7 +7,7 @@ namespace varimap {
 struct UntanglingReport {
     int flipped_before = 0, flipped_after = 0;
     double flipped_area_percent_before = 0, flipped_area_percent_after = 0;
-    int global_steps = 0;                     ///< that lowered the energy
+    int global_steps = 0;                     ///< of relaxation, those that were taken
     int sweeps = 0;                           ///< of fold removal
     int parts_tried = 0, parts_replaced = 0;  ///< see part_replacement.h
     double replaced_area_percent = 0;         ///< share of the source's area, counted as often as replaced

@@ -13,9 +13,6 @@ namespace varimap {
 
 namespace {
 
-/// In standard deviations; so that outliers do not outweigh all else. Chosen by hand, not swept.
-constexpr double largest_descriptor = 2.5;
-
 /// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that
 /// of the file.
 bool looks_inward(const Domain& surface) {

@@ -19,6 +19,10 @@ Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time);
 /// as do those of vertices without a normal.
 Eigen::VectorXd shape_diameter(const Domain& surface);
 
+/// Descriptors are cut off there, in standard deviations, so that outliers do not outweigh all else. Chosen
+/// by hand, not swept.
+constexpr double largest_descriptor = 2.5;
+
 /// What tells parts of a surface apart by their look, not by where they are.
 struct LocalShape {
     /// vertices x 3: bending at two times and shape diameter, compressed, of mean 0 and together of variance

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "varimap/artifact/consistency.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 namespace {
@@ -78,9 +79,9 @@ bool have_unit_norms(const Basis& basis, const Eigen::VectorXd& mass) {
 
 }  // namespace
 
-/// Descriptors are cut off at 2.5 / sqrt(3); nothing stands out of a surface farther than it is long, for
+/// Nothing stands out of a surface farther than it is long, for
 /// which the least eigenvalue has a bound.
-constexpr double largest_descriptor = 2.5, largest_bending = 1e6;
+constexpr double largest_bending = 1e6;
 
 /// On unit area. A cylinder of length L has lambda_2 = (pi / L)^2, and |phi_i| is at most m_i^-1/2: what lies
 /// beyond belongs to no surface, and heat kernels made of it would overflow.
@@ -117,9 +118,10 @@ void require_complete(const Hierarchy& hierarchy) {
     const LocalShape& shape = hierarchy.shape;
     require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices,
                        "local shape");
-    require<Hierarchy>(
-        are_within(shape.descriptors, largest_descriptor) && are_within(shape.bending, largest_bending),
-        "local shape");
+    // Of three descriptors, each by sqrt(3) (local_shape.h).
+    const double largest = largest_descriptor / std::sqrt(3.0) * (1 + 1e-12);
+    require<Hierarchy>(are_within(shape.descriptors, largest) && are_within(shape.bending, largest_bending),
+                       "local shape");
 }
 
 void require_fit(const Basis& basis, const Domain& domain) {

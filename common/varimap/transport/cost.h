@@ -55,11 +55,11 @@ struct Centres {
 /// sum pi = sum m' = sum n' = 1. The text only implies the sum of m'; without it every m'_i would go to its
 /// upper bound. Each half-step is a convex problem:
 ///   pi    transport with the costs above, row sums within [m' / C, C m'], column sums within [n' / C, C n'];
-///   m'    m'_i = clamp(s sqrt(A_i)) to [m_i / D, D m_i] and [rho_i / C, C rho_i], with the s that makes
-///   their sum 1,
+///   m'    m'_i = clamp(s sqrt(A_i)) to [m_i / D, D m_i] and [rho_i / C, C rho_i], with the s that
+///         makes their sum 1,
 ///         where A_i = m_i sum_j pi_ij cX_ij;
-///   eta   eta_xk = sum_i w_ki (mean image of x_i) / sum_i w_ki, with the weights w_ki = m_i W_k(x_i) rho_i /
-///   m'_i:
+///   eta   eta_xk = sum_i w_ki (mean image of x_i) / sum_i w_ki, with the weights
+///         w_ki = m_i W_k(x_i) rho_i / m'_i:
 ///         the weighted average that the text speaks of.
 ///
 /// Where D exceeds 1, C' lets both one-way maps shrink: a light sample counts in full in its own row, but

@@ -13,7 +13,6 @@ namespace varimap {
 namespace {
 
 constexpr int rows_per_task = 512;
-constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
 /// log(exp(-c / gamma) - exp(-b / gamma)): the kernel of an instantiated entry in excess of the background,
 /// which is added to all entries alike.

@@ -8,26 +8,20 @@
 
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
+#include "varimap/core/statistics.h"
 #include "varimap/mesh/geodesic.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
 namespace {
-
-/// Per vertex the corner of one of its faces; face -1 where it has none.
-PointMap vertex_points(const TriangleMesh& mesh) {
-    PointMap points(size_t(mesh.vertex_count()));
-    for (int f = mesh.face_count() - 1; f >= 0; --f)
-        for (int k = 0; k < 3; ++k) points[size_t(mesh.faces(f, k))] = {f, Vec3::Unit(k)};
-    return points;
-}
 
 PointPairs pairs_of(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
                     const std::vector<int>& target_points) {
     if (source_points.size() != target_points.size())
         throw InputError(fmt::format("{} points on the source but {} on the target; they match row by row",
                                      source_points.size(), target_points.size()));
-    const PointMap at_vertex = vertex_points(target);
+    const PointMap at_vertex = points_at_vertices(target);
     PointPairs pairs;
     for (size_t i = 0; i < source_points.size(); ++i) {
         const int s = source_points[i], t = target_points[i];
@@ -82,10 +76,7 @@ double MapErrors::mean() const {
 }
 
 double MapErrors::median() const {
-    std::vector<double> sorted = errors;
-    std::sort(sorted.begin(), sorted.end());
-    const size_t n = sorted.size();
-    return (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
+    return mean_median(errors);
 }
 
 double MapErrors::maximum() const {

@@ -1,4 +1,4 @@
-#include "varimap/pair_stage/likely_part.h"
+#include "varimap/pair_stage/unlike_surfaces.h"
 
 #include <cmath>
 
@@ -34,6 +34,17 @@ void warn_of_part(const Surface& A, const Surface& B) {
     const double a = opening(A), b = opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");
+}
+
+void warn_of_inside_out(const Surface& A, const Surface& B) {
+    if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return;
+    if (!is_closed(A.mesh) || !is_closed(B.mesh)) return;
+    const bool A_is = signed_volume(A.mesh) < 0, B_is = signed_volume(B.mesh) < 0;
+    if (A_is != B_is)
+        warn(
+            "the {} is inside out: its faces look inward, so that it counts as a mirror image; reverse its "
+            "faces, or give --mirror",
+            A_is ? "source" : "target");
 }
 
 }  // namespace varimap

@@ -9,4 +9,8 @@ namespace varimap {
 /// it.
 void warn_of_part(const Surface& A, const Surface& B);
 
+/// Warns where of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored:
+/// all maps that keep the orientation are then those of a mirror image.
+void warn_of_inside_out(const Surface& A, const Surface& B);
+
 }  // namespace varimap

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace varimap {
+
+/// The rotation R that makes trace(R' M) largest (Kabsch 1976); of M = sum_k y_k x_k' of centred points, the
+/// one for which R x_k are nearest to y_k. `mirrored`: the best reflection instead.
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M, bool mirrored = false);
+
+}  // namespace varimap

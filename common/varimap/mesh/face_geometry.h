@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Length of a face's longest edge.
+inline double longest_edge(const TriangleMesh& mesh, int f) {
+    const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
+               c = mesh.vertex(mesh.faces(f, 2));
+    return std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+}
+
+/// The corner of its face with the largest barycentric coordinate of a point; -1 for nowhere.
+inline int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
+    if (point.face < 0) return -1;
+    int corner;
+    point.barycentric.maxCoeff(&corner);
+    return mesh.faces(point.face, corner);
+}
+
+}  // namespace varimap
