@@ -141,7 +141,20 @@ expect_exit 3 "$varimap" batch quotes.csv -o none
 echo '0 0' >'back\slash.txt'
 printf 'source,target,landmarks\nmeshes/a.off,meshes/b.off,back\\slash.txt\n' >slash.csv
 expect_exit 3 "$varimap" batch slash.csv -o none
+printf 'source,target,source_landmarks\nmeshes/a.off,meshes/b.off,one.txt\n' >one_side.csv
+echo 0 >one.txt
+expect_exit 3 "$varimap" batch one_side.csv -o none
+printf 'source,target\nmeshes/a.off,meshes/b.off\n' >pair.csv
+expect_exit 2 "$varimap" batch pair.csv -o none --directed
+expect_exit 2 "$varimap" batch --star meshes/a.off meshes -o none --directed
+mkdir named
+cp one.txt named/nobody.txt
+expect_exit 3 "$varimap" batch --all-pairs meshes -o none --landmarks-from named
 [[ ! -e none ]] || fail "a refused batch left files"
+"$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
+cp one.txt named/a.txt
+"$varimap" batch --all-pairs meshes -o planned --plan --landmarks-from named >out.txt 2>log || fail "--plan with landmarks"
+grep -q 'no landmarks for . of . surfaces' log || fail "who has no landmarks is not said"
 "$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
 grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"
 [[ -z $(ls planned/pairs) ]] || fail "--plan runs something"

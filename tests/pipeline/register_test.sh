@@ -60,6 +60,17 @@ code=0
 grep -q '^left out    1 ' out.txt || fail "who is left out"
 same out/points.npy before/points.npy
 
+# An interrupt ends what it has begun, too.
+"$varimap" register "${small_picture[@]}" template.off meshes/s1.off meshes/s4.off -o stopped --landmarks-from points -j 1 >out.txt 2>log &
+front_end=$!
+until [[ -n $(find stopped -name '*.surface' 2>/dev/null) ]]; do sleep .1; done
+kill -TERM "$front_end"
+code=0
+wait "$front_end" || code=$?
+((code == 143)) || fail "exit $code when interrupted"
+grep -q 'register: error: interrupted' log || fail "an interrupt is not told"
+! pgrep -f "$PWD/stopped" >/dev/null || fail "what an interrupted run has begun goes on"
+
 expect_exit 2 "$varimap" register template.off -o none
 expect_exit 2 "$varimap" register template.off meshes
 expect_exit 6 "$varimap" register absent.off meshes -o none

@@ -10,7 +10,7 @@ namespace varimap {
 namespace {
 
 Surface ball(bool inside_out, bool mirrored) {
-    TriangleMesh mesh = ellipsoid(2);
+    TriangleMesh mesh = shapes::ellipsoid(2);
     if (inside_out) mesh.faces.col(1).swap(mesh.faces.col(2));
     PreprocessParams params;
     params.mirror = mirrored;
