@@ -20,8 +20,7 @@ namespace varimap {
 
 namespace {
 
-/// A coordinate in a list may be rounded by this much, relative to the mesh's bounding box diagonal.
-constexpr double coordinate_tolerance = 1e-4;
+constexpr double rounding = 1e-4;  ///< of coordinates in a list, relative to the mesh's bounding box diagonal
 
 struct Row {
     int line;
@@ -92,10 +91,19 @@ int to_vertex(const Row& row, size_t column, int first, const std::string& path,
     return vertex;
 }
 
+/// What a coordinate in a list may be off by. Vertices that no face uses may lie far off: they count only in
+/// a mesh of points alone.
+double coordinate_tolerance(const TriangleMesh& mesh) {
+    if (mesh.face_count() == 0)
+        return rounding * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+    const auto [low, high] = bounding_box(mesh);
+    return rounding * (high - low).norm();
+}
+
 /// Which first number makes more rows' coordinates those of the mesh's vertices; nothing if neither makes
 /// half of them.
 std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const TriangleMesh& mesh) {
-    const Vec3 extent = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+    const double tolerance = coordinate_tolerance(mesh);
     size_t matches[2] = {0, 0};
     for (const Row& row : rows) {
         if (row.numbers.size() < 4) continue;
@@ -104,7 +112,7 @@ std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const Tri
             const double v = row.numbers[0] - base;
             if (v < 0 || v >= mesh.vertex_count()) continue;
             const double distance = (mesh.vertex(int(v)) - point).norm();
-            matches[base] += distance <= coordinate_tolerance * extent.norm();
+            matches[base] += distance <= tolerance;
         }
     }
     if (2 * std::max(matches[0], matches[1]) < rows.size()) return {};

@@ -73,6 +73,13 @@ TEST_F(VertexList, LetsCoordinatesDecideTheBase) {
     EXPECT_THAT(read_vertex_list(one, IndexBase::zero, &mesh_), ElementsAre(3, 6));
 }
 
+TEST_F(VertexList, AVertexThatNoFaceUsesDoesNotBlurCoordinates) {
+    TriangleMesh mesh = mesh_;
+    mesh.vertices.row(10) << 1e9, 0, 0;
+    const auto one = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
+    EXPECT_THAT(read_vertex_list(one, IndexBase::automatic, &mesh), ElementsAre(2, 5));
+}
+
 TEST_F(VertexList, StartsAtZeroWhereCoordinatesSayNothing) {
     const auto path = write("a.vts", "3 0.0 0.0 0.0\n6 0.0 0.0 0.0\n");
     EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 6));
