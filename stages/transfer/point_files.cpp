@@ -43,10 +43,7 @@ std::string slicer_fcsv(std::string_view bytes, const std::vector<PickedPoint>& 
     std::string text;
     auto point = points.begin();
     while (!bytes.empty()) {
-        const std::size_t end = bytes.find('\n');
-        std::string_view line = bytes.substr(0, end);
-        bytes.remove_prefix(end == bytes.npos ? bytes.size() : end + 1);
-        if (line.ends_with('\r')) line.remove_suffix(1);
+        const std::string_view line = split_off_line(bytes);
         const bool holds_point = !line.empty() && !line.starts_with('#');
         text += holds_point ? fcsv_line(line, (point++)->position) : std::string(line);
         text += '\n';
@@ -78,11 +75,6 @@ std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& poin
         done = std::min(end, bytes.size());
     }
     return text + std::string(bytes.substr(done));
-}
-
-bool is_number(std::string_view word) {
-    double value;
-    return to_number(word, value);
 }
 
 }  // namespace

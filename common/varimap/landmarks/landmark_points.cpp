@@ -23,15 +23,11 @@ bool ends_with(const std::string& path, std::string_view ending) {
     return path.ends_with(ending);
 }
 
-[[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
-    throw InputError(fmt::format("{}:{}: {}", path, line, message));
-}
-
 double number(std::string_view text, const std::string& path, int line) {
     double value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        fail(path, line, fmt::format("'{}' is not a coordinate", excerpt(text)));
+        fail_at(path, line, fmt::format("'{}' is not a coordinate", excerpt(text)));
     return value;
 }
 
@@ -61,7 +57,7 @@ std::vector<PickedPoint> read_pp(const std::string& path, std::string_view bytes
         point.defined = attribute(tag, "active") != "0";
         for (int axis = 0; axis < 3 && point.defined; ++axis) {
             const auto text = attribute(tag, std::string(1, "xyz"[axis]));
-            if (!text) fail(path, point.line, "a point without x, y or z");
+            if (!text) fail_at(path, point.line, "a point without x, y or z");
             point.position[axis] = number(*text, path, point.line);
         }
         points.push_back(std::move(point));
@@ -140,7 +136,7 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
         if (text.starts_with('#')) read_fcsv_comment(text, path, space);
         if (text.empty() || text.starts_with('#')) continue;
         const auto fields = split(text, ',');
-        if (fields.size() < 4) fail(path, line, "expected id,x,y,z,...");
+        if (fields.size() < 4) fail_at(path, line, "expected id,x,y,z,...");
         PickedPoint point{line, fields.size() > label ? std::string(fields[label]) : "", Vec3::Zero(), space};
         for (std::size_t axis = 0; axis < 3; ++axis)
             point.position[Eigen::Index(axis)] = number(fields[axis + 1], path, line);

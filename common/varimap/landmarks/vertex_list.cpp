@@ -36,10 +36,6 @@ struct Named {
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
 
-[[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
-    throw InputError(fmt::format("{}:{}: {}", path, line, message));
-}
-
 std::vector<double> numbers_of(const TextScanner& scanner) {
     std::vector<double> numbers;
     for (const auto word : scanner.words()) {
@@ -65,8 +61,8 @@ void require_count(const std::vector<Row>& rows, const std::string& path, size_t
                    const char* expected) {
     for (const Row& row : rows)
         if (row.numbers.size() != count && row.numbers.size() != other_count)
-            fail(path, row.line,
-                 fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
+            fail_at(path, row.line,
+                    fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
 }
 
 /// Lines that each have one of the two counts of numbers.
@@ -79,15 +75,16 @@ std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_c
 int to_vertex(const Row& row, size_t column, int first, const std::string& path, const TriangleMesh* mesh) {
     const double number = row.numbers[column];
     if (number != std::floor(number) || std::abs(number) > 2e9)
-        fail(path, row.line, fmt::format("{} is not a vertex number", number));
+        fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
     const int vertex = int(number) - first;
     if (vertex < 0)
-        fail(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
+        fail_at(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
     if (mesh && vertex >= mesh->vertex_count())
-        fail(path, row.line,
-             fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
-                         number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
-                         first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
+        fail_at(
+            path, row.line,
+            fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
+                        number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
+                        first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
     return vertex;
 }
 
@@ -302,10 +299,10 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
         if (vertex == no_vertex) continue;
         const auto [it, added] = lines.try_emplace(vertex, line);
         if (!added)
-            fail(path, line,
-                 fmt::format("{} vertex {} is already the landmark of line {}", role, vertex, it->second));
+            fail_at(path, line,
+                    fmt::format("{} vertex {} is already the landmark of line {}", role, vertex, it->second));
         if (!used[size_t(vertex)])
-            fail(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
+            fail_at(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
     }
 }
 

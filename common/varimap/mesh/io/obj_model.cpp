@@ -51,14 +51,6 @@ void add_face(const TextScanner& scanner, int material, ObjModel& model, std::ve
     }
 }
 
-std::string_view next_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == text.npos ? text.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-}
-
 std::vector<std::string_view> words_of(std::string_view line) {
     std::vector<std::string_view> words;
     for (std::size_t at = line.find_first_not_of(" \t"); at != line.npos;) {
@@ -119,7 +111,7 @@ std::string with_vertices(std::string_view obj, const Points& vertices, const st
     std::string text = library.empty() ? "" : fmt::format("mtllib {}\n", library);
     Eigen::Index v = 0;
     while (!obj.empty()) {
-        const std::string_view line = next_line(obj);
+        const std::string_view line = split_off_line(obj);
         const auto words = words_of(line.substr(0, line.find('#')));
         const std::string_view word = words.empty() ? "" : words[0];
         if (word == "v" && v < vertices.rows()) {

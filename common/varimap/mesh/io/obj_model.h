@@ -57,4 +57,7 @@ struct Materials {
 /// Throws IoError where a library or an image is missing, naming who wants it.
 Materials read_materials(const ObjModel& model, const std::string& obj_path);
 
+/// "image/png" or "image/jpeg", by an image's first bytes; empty for other formats.
+std::string media_type(std::string_view image);
+
 }  // namespace varimap
