@@ -124,11 +124,11 @@ void Transfer::add_shape(const std::string& path) {
 
 void Transfer::add_mesh(const std::string& path) {
     if (!is_obj(path)) throw UsageError("--mesh " + path + ": give an OBJ file");
-    const TriangleMesh mesh = read_mesh(path);
+    const std::string bytes = read_file(path);
+    const TriangleMesh mesh = parse_mesh(bytes, path);
     require_same_mesh(same_faces(mesh, map_.from) || same_vertices(mesh, map_.from), path, mesh,
                       map_.from_file, map_.from);
     const std::string name = reverse_ ? "target_on_source" : "source_on_target";
-    const std::string bytes = read_file(path);
     const ObjModel model = parse_obj_model(bytes, path);
     const bool painted = !model.libraries.empty();
     if (painted) add_materials(read_materials(model, path), name);

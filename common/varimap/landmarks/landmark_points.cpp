@@ -152,8 +152,11 @@ bool is_picked_points(const std::string& path) {
 }
 
 std::vector<PickedPoint> read_picked_points(const std::string& path) {
-    const std::string file = read_file(path);
-    const std::string_view bytes = without_byte_order_mark(file, path);
+    return parse_picked_points(read_file(path), path);
+}
+
+std::vector<PickedPoint> parse_picked_points(std::string_view bytes, const std::string& path) {
+    bytes = without_byte_order_mark(bytes, path);
     const auto points = ends_with(path, ".pp")     ? read_pp(path, bytes)
                         : ends_with(path, ".json") ? read_mrk_json(path, bytes)
                                                    : read_fcsv(path, bytes);
