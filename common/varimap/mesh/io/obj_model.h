@@ -36,6 +36,7 @@ struct TexturedMesh {
     TriangleMesh mesh;
     ObjModel model;
 };
+/// Faces without a material stand first, else all in their order.
 std::string to_obj(const TexturedMesh& textured, const std::string& library);
 
 /// A material as far as it is looked at.
