@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -82,9 +83,9 @@ std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& poin
 std::string with_positions(const std::string& path, const std::string& file,
                            const std::vector<PickedPoint>& points) {
     const std::string_view bytes = without_byte_order_mark(file, path);
-    return path.ends_with(".pp")     ? meshlab(bytes, points)
-           : path.ends_with(".json") ? slicer_json(bytes, points)
-                                     : slicer_fcsv(bytes, points);
+    return has_ending(path, ".pp")     ? meshlab(bytes, points)
+           : has_ending(path, ".json") ? slicer_json(bytes, points)
+                                       : slicer_fcsv(bytes, points);
 }
 
 std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const TextRows& rows,

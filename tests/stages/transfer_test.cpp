@@ -350,6 +350,7 @@ TEST_F(Transfer, WritesTheFormatItReads) {
     const std::vector<std::int8_t> bytes(2 * std::size_t(ball_.face_count()), -7);
     const std::string table = to_npy("|i1", {ball_.face_count(), 2}, bytes);
     EXPECT_EQ(round_trip(write("b.npy", table)), table);
+    EXPECT_EQ(round_trip(write("B.NPY", table)), table);
 }
 
 TEST_F(Transfer, RefusesValuesOfAnotherMesh) {

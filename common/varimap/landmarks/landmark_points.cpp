@@ -11,6 +11,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -18,10 +19,6 @@
 namespace varimap {
 
 namespace {
-
-bool ends_with(const std::string& path, std::string_view ending) {
-    return path.ends_with(ending);
-}
 
 double number(std::string_view text, const std::string& path, int line) {
     double value = 0;
@@ -148,7 +145,7 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
 }  // namespace
 
 bool is_picked_points(const std::string& path) {
-    return ends_with(path, ".pp") || ends_with(path, ".json") || ends_with(path, ".fcsv");
+    return has_ending(path, ".pp") || has_ending(path, ".json") || has_ending(path, ".fcsv");
 }
 
 std::vector<PickedPoint> read_picked_points(const std::string& path) {
@@ -157,9 +154,9 @@ std::vector<PickedPoint> read_picked_points(const std::string& path) {
 
 std::vector<PickedPoint> parse_picked_points(std::string_view bytes, const std::string& path) {
     bytes = without_byte_order_mark(bytes, path);
-    const auto points = ends_with(path, ".pp")     ? read_pp(path, bytes)
-                        : ends_with(path, ".json") ? read_mrk_json(path, bytes)
-                                                   : read_fcsv(path, bytes);
+    const auto points = has_ending(path, ".pp")     ? read_pp(path, bytes)
+                        : has_ending(path, ".json") ? read_mrk_json(path, bytes)
+                                                    : read_fcsv(path, bytes);
     if (points.empty()) throw InputError(path + ": holds no points");
     return points;
 }

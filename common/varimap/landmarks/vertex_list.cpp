@@ -10,6 +10,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/landmark_points.h"
@@ -153,10 +154,6 @@ std::vector<Named> read_column(const std::string& path, size_t column, const Tri
     return list;
 }
 
-bool is_vts(const std::string& path) {
-    return path.size() >= 4 && path.substr(path.size() - 4) == ".vts";
-}
-
 /// Most of a list's points far from the surface: it is read wrongly, or belongs elsewhere.
 void refuse_far_list(const std::vector<Named>& list, const std::vector<Vec3>& positions,
                      const std::vector<double>& distances, const std::string& path,
@@ -226,7 +223,7 @@ std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh, 
         require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
         return snapped_list(points_of_rows(rows, 0), path, mesh, space);
     }
-    return read_list(path, is_vts(path) ? IndexBase::automatic : IndexBase::zero, &mesh);
+    return read_list(path, has_ending(path, ".vts") ? IndexBase::automatic : IndexBase::zero, &mesh);
 }
 
 /// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
