@@ -10,6 +10,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
@@ -20,18 +21,9 @@ namespace {
 
 constexpr int least_points = 4;
 
-std::string ending(const std::string& path) {
-    const auto dot = path.find_last_of("./");
-    std::string end = dot == path.npos || path[dot] == '/' ? "" : path.substr(dot + 1);
-    for (char& c : end) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return end;
-}
-
 DomainKind kind_by_ending(const std::string& path) {
-    const std::string end = ending(path);
-    return end == "mtx" || end == "edges" ? DomainKind::graph
-           : end == "obj"                 ? DomainKind::polyline
-                                          : DomainKind::points;
+    if (has_ending(path, ".mtx") || has_ending(path, ".edges")) return DomainKind::graph;
+    return has_ending(path, ".obj") ? DomainKind::polyline : DomainKind::points;
 }
 
 /// The whole file, with commas and semicolons as blanks.
@@ -252,17 +244,18 @@ DomainFile graph_from_mesh(const std::string& path) {
     return file;
 }
 
-bool is_mesh(const std::string& end) {
-    return end == "off" || end == "ply" || end == "stl" || end == "obj";
+bool is_mesh(const std::string& path) {
+    return has_ending(path, ".off") || has_ending(path, ".ply") || has_ending(path, ".stl") ||
+           has_ending(path, ".obj");
 }
 
 DomainFile read_as(const std::string& path, DomainKind kind) {
     if (kind == DomainKind::graph)
-        return is_mesh(ending(path))   ? graph_from_mesh(path)
-               : ending(path) == "mtx" ? graph_from_matrix_market(path)
-                                       : graph_from_rows(path);
+        return is_mesh(path)              ? graph_from_mesh(path)
+               : has_ending(path, ".mtx") ? graph_from_matrix_market(path)
+                                          : graph_from_rows(path);
     if (kind == DomainKind::polyline)
-        return ending(path) == "obj" ? polyline_from_obj(path) : polyline_from_rows(path);
+        return has_ending(path, ".obj") ? polyline_from_obj(path) : polyline_from_rows(path);
     const Points points = read_positions(path);
     return {DomainKind::points, int(points.rows()), points, {}, false};
 }

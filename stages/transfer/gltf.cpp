@@ -55,19 +55,16 @@ class Glb {
     std::string data_;
 };
 
-std::string media_type(const std::string& image, const std::string& path) {
-    if (image.starts_with("\x89PNG")) return "image/png";
-    if (image.starts_with("\xff\xd8")) return "image/jpeg";
-    throw InputError(path + ": glTF takes PNG and JPEG images only; save the texture as one");
-}
-
 void add_material(Glb& glb, const std::string& name, const Material* material) {
     Json surface{{"metallicFactor", 0}, {"roughnessFactor", .8}};
     if (material != nullptr && !material->texture.empty()) {
         const std::string image = read_file(material->texture);
+        const std::string type = media_type(image);
+        if (type.empty())
+            throw InputError(material->texture +
+                             ": glTF takes PNG and JPEG images only; save the texture as one");
         const int view = glb.add_view(image);
-        glb.json()["images"].push_back(
-            {{"bufferView", view}, {"mimeType", media_type(image, material->texture)}});
+        glb.json()["images"].push_back({{"bufferView", view}, {"mimeType", type}});
         glb.json()["textures"].push_back({{"source", glb.json()["images"].size() - 1}});
         surface["baseColorTexture"] = {{"index", glb.json()["textures"].size() - 1}};
     } else if (material != nullptr) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -43,10 +44,7 @@ std::string slicer_fcsv(std::string_view bytes, const std::vector<PickedPoint>& 
     std::string text;
     auto point = points.begin();
     while (!bytes.empty()) {
-        const std::size_t end = bytes.find('\n');
-        std::string_view line = bytes.substr(0, end);
-        bytes.remove_prefix(end == bytes.npos ? bytes.size() : end + 1);
-        if (line.ends_with('\r')) line.remove_suffix(1);
+        const std::string_view line = split_off_line(bytes);
         const bool holds_point = !line.empty() && !line.starts_with('#');
         text += holds_point ? fcsv_line(line, (point++)->position) : std::string(line);
         text += '\n';
@@ -80,19 +78,14 @@ std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& poin
     return text + std::string(bytes.substr(done));
 }
 
-bool is_number(std::string_view word) {
-    double value;
-    return to_number(word, value);
-}
-
 }  // namespace
 
 std::string with_positions(const std::string& path, const std::string& file,
                            const std::vector<PickedPoint>& points) {
     const std::string_view bytes = without_byte_order_mark(file, path);
-    return path.ends_with(".pp")     ? meshlab(bytes, points)
-           : path.ends_with(".json") ? slicer_json(bytes, points)
-                                     : slicer_fcsv(bytes, points);
+    return has_ending(path, ".pp")     ? meshlab(bytes, points)
+           : has_ending(path, ".json") ? slicer_json(bytes, points)
+                                       : slicer_fcsv(bytes, points);
 }
 
 std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const TextRows& rows,

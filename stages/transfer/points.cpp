@@ -60,7 +60,7 @@ std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images,
 
 std::string carry_picked(const std::string& path, const std::string& bytes, LandmarkSpace space,
                          const Correspondence& map, const PointCarrier& there) {
-    std::vector<PickedPoint> points = read_picked_points(path);
+    std::vector<PickedPoint> points = parse_picked_points(bytes, path);
     std::vector<Vec3> positions;
     for (const PickedPoint& point : points)
         if (point.defined) positions.push_back(in_axes_of(map.from, point, space));

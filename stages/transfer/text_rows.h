@@ -20,6 +20,7 @@ struct TextRows {
 
 /// The first line tells the separator. Throws InputError for UTF-16 and where there are no rows.
 TextRows split_rows(std::string_view bytes, const std::string& path);
+bool is_number(std::string_view word);
 std::string join(const std::vector<std::string>& words, char separator);
 
 }  // namespace varimap

@@ -23,11 +23,6 @@ bool is_index_name(std::string_view name) {
     return lower == "vertex" || lower == "face" || lower == "index" || lower == "id" || lower.empty();
 }
 
-bool is_number(std::string_view word) {
-    double ignored;
-    return to_number(word, ignored);
-}
-
 /// Words stand for numbers where values are labels.
 class Dictionary {
   public:

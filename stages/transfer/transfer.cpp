@@ -13,6 +13,7 @@
 #include "stages/transfer/values.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/ply_columns.h"
@@ -30,9 +31,6 @@ std::string name_of(const std::string& path) {
 }
 std::string stem_of(const std::string& path) {
     return fs::path(path).stem().string();
-}
-bool is_obj(const std::string& path) {
-    return path.ends_with(".obj") || path.ends_with(".OBJ");
 }
 
 bool same_faces(const TriangleMesh& a, const TriangleMesh& b) {
@@ -116,19 +114,19 @@ void Transfer::add_shape(const std::string& path) {
     const TriangleMesh shape = read_mesh(path);
     require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
     const Points moved = carry_shape(map_, shape.vertices);
-    if (is_obj(map_.to_file))
+    if (has_ending(map_.to_file, ".obj"))
         add(stem_of(path) + ".obj", with_vertices(read_file(map_.to_file), moved, "", map_.to_file));
     else
         add(stem_of(path) + ".ply", to_ply({moved, map_.to.faces, map_.to.space}));
 }
 
 void Transfer::add_mesh(const std::string& path) {
-    if (!is_obj(path)) throw UsageError("--mesh " + path + ": give an OBJ file");
-    const TriangleMesh mesh = read_mesh(path);
+    if (!has_ending(path, ".obj")) throw UsageError("--mesh " + path + ": give an OBJ file");
+    const std::string bytes = read_file(path);
+    const TriangleMesh mesh = parse_mesh(bytes, path);
     require_same_mesh(same_faces(mesh, map_.from) || same_vertices(mesh, map_.from), path, mesh,
                       map_.from_file, map_.from);
     const std::string name = reverse_ ? "target_on_source" : "source_on_target";
-    const std::string bytes = read_file(path);
     const ObjModel model = parse_obj_model(bytes, path);
     const bool painted = !model.libraries.empty();
     if (painted) add_materials(read_materials(model, path), name);
@@ -136,7 +134,7 @@ void Transfer::add_mesh(const std::string& path) {
 }
 
 void Transfer::add_texture(const std::string& path) {
-    if (!is_obj(path)) throw UsageError("--texture " + path + ": give an OBJ file");
+    if (!has_ending(path, ".obj")) throw UsageError("--texture " + path + ": give an OBJ file");
     const std::string bytes = read_file(path);
     const TriangleMesh mesh = parse_mesh(bytes, path);
     require_same_mesh(same_faces(mesh, map_.from), path, mesh, map_.from_file, map_.from);
@@ -168,7 +166,7 @@ void Transfer::add_cut(const Texture& texture, const std::string& name) {
 
 void Transfer::add_baked(const Texture& texture, const std::string& name) {
     const std::string& onto = request_.onto.empty() ? map_.to_file : request_.onto;
-    if (!is_obj(onto))
+    if (!has_ending(onto, ".obj"))
         throw UsageError(onto +
                          ": has no texture coordinates to bake onto; leave out --bake to have the "
                          "source's cut onto it, or give --onto an OBJ that has some");

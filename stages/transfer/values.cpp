@@ -10,6 +10,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/parallel.h"
 
 namespace varimap {
@@ -136,9 +137,9 @@ void keep_largest(Eigen::MatrixXd& weights, int count) {
 ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMesh& mesh,
                       const std::string& mesh_file) {
     const std::string bytes = read_file(path);
-    ValueFile file = path.ends_with(".npy")   ? parse_npy_values(bytes, path)
-                     : path.ends_with(".ply") ? parse_ply_values(bytes, path)
-                                              : parse_text_values(bytes, path, kind);
+    ValueFile file = has_ending(path, ".npy")   ? parse_npy_values(bytes, path)
+                     : has_ending(path, ".ply") ? parse_ply_values(bytes, path)
+                                                : parse_text_values(bytes, path, kind);
     for (ValueTable& table : file.tables) {
         table.place = place_of(table.values.rows(), mesh, mesh_file, path);
         if (kind == ValueKind::weight) require_weights(table, path);

@@ -5,6 +5,7 @@
 #include "stages/view/page.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/results/candidates.h"
 #include "varimap/stage/stage_main.h"
@@ -64,7 +65,7 @@ std::optional<PageTexture> texture_of(const std::string& asked, const Correspond
         return texture;
     }
     const std::string& mesh = map.from_file;
-    if (mesh.size() < 4 || mesh.compare(mesh.size() - 4, 4, ".obj") != 0) return {};
+    if (!has_ending(mesh, ".obj")) return {};
     try {
         return read_texture(mesh, map);
     } catch (const Error& error) {

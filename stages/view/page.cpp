@@ -195,10 +195,10 @@ Json add_texture(const PageTexture& texture, PackedArrays& arrays) {
             {"target", arrays.add(texture.target_uv, "Float32Array")}};
 }
 
-/// Text that ends no element of a page.
+/// Text that neither ends nor begins an element or a comment of a page.
 std::string inside_page(std::string json) {
-    for (std::size_t at = json.find("</"); at != json.npos; at = json.find("</", at + 3))
-        json.replace(at, 2, "<\\/");
+    for (std::size_t at = json.find('<'); at != json.npos; at = json.find('<', at))
+        json.replace(at, 1, "\\u003c");
     return json;
 }
 

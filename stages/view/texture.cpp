@@ -75,12 +75,6 @@ const Material* commonest(const ObjModel& model, const Materials& materials) {
     return best;
 }
 
-std::string type_of(const std::string& image, const std::string& path) {
-    if (image.starts_with("\x89PNG")) return "image/png";
-    if (image.starts_with("\xff\xd8\xff")) return "image/jpeg";
-    throw InputError(path + ": neither PNG nor JPEG, which pages show; save the texture as one");
-}
-
 }  // namespace
 
 std::optional<PageTexture> read_texture(const std::string& obj, const Correspondence& map) {
@@ -95,7 +89,10 @@ std::optional<PageTexture> read_texture(const std::string& obj, const Correspond
             fmt::format("{}: has other faces than {}, which the map starts from", obj, map.from_file));
     PageTexture texture;
     texture.image = read_file(material->texture);
-    texture.type = type_of(texture.image, material->texture);
+    texture.type = media_type(texture.image);
+    if (texture.type.empty())
+        throw InputError(material->texture +
+                         ": neither PNG nor JPEG, which pages show; save the texture as one");
     if (texture.image.size() > most_bytes)
         throw InputError(fmt::format("{}: {} MB are too much for a page; make it smaller than 6",
                                      material->texture, texture.image.size() >> 20));

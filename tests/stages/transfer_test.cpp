@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -104,6 +106,19 @@ class Transfer : public ::testing::Test {
         write_file_atomically(folder_ / name, bytes);
         return folder_ / name;
     }
+    /// A file that can be read only once, as one that changes right after.
+    std::string write_once(const std::string& name, const std::string& bytes) {
+        int ends[2];
+        EXPECT_EQ(::pipe(ends), 0);
+        EXPECT_EQ(::write(ends[1], bytes.data(), bytes.size()), ssize_t(bytes.size()));
+        ::close(ends[1]);
+        pipes_.push_back(ends[0]);
+        std::filesystem::create_symlink(fmt::format("/proc/self/fd/{}", ends[0]), folder_ / name);
+        return folder_ / name;
+    }
+    void TearDown() override {
+        for (const int pipe : pipes_) ::close(pipe);
+    }
     std::map<std::string, std::string> carry(const TransferRequest& request, const Correspondence& map) {
         const NamedFiles files = transfer(request, map, false);
         return {files.begin(), files.end()};
@@ -116,6 +131,7 @@ class Transfer : public ::testing::Test {
         }
         return "none";
     }
+    std::vector<int> pipes_;
     TemporaryFolder folder_;
     const TriangleMesh ball_ = shapes::ellipsoid(2, {1, .8, 1.3});
 };
@@ -182,6 +198,24 @@ TEST_F(Transfer, KeepsWhatPointFilesSayBesidesPositions) {
     EXPECT_THAT(files.at("a.mrk.json"), HasSubstr("\"locked\": true"));
     EXPECT_FALSE(read_picked_points(folder_ / "after-a.mrk.json")[1].defined);
     EXPECT_THAT(files.at("a.csv"), HasSubstr("name;x;y;z\ntail;"));
+}
+
+TEST_F(Transfer, ReadsFilesOnce) {
+    const Vec3 p = ball_.vertex(5);
+    const ObjModel plain{{},
+                         Faces::Constant(ball_.face_count(), 3, -1),
+                         std::vector<int>(std::size_t(ball_.face_count()), -1),
+                         {},
+                         {}};
+    TransferRequest request;
+    request.points = {
+        write_once("a.fcsv", fmt::format("id7,{},{},{},0,0,0,1,1,1,0,ear,,\n", p[0], p[1], p[2])),
+        write_once("a.pp", fmt::format("<point x=\"{}\" y=\"{}\" z=\"{}\"/>", p[0], p[1], p[2]))};
+    request.mesh = write_once("a.obj", obj_of(ball_, plain));
+    const auto files = carry(request, identity(ball_));
+    EXPECT_THAT(files.at("a.fcsv"), HasSubstr("ear"));
+    EXPECT_EQ(parse_picked_points(files.at("a.pp"), "a.pp").size(), 1u);
+    EXPECT_EQ(parse_mesh(files.at("source_on_target.obj"), "a.obj").faces, ball_.faces);
 }
 
 TEST_F(Transfer, HonoursTheAxesOfBothMeshes) {
@@ -316,6 +350,7 @@ TEST_F(Transfer, WritesTheFormatItReads) {
     const std::vector<std::int8_t> bytes(2 * std::size_t(ball_.face_count()), -7);
     const std::string table = to_npy("|i1", {ball_.face_count(), 2}, bytes);
     EXPECT_EQ(round_trip(write("b.npy", table)), table);
+    EXPECT_EQ(round_trip(write("B.NPY", table)), table);
 }
 
 TEST_F(Transfer, RefusesValuesOfAnotherMesh) {

@@ -68,6 +68,14 @@ TEST(View, PageHoldsBothMeshesAndEndsNoElementEarly) {
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(data["turn"][i][k].get<double>(), i == k, 1e-9);
 }
 
+TEST(View, NamesBeginNoElementOfThePage) {
+    PageContent content = content_of(shapes::ellipsoid(1));
+    content.map.to_file = "<!--<script>.off";
+    const std::string page = viewer_page(content, "<!--varimap-data-->");
+    EXPECT_EQ(page.find("<!--"), page.npos);
+    EXPECT_EQ(data_of(page)["target"]["file"], "<!--<script>.off");
+}
+
 TEST(View, TurnsTheTargetAsTheSourceStands) {
     const TriangleMesh mesh = shapes::ellipsoid(2, {1, 2, 3});
     PageContent content = content_of(mesh);

@@ -11,6 +11,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
@@ -20,19 +21,11 @@ namespace varimap {
 
 namespace {
 
-bool ends_with(const std::string& path, std::string_view ending) {
-    return path.ends_with(ending);
-}
-
-[[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
-    throw InputError(fmt::format("{}:{}: {}", path, line, message));
-}
-
 double number(std::string_view text, const std::string& path, int line) {
     double value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        fail(path, line, fmt::format("'{}' is not a coordinate", excerpt(text)));
+        fail_at(path, line, fmt::format("'{}' is not a coordinate", excerpt(text)));
     return value;
 }
 
@@ -62,7 +55,7 @@ std::vector<PickedPoint> read_pp(const std::string& path, std::string_view bytes
         point.defined = attribute(tag, "active") != "0";
         for (int axis = 0; axis < 3 && point.defined; ++axis) {
             const auto text = attribute(tag, std::string(1, "xyz"[axis]));
-            if (!text) fail(path, point.line, "a point without x, y or z");
+            if (!text) fail_at(path, point.line, "a point without x, y or z");
             point.position[axis] = number(*text, path, point.line);
         }
         points.push_back(std::move(point));
@@ -141,7 +134,7 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
         if (text.starts_with('#')) read_fcsv_comment(text, path, space);
         if (text.empty() || text.starts_with('#')) continue;
         const auto fields = split(text, ',');
-        if (fields.size() < 4) fail(path, line, "expected id,x,y,z,...");
+        if (fields.size() < 4) fail_at(path, line, "expected id,x,y,z,...");
         PickedPoint point{line, fields.size() > label ? std::string(fields[label]) : "", Vec3::Zero(), space};
         for (std::size_t axis = 0; axis < 3; ++axis)
             point.position[Eigen::Index(axis)] = number(fields[axis + 1], path, line);
@@ -153,15 +146,18 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
 }  // namespace
 
 bool is_picked_points(const std::string& path) {
-    return ends_with(path, ".pp") || ends_with(path, ".json") || ends_with(path, ".fcsv");
+    return has_ending(path, ".pp") || has_ending(path, ".json") || has_ending(path, ".fcsv");
 }
 
 std::vector<PickedPoint> read_picked_points(const std::string& path) {
-    const std::string file = read_file(path);
-    const std::string_view bytes = without_byte_order_mark(file, path);
-    const auto points = ends_with(path, ".pp")     ? read_pp(path, bytes)
-                        : ends_with(path, ".json") ? read_mrk_json(path, bytes)
-                                                   : read_fcsv(path, bytes);
+    return parse_picked_points(read_file(path), path);
+}
+
+std::vector<PickedPoint> parse_picked_points(std::string_view bytes, const std::string& path) {
+    bytes = without_byte_order_mark(bytes, path);
+    const auto points = has_ending(path, ".pp")     ? read_pp(path, bytes)
+                        : has_ending(path, ".json") ? read_mrk_json(path, bytes)
+                                                    : read_fcsv(path, bytes);
     if (points.empty()) throw InputError(path + ": holds no points");
     return points;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "varimap/core/enum_names.h"
@@ -24,6 +25,8 @@ bool is_picked_points(const std::string& path);
 /// Reads MeshLab's .pp, 3D Slicer's .mrk.json or .fcsv.
 /// Throws IoError; InputError naming the file for anything malformed and for a file without points.
 std::vector<PickedPoint> read_picked_points(const std::string& path);
+/// The same from the bytes of such a file; `path` tells the format, and is named in messages.
+std::vector<PickedPoint> parse_picked_points(std::string_view bytes, const std::string& path);
 
 /// Which axes the coordinates of landmarks use: those that their file states; those of the mesh, whatever
 /// either file says; LPS; or RAS.

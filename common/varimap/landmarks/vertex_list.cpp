@@ -10,6 +10,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/landmark_points.h"
@@ -20,8 +21,7 @@ namespace varimap {
 
 namespace {
 
-/// A coordinate in a list may be rounded by this much, relative to the mesh's bounding box diagonal.
-constexpr double coordinate_tolerance = 1e-4;
+constexpr double rounding = 1e-4;  ///< of coordinates in a list, relative to the mesh's bounding box diagonal
 
 struct Row {
     int line;
@@ -36,10 +36,6 @@ struct Named {
     std::string name = {};                   ///< by which it is matched; empty: by its row
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
-
-[[noreturn]] void fail(const std::string& path, int line, const std::string& message) {
-    throw InputError(fmt::format("{}:{}: {}", path, line, message));
-}
 
 std::vector<double> numbers_of(const TextScanner& scanner) {
     std::vector<double> numbers;
@@ -66,8 +62,8 @@ void require_count(const std::vector<Row>& rows, const std::string& path, size_t
                    const char* expected) {
     for (const Row& row : rows)
         if (row.numbers.size() != count && row.numbers.size() != other_count)
-            fail(path, row.line,
-                 fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
+            fail_at(path, row.line,
+                    fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
 }
 
 /// Lines that each have one of the two counts of numbers.
@@ -80,22 +76,32 @@ std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_c
 int to_vertex(const Row& row, size_t column, int first, const std::string& path, const TriangleMesh* mesh) {
     const double number = row.numbers[column];
     if (number != std::floor(number) || std::abs(number) > 2e9)
-        fail(path, row.line, fmt::format("{} is not a vertex number", number));
+        fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
     const int vertex = int(number) - first;
     if (vertex < 0)
-        fail(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
+        fail_at(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
     if (mesh && vertex >= mesh->vertex_count())
-        fail(path, row.line,
-             fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
-                         number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
-                         first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
+        fail_at(
+            path, row.line,
+            fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
+                        number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
+                        first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
     return vertex;
+}
+
+/// What a coordinate in a list may be off by. Vertices that no face uses may lie far off: they count only in
+/// a mesh of points alone.
+double coordinate_tolerance(const TriangleMesh& mesh) {
+    if (mesh.face_count() == 0)
+        return rounding * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+    const auto [low, high] = bounding_box(mesh);
+    return rounding * (high - low).norm();
 }
 
 /// Which first number makes more rows' coordinates those of the mesh's vertices; nothing if neither makes
 /// half of them.
 std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const TriangleMesh& mesh) {
-    const Vec3 extent = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+    const double tolerance = coordinate_tolerance(mesh);
     size_t matches[2] = {0, 0};
     for (const Row& row : rows) {
         if (row.numbers.size() < 4) continue;
@@ -104,7 +110,7 @@ std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const Tri
             const double v = row.numbers[0] - base;
             if (v < 0 || v >= mesh.vertex_count()) continue;
             const double distance = (mesh.vertex(int(v)) - point).norm();
-            matches[base] += distance <= coordinate_tolerance * extent.norm();
+            matches[base] += distance <= tolerance;
         }
     }
     if (2 * std::max(matches[0], matches[1]) < rows.size()) return {};
@@ -146,10 +152,6 @@ std::vector<Named> read_column(const std::string& path, size_t column, const Tri
     for (const Row& row : read_rows(path, 2, 2, "two vertex numbers, of the source and of the target"))
         list.push_back({row.line, to_vertex(row, column, 0, path, mesh)});
     return list;
-}
-
-bool is_vts(const std::string& path) {
-    return path.size() >= 4 && path.substr(path.size() - 4) == ".vts";
 }
 
 /// Most of a list's points far from the surface: it is read wrongly, or belongs elsewhere.
@@ -221,7 +223,7 @@ std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh, 
         require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
         return snapped_list(points_of_rows(rows, 0), path, mesh, space);
     }
-    return read_list(path, is_vts(path) ? IndexBase::automatic : IndexBase::zero, &mesh);
+    return read_list(path, has_ending(path, ".vts") ? IndexBase::automatic : IndexBase::zero, &mesh);
 }
 
 /// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
@@ -294,10 +296,10 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
         if (vertex == no_vertex) continue;
         const auto [it, added] = lines.try_emplace(vertex, line);
         if (!added)
-            fail(path, line,
-                 fmt::format("{} vertex {} is already the landmark of line {}", role, vertex, it->second));
+            fail_at(path, line,
+                    fmt::format("{} vertex {} is already the landmark of line {}", role, vertex, it->second));
         if (!used[size_t(vertex)])
-            fail(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
+            fail_at(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
     }
 }
 

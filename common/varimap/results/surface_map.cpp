@@ -6,6 +6,7 @@
 
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/results/checks.h"
 
 namespace varimap {
@@ -33,14 +34,6 @@ bool take(std::string_view& line, Number& number, bool last = false) {
     if (line.empty() || line.front() != ',') return false;
     line.remove_prefix(1);
     return true;
-}
-
-std::string_view next_line(std::string_view& text) {
-    const auto end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    return line;
 }
 
 SurfacePoint parse_row(std::string_view line, int vertex, const std::string& place) {
@@ -172,15 +165,15 @@ PointMap read_csv_map(const std::string& path) {
 }
 
 bool is_csv_map(std::string_view bytes) {
-    return next_line(bytes) == csv_header;
+    return split_off_line(bytes) == csv_header;
 }
 
 PointMap parse_csv_map(std::string_view text, const std::string& path) {
-    if (next_line(text) != csv_header)
+    if (split_off_line(text) != csv_header)
         throw InputError(path + ":1: not a map of varimap, whose first line is " + std::string(csv_header));
     PointMap map;
     while (!text.empty()) {
-        const std::string_view line = next_line(text);
+        const std::string_view line = split_off_line(text);
         if (line.empty() && text.empty()) break;
         const int vertex = int(map.size());
         map.push_back(parse_row(line, vertex, path + ":" + std::to_string(vertex + 2)));

@@ -73,6 +73,13 @@ TEST_F(VertexList, LetsCoordinatesDecideTheBase) {
     EXPECT_THAT(read_vertex_list(one, IndexBase::zero, &mesh_), ElementsAre(3, 6));
 }
 
+TEST_F(VertexList, AVertexThatNoFaceUsesDoesNotBlurCoordinates) {
+    TriangleMesh mesh = mesh_;
+    mesh.vertices.row(10) << 1e9, 0, 0;
+    const auto one = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
+    EXPECT_THAT(read_vertex_list(one, IndexBase::automatic, &mesh), ElementsAre(2, 5));
+}
+
 TEST_F(VertexList, StartsAtZeroWhereCoordinatesSayNothing) {
     const auto path = write("a.vts", "3 0.0 0.0 0.0\n6 0.0 0.0 0.0\n");
     EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 6));
@@ -107,6 +114,8 @@ TEST_F(VertexList, ReadsLandmarksFromPairsOrFromTwoLists) {
     EXPECT_THAT(read_landmarks({pairs}, mesh_, mesh_).vertices, expected);
     const auto sources = write("s.pinned", "3\n5\n"), targets = write("t.vts", "1 0 0 0\n10 4 1 .9\n");
     EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices, expected);
+    const auto capitals = write("T.VTS", read_file(targets));
+    EXPECT_THAT(read_landmarks({sources, capitals}, mesh_, mesh_).vertices, expected);
     EXPECT_THROW(read_landmarks({pairs, pairs, pairs}, mesh_, mesh_), UsageError);
 }
 
@@ -164,6 +173,8 @@ TEST_F(VertexList, MatchesPickedPointsByName) {
     EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_).vertices, are({{4, 9}, {7, 2}}));
     EXPECT_THAT(logged_warnings().back(), HasSubstr("left out are 'ear', 'off'"));
     EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_).vertices, are({{4, 1}, {7, 2}}));
+    const auto capitals = write("C.FCSV", read_file(old_slicer));
+    EXPECT_THAT(read_landmarks({meshlab, capitals}, mesh_, mesh_).vertices, are({{4, 1}, {7, 2}}));
     EXPECT_THAT(error_of({meshlab, write("other.fcsv", "1,0,0,0,0,0,0,1,1,1,0,paw,,\n")}),
                 HasSubstr("no name in common"));
     EXPECT_THROW(read_landmarks({meshlab}, mesh_, mesh_), UsageError);

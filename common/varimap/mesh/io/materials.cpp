@@ -114,4 +114,10 @@ Materials read_materials(const ObjModel& model, const std::string& obj_path) {
     return materials;
 }
 
+std::string media_type(std::string_view image) {
+    if (image.starts_with("\x89PNG")) return "image/png";
+    if (image.starts_with("\xff\xd8\xff")) return "image/jpeg";
+    return "";
+}
+
 }  // namespace varimap

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <limits>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/mesh/io/ply_columns.h"
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -16,18 +16,11 @@
 namespace varimap {
 namespace {
 
-std::string lower_case_ending(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return ending;
-}
-
 PolygonSoup parse(std::string_view bytes, const std::string& path) {
-    const std::string ending = lower_case_ending(path);
-    if (ending == ".obj") return parse_obj(bytes, path);
-    if (ending == ".off") return parse_off(bytes, path);
-    if (ending == ".ply") return parse_ply(bytes, path);
-    if (ending == ".stl") return parse_stl(bytes, path);
+    if (has_ending(path, ".obj")) return parse_obj(bytes, path);
+    if (has_ending(path, ".off")) return parse_off(bytes, path);
+    if (has_ending(path, ".ply")) return parse_ply(bytes, path);
+    if (has_ending(path, ".stl")) return parse_stl(bytes, path);
     throw InputError(
         path +
         ": the name's ending is none of .obj, .ply, .off, .stl; `varimap import` makes an OBJ file "

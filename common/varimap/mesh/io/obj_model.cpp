@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -39,6 +41,12 @@ int corner_uv(const TextScanner& scanner, std::string_view word, std::size_t cou
     return int(index > 0 ? index - 1 : limit + index);
 }
 
+double texture_coordinate(const TextScanner& scanner, std::size_t i, const char* what) {
+    const double number = scanner.number(i, what);
+    if (!std::isfinite(number)) scanner.fail(fmt::format("{} is not finite", what));
+    return number;
+}
+
 /// Fans the polygon from its first corner, as read_mesh does.
 void add_face(const TextScanner& scanner, int material, ObjModel& model, std::vector<int>& corners) {
     const auto& words = scanner.words();
@@ -49,14 +57,6 @@ void add_face(const TextScanner& scanner, int material, ObjModel& model, std::ve
         corners.insert(corners.end(), {uv[0], uv[i], uv[i + 1]});
         model.material.push_back(material);
     }
-}
-
-std::string_view next_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == text.npos ? text.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -89,6 +89,14 @@ std::string face_line(const std::vector<std::string_view>& words) {
     return line + "\n";
 }
 
+/// Faces without a material first: behind a `usemtl` every face has one.
+std::vector<int> order_of_faces(const std::vector<int>& material) {
+    std::vector<int> faces(material.size());
+    std::iota(faces.begin(), faces.end(), 0);
+    std::stable_partition(faces.begin(), faces.end(), [&](int f) { return material[std::size_t(f)] < 0; });
+    return faces;
+}
+
 }  // namespace
 
 ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
@@ -99,8 +107,8 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
     while (scanner.next_line()) {
         const std::string_view word = scanner.words()[0];
         if (word == "vt")
-            model.uv.emplace_back(scanner.number(1, "u"),
-                                  scanner.words().size() > 2 ? scanner.number(2, "v") : 0);
+            model.uv.emplace_back(texture_coordinate(scanner, 1, "u"),
+                                  scanner.words().size() > 2 ? texture_coordinate(scanner, 2, "v") : 0);
         else if (word == "f")
             add_face(scanner, material, model, corners);
         else if (word == "usemtl")
@@ -119,7 +127,7 @@ std::string with_vertices(std::string_view obj, const Points& vertices, const st
     std::string text = library.empty() ? "" : fmt::format("mtllib {}\n", library);
     Eigen::Index v = 0;
     while (!obj.empty()) {
-        const std::string_view line = next_line(obj);
+        const std::string_view line = split_off_line(obj);
         const auto words = words_of(line.substr(0, line.find('#')));
         const std::string_view word = words.empty() ? "" : words[0];
         if (word == "v" && v < vertices.rows()) {
@@ -144,10 +152,9 @@ std::string to_obj(const TexturedMesh& textured, const std::string& library) {
         text += fmt::format("v {} {} {}\n", vertex[0], vertex[1], vertex[2]);
     for (const Vec2& uv : model.uv) text += fmt::format("vt {} {}\n", uv[0], uv[1]);
     int material = -1;
-    for (int f = 0; f < mesh.face_count(); ++f) {
+    for (const int f : order_of_faces(model.material)) {
         const int now = model.material[std::size_t(f)];
-        if (now != material && now >= 0)
-            text += fmt::format("usemtl {}\n", model.materials[std::size_t(now)]);
+        if (now != material) text += fmt::format("usemtl {}\n", model.materials[std::size_t(now)]);
         material = now;
         text += "f";
         for (int k = 0; k < 3; ++k) {

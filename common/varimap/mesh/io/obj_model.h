@@ -36,6 +36,7 @@ struct TexturedMesh {
     TriangleMesh mesh;
     ObjModel model;
 };
+/// Faces without a material stand first, else all in their order.
 std::string to_obj(const TexturedMesh& textured, const std::string& library);
 
 /// A material as far as it is looked at.
@@ -56,5 +57,8 @@ struct Materials {
 };
 /// Throws IoError where a library or an image is missing, naming who wants it.
 Materials read_materials(const ObjModel& model, const std::string& obj_path);
+
+/// "image/png" or "image/jpeg", by an image's first bytes; empty for other formats.
+std::string media_type(std::string_view image);
 
 }  // namespace varimap

@@ -30,6 +30,18 @@ bool looks_like_utf16(std::string_view bytes) {
 
 }  // namespace
 
+void fail_at(const std::string& path, int line, const std::string& message) {
+    throw InputError(fmt::format("{}:{}: {}", path, line, message));
+}
+
+std::string_view split_off_line(std::string_view& text) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
 std::string_view without_byte_order_mark(std::string_view bytes, const std::string& path) {
     if (looks_like_utf16(bytes)) throw InputError(path + ": is UTF-16 text; save it as UTF-8 or ASCII");
     constexpr std::string_view mark = "\xef\xbb\xbf";
@@ -97,7 +109,7 @@ long long TextScanner::integer(std::size_t i, const char* what) const {
 }
 
 void TextScanner::fail(const std::string& message) const {
-    throw InputError(fmt::format("{}:{}: {}", path_, line_, message));
+    fail_at(path_, line_, message);
 }
 
 }  // namespace varimap

@@ -41,6 +41,12 @@ class TextScanner {
     std::vector<std::string_view> words_;
 };
 
+/// Throws InputError "<path>:<line>: <message>".
+[[noreturn]] void fail_at(const std::string& path, int line, const std::string& message);
+
+/// Takes the first line off the text; lines end with \n or \r\n, which it is without.
+std::string_view split_off_line(std::string_view& text);
+
 /// The text behind a UTF-8 byte order mark, where there is one. Throws InputError for UTF-16.
 std::string_view without_byte_order_mark(std::string_view bytes, const std::string& path);
 
