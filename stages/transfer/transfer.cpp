@@ -105,7 +105,8 @@ void Transfer::add_values(const std::string& path, ValueKind kind) {
             keep_largest(carried.back().values, request_.influences);
         const auto missing =
             (carried.back().values.array() != carried.back().values.array()).rowwise().all().count();
-        if (missing > 0) warn("{}: {} rows have no image, and no values", path, missing);
+        if (missing > 0)
+            warn("{}: {} rows have no values: no image, or values that are not numbers there", path, missing);
     }
     add(name_of(path), file.write(carried, map_.to));
 }

@@ -34,6 +34,8 @@ awk 'NR == FNR { if (!($1 in first)) first[$1] = FNR - 1; next } { print first[$
 
 expect_exit 3 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair none
 expect_exit 2 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair everything
+map a-spoiled.off b-spoiled.off -o part --until preprocess
+grep -q 'warning  preprocess a-spoiled: repaired: ' out.txt || fail "what was repaired is not said before the end"
 map a-spoiled.off b-spoiled.off -o out --landmarks tips-spoiled.txt
 grep -q 'warning  preprocess a-spoiled: repaired: .* welded, .* dropped, .* turned, 1 component left out' out.txt ||
     fail "what was repaired is not said"

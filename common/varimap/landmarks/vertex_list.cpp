@@ -259,6 +259,20 @@ std::string names_in_one(const std::vector<Named> (&lists)[2]) {
     return names.size() > shown ? fmt::format("{} and {} more", list, names.size() - shown) : list;
 }
 
+/// A name that stands twice must not shift the others' partners in silence.
+void warn_of_other_names(const std::vector<std::pair<Named, Named>>& rows,
+                         const std::vector<std::string>& files) {
+    const auto other = std::find_if(rows.begin(), rows.end(), [](const std::pair<Named, Named>& row) {
+        return !row.first.name.empty() && !row.second.name.empty() && row.first.name != row.second.name;
+    });
+    if (other != rows.end())
+        warn(
+            "{} and {} are matched row by row, since a name is missing or stands twice, but row {} is '{}' "
+            "and '{}'",
+            files[0], files[1], other - rows.begin() + 1, excerpt(other->first.name),
+            excerpt(other->second.name));
+}
+
 /// Row by row, or by name where all have one; names that only one list has are left out.
 std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
                                              const std::vector<std::string>& files) {
@@ -280,6 +294,7 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
         throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
                                      files[0], lists[0].size(), files[1], lists[1].size()));
     for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
+    warn_of_other_names(pairs, files);
     return pairs;
 }
 

@@ -157,6 +157,24 @@ TEST_F(VertexList, KeepsWherePointsWerePicked) {
               1u);
 }
 
+TEST_F(VertexList, SaysWhereRowsHaveOtherNames) {
+    const auto point = [](const std::string& name) {
+        return R"({"label": ")" + name + R"(", "position": [1, 0, 0.2]})";
+    };
+    const auto list = [&](const char* file, const std::string& a, const std::string& b,
+                          const std::string& c) {
+        return write(file, R"({"markups": [{"type": "Fiducial", "controlPoints": [)" + point(a) + "," +
+                               point(b) + "," + point(c) + "]}]}");
+    };
+    const auto twice = list("twice.mrk.json", "nose", "nose", "ear");
+    const std::size_t before = logged_warnings().size();
+    read_landmarks({twice, twice}, mesh_, mesh_);
+    EXPECT_EQ(logged_warnings().size(), before);
+    read_landmarks({list("once.mrk.json", "nose", "ear", "tail"), twice}, mesh_, mesh_);
+    ASSERT_EQ(logged_warnings().size(), before + 1);
+    EXPECT_THAT(logged_warnings().back(), HasSubstr("row 2 is 'ear' and 'nose'"));
+}
+
 TEST_F(VertexList, MatchesPickedPointsByName) {
     const auto meshlab =
         write("a.pp",
