@@ -158,13 +158,11 @@ TEST_F(VertexList, KeepsWherePointsWerePicked) {
 }
 
 TEST_F(VertexList, SaysWhereRowsHaveOtherNames) {
-    const auto point = [](const std::string& name) {
-        return R"({"label": ")" + name + R"(", "position": [1, 0, 0.2]})";
-    };
-    const auto list = [&](const char* file, const std::string& a, const std::string& b,
-                          const std::string& c) {
-        return write(file, R"({"markups": [{"type": "Fiducial", "controlPoints": [)" + point(a) + "," +
-                               point(b) + "," + point(c) + "]}]}");
+    const auto list = [&](const char* file, const char* a, const char* b, const char* c) {
+        return write(file, fmt::format(R"({{"markups": [{{"type": "Fiducial", "controlPoints": [
+            {{"label": "{}", "position": [1, 0, 0.2]}}, {{"label": "{}", "position": [2, 0, 0.4]}},
+            {{"label": "{}", "position": [3, 1, 0.7]}}]}}]}})",
+                                       a, b, c));
     };
     const auto twice = list("twice.mrk.json", "nose", "nose", "ear");
     const std::size_t before = logged_warnings().size();
