@@ -14,7 +14,7 @@ cmake --build "$work/found"
 "$work/found/transport"
 
 # In memory and through files: the same map, and the same is said of it.
-for how in landmarks explore; do
+for how in landmarks explore parts; do
     mkdir "$work/$how"
     "$work/found/map" "$work/$how" "$how" >"$work/in_memory" 2>"$work/log" || { cat "$work/log"; exit 1; }
     arguments=("$work/$how/A.ply" "$work/$how/B.ply" -o "$work/$how/out")
