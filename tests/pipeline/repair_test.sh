@@ -36,6 +36,8 @@ expect_exit 3 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair non
 expect_exit 2 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair everything
 map a-spoiled.off b-spoiled.off -o part --until preprocess
 grep -q 'warning  preprocess a-spoiled: repaired: ' out.txt || fail "what was repaired is not said before the end"
+map a-spoiled.off b-spoiled.off -o part-elsewhere --artifacts elsewhere --until preprocess
+grep -q 'warning  preprocess a-spoiled: repaired: ' out.txt || fail "what was repaired is not said of artifacts elsewhere"
 map a-spoiled.off b-spoiled.off -o out --landmarks tips-spoiled.txt
 grep -q 'warning  preprocess a-spoiled: repaired: .* welded, .* dropped, .* turned, 1 component left out' out.txt ||
     fail "what was repaired is not said"
