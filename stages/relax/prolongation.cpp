@@ -18,7 +18,7 @@ namespace {
 constexpr double last_level = 0.5;
 constexpr int sweeps = 1;
 constexpr double regularisation = 0.1;  ///< of the fold energy, as in untangling.cpp
-constexpr FoldRemoval fold_removal{120, 30};
+constexpr FoldRemoval fold_removal{120, 15};
 
 }  // namespace
 
@@ -75,7 +75,7 @@ void Prolongation::relax(const VertexData<bool>& pinned, const std::vector<Surfa
     for (int v = 0; v < held.size(); ++v)
         if (!held[v] && map.has_image(v)) free.push_back(v);
     LocalRelaxation local(map, 99);
-    for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, regularisation}, false);
+    for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, regularisation});
     fold_removal(map, held);
     images_ = map.points();
 }

@@ -53,15 +53,20 @@ ChartRepair::ChartRepair(SlidingMap& map, NormalAgreement& agreement, const Poin
       laid_out_(map.target()),
       source_(map.source()),
       target_(map.target()),
+      reversed_(map),
       strikes_(map.source().face_count(), 0) {}
 
-bool ChartRepair::is_reversed(int f) const {
+bool ChartRepair::is_reversed(int f) {
+    return reversed_(f, [&](int g) { return lies_reversed(g); });
+}
+
+bool ChartRepair::lies_reversed(int f) const {
     if (!map_.is_mapped(f) || agreement_.lies_within_a_star(f)) return false;
     const auto c = map_.source().faces.row(f);
     return !(laid_out_.sense({map_.point(c[0]), map_.point(c[1]), map_.point(c[2])}) > upright);
 }
 
-std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) const {
+std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
     std::vector<char> marks(faces.size(), 0);
     parallel_for_each_index(int(faces.size()), 64,
                             [&](int i) { marks[std::size_t(i)] = is_reversed(faces[std::size_t(i)]); });
@@ -76,7 +81,7 @@ std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) const
     return defects;
 }
 
-double ChartRepair::badness(const std::vector<int>& faces, double limit) const {
+double ChartRepair::badness(const std::vector<int>& faces, double limit) {
     // That a face cuts through the target is worth less than that it is reversed.
     constexpr double reversed = 4, branch = 12;
     double sum = branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
@@ -117,7 +122,7 @@ void ChartRepair::place(const std::vector<int>& vertices, const PointMap& points
 
 void ChartRepair::polish(std::vector<int> vertices) {
     LocalRelaxation local(map_, 7);
-    for (int i = 0; i < polishing; ++i) local.sweep(vertices, polish_energy, false);
+    for (int i = 0; i < polishing; ++i) local.sweep(vertices, polish_energy);
 }
 
 void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
@@ -132,7 +137,7 @@ void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
         for (const int v : vertices) {
             const SurfacePoint point = map_.point(v);
             one[0] = v;
-            local.sweep(one, polish_energy, false);
+            local.sweep(one, polish_energy);
             if (map_.point(v).face == point.face && map_.point(v).barycentric == point.barycentric) continue;
             const auto faces = map_.faces_of_vertex()[v];
             std::vector<bool> now;

@@ -6,6 +6,7 @@
 
 #include "varimap/mesh/disc.h"
 #include "varimap/relaxation/charted_part.h"
+#include "varimap/relaxation/face_memory.h"
 #include "varimap/relaxation/inverse_map.h"
 #include "varimap/relaxation/laid_out.h"
 #include "varimap/relaxation/normal_agreement.h"
@@ -34,12 +35,13 @@ class ChartRepair {
     const Report& report() const { return report_; }
 
   private:
-    bool is_reversed(int f) const;
+    /// Along the target.
+    bool is_reversed(int f);
+    bool lies_reversed(int f) const;  ///< not from memory
     /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
-    std::vector<int> defects_among(const std::vector<int>& faces) const;
+    std::vector<int> defects_among(const std::vector<int>& faces);
     /// Once it gets to `limit`, the rest is left out.
-    double badness(const std::vector<int>& faces,
-                   double limit = std::numeric_limits<double>::infinity()) const;
+    double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
     /// too much.
     std::vector<int> enclosed_on_target(const SubMesh& part, const std::vector<int>& rim);
@@ -63,6 +65,7 @@ class ChartRepair {
     InverseMap inverse_;
     LaidOut laid_out_;  ///< on the target
     FaceSets source_, target_;
+    FaceMemory reversed_;    ///< by laid_out_, which may look at thousands of faces
     FaceData<int> strikes_;  ///< attempts without gain
     Report report_;
 };

@@ -93,7 +93,7 @@ class Front {
     bool advance() {
         if (missing_.empty() || !place_ring()) return false;
         std::vector<int> band = last_rings();
-        for (int s = 0; s < sweeps_per_ring; ++s) relaxation_.sweep(band, front_energy, false);
+        for (int s = 0; s < sweeps_per_ring; ++s) relaxation_.sweep(band, front_energy);
         for (const int v : rings_.back()) held_[v] = false;
         placed_ += double(rings_.back().size());
         if (placed_ > growth * relaxed_ || missing_.empty()) relax_all();

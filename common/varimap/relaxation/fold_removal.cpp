@@ -14,7 +14,7 @@ namespace varimap {
 
 namespace {
 
-constexpr int patience = 40;   ///< sweeps without fewer folds or a better worst face; swept: 20 to 80
+constexpr int patience = 20;   ///< sweeps without fewer folds or a better worst face; swept: 15 to 80
 constexpr int polishing = 10;  ///< sweeps once nothing is folded; swept: 5 to 20
 constexpr double least_regularisation = 1e-4;
 constexpr std::array<double, 3> weights{1, 0.2, 0.05};
@@ -46,8 +46,8 @@ class Patch {
     }
 
     /// Sweeps until nothing is folded, or nothing has become better for a while; leaves the best that was
-    /// met. Returns the number of sweeps.
-    int unfold(LocalRelaxation& relax, double weight, int most_sweeps);
+    /// met. Returns the number of sweeps. `awake`: room for all vertices of the source.
+    int unfold(LocalRelaxation& relax, double weight, int most_sweeps, VertexData<bool>& awake);
     int folded() const { return best_.count; }
     std::vector<int> folded_faces() const {
         std::vector<int> folded;
@@ -69,6 +69,10 @@ class Patch {
             folds_.count += image.D <= FoldRemoval::flat_limit;
             folds_.worst = std::min(folds_.worst, image.D);
         }
+    }
+    /// What is folded is never left to rest: the energy changes most there from sweep to sweep.
+    void wake_folded(VertexData<bool>& awake) const {
+        for (const int f : folded_faces()) mark_corners(map_.source(), f, awake);
     }
     double total(const FoldEnergy& energy) const {
         double sum = 0;
@@ -104,12 +108,14 @@ void lower_regularisation(FoldEnergy& energy, double before, double now, double 
     energy.regularisation = std::max(next, least_regularisation);
 }
 
-int Patch::unfold(LocalRelaxation& relax, double weight, int most_sweeps) {
+int Patch::unfold(LocalRelaxation& relax, double weight, int most_sweeps, VertexData<bool>& awake) {
+    for (const int v : vertices_) awake[v] = true;
     FoldEnergy energy{weight, 1};
     int sweeps = 0, idle = 0, clean = 0;
     while (sweeps < most_sweeps && idle < patience && clean < polishing) {
         const double before = total(energy);
-        relax.sweep(vertices_, energy, true);
+        wake_folded(awake);
+        relax.sweep_awake(vertices_, energy, awake);
         ++sweeps;
         measure();
         const bool better = folds_.better_than(best_);
@@ -140,7 +146,8 @@ class Removal {
           options_(options),
           relax_(map, 2654435761u),
           visits_(options.most_visits * double(map.source().vertex_count())),
-          strikes_(map.source().vertex_count(), none) {}
+          strikes_(map.source().vertex_count(), none),
+          awake_(map.source().vertex_count()) {}
 
     int run(std::vector<Fold> folds) {
         for (const int ring_count : rings) {
@@ -172,6 +179,7 @@ class Removal {
     LocalRelaxation relax_;
     double visits_;            ///< that are left
     VertexData<int> strikes_;  ///< of marked vertices
+    VertexData<bool> awake_;   ///< of the patch that is unfolded
     std::vector<int> marked_;  ///< ascending
     int sweeps_ = 0;
 };
@@ -224,7 +232,7 @@ void Removal::unfold(Component component, std::vector<Fold>& left) {
         if (patch.folded() == 0 || strikes >= options_.strikes || visits_ < size) break;
         const int before = patch.folded();
         const int allowed = int(std::min(double(options_.most_sweeps), visits_ / size));
-        const int sweeps = patch.unfold(relax_, weight, allowed);
+        const int sweeps = patch.unfold(relax_, weight, allowed, awake_);
         sweeps_ += sweeps;
         visits_ -= sweeps * size;
         strikes = patch.folded() < before ? 0 : strikes + 1;

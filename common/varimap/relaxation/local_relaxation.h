@@ -45,12 +45,15 @@ class LocalRelaxation {
     LocalRelaxation(SlidingMap& map, std::uint32_t seed) : map_(map), state_(seed) {}
 
     /// One visit of every vertex of `vertices` (none may be a landmark or without an image); reorders them.
-    /// With `leap`, vertices with a reversed face also try the mean of their neighbours' images, and walks
-    /// towards it.
-    void sweep(std::vector<int>& vertices, const FoldEnergy& energy, bool leap);
+    void sweep(std::vector<int>& vertices, const FoldEnergy& energy);
+    /// One visit of those that are awake. Each falls asleep, and wakes itself and all it shares a face with
+    /// if it moves noticeably. Those with a reversed face also try the mean of their neighbours' images, and
+    /// walks towards it.
+    void sweep_awake(std::vector<int>& vertices, const FoldEnergy& energy, VertexData<bool>& awake);
 
   private:
     void shuffle(std::vector<int>& vertices);
+    void wake_neighbours(int v, VertexData<bool>& awake) const;
     void newton_step(int v, const FoldEnergy& energy);
     void leap_to_mean(int v, const FoldEnergy& energy);
     bool try_walk(int v, const SurfacePoint& from, const Vec3& step, double before, const FoldEnergy& energy);

@@ -31,7 +31,7 @@ const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  
 }  // namespace
 
 NormalAgreement::NormalAgreement(SlidingMap& map)
-    : map_(map), closest_(map.target()), target_faces_(vertex_faces(map.target())) {}
+    : map_(map), closest_(map.target()), target_faces_(vertex_faces(map.target())), disagreement_(map) {}
 
 bool NormalAgreement::lies_within_a_star(int f, const Vec3& normal) const {
     const TriangleMesh& target = map_.target();
@@ -77,10 +77,12 @@ bool NormalAgreement::disagrees(int f) const {
     return !(normal.dot(below) > 0);
 }
 
-std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) const {
+std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) {
     std::vector<char> marks(faces.size(), 0);
     parallel_for_each_index(int(faces.size()), 64, [&](int i) {
-        marks[i] = map_.is_mapped(faces[i]) && (map_.image_triangle(faces[i]).D <= 0 || disagrees(faces[i]));
+        marks[i] = disagreement_(faces[i], [&](int f) {
+            return map_.is_mapped(f) && (map_.image_triangle(f).D <= 0 || disagrees(f));
+        });
     });
     std::vector<int> found;
     for (int i = 0; i < int(faces.size()); ++i)
@@ -88,7 +90,7 @@ std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& face
     return found;
 }
 
-std::vector<int> NormalAgreement::disagreeing_faces() const {
+std::vector<int> NormalAgreement::disagreeing_faces() {
     const Timer timer("normals");
     std::vector<int> all(map_.source().face_count());
     std::iota(all.begin(), all.end(), 0);

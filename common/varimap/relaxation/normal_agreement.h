@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "varimap/mesh/closest_point.h"
+#include "varimap/relaxation/face_memory.h"
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -17,11 +18,11 @@ class NormalAgreement {
 
     /// Reversed faces, and those whose image triangle does not face the way the target does beneath it,
     /// ascending.
-    std::vector<int> disagreeing_faces() const;
+    std::vector<int> disagreeing_faces();
     /// Turns them; vertices with fixed[v] stay. Returns those that are left.
     std::vector<int> improve(std::vector<int> disagreeing, const VertexData<bool>& fixed);
     /// Those of `faces`, in their order.
-    std::vector<int> disagreeing_among(const std::vector<int>& faces) const;
+    std::vector<int> disagreeing_among(const std::vector<int>& faces);
     /// Whether the images of a face's corners lie around one vertex of the target with faces that the image
     /// triangle all agrees with: nothing is in doubt then.
     bool lies_within_a_star(int f) const;
@@ -36,7 +37,8 @@ class NormalAgreement {
 
     SlidingMap& map_;
     ClosestPoint closest_;
-    Adjacency target_faces_;  ///< per vertex of the target
+    Adjacency target_faces_;   ///< per vertex of the target
+    FaceMemory disagreement_;  ///< of whole sets of faces; a search would fill it with places left again
 };
 
 }  // namespace varimap

@@ -33,7 +33,7 @@ struct Round {
 constexpr double first_inverse = 0.03;
 /// The first leaves crumpled parts to their replacement; its e swept: 0.15 to 0.6.
 constexpr std::array<Round, 2> rounds{
-    {{0.3, 3, 30, first_inverse, first_inverse}, {0.1, 1, 150, first_inverse, 1}}};
+    {{0.3, 3, 30, first_inverse, first_inverse}, {0.1, 1, 80, first_inverse, 1}}};
 /// The last, of an unfolded map, which settles into the other's inverse and the area bound.
 constexpr Round settling{0.1, 1, 30, 2, 2};
 constexpr int settling_sweeps = 3;       ///< local ones in each of its steps where there are no global ones
@@ -83,7 +83,7 @@ class Relaxation {
         }
         global_.set_constraints(constraints_);
         const double gain = global_.step(energy_);
-        local_.sweep(vertices_, energy_.energy, false);
+        local_.sweep(vertices_, energy_.energy);
         ++steps_;
         converged_ = gain < least_gain && steps_ > 3;
     }
@@ -235,8 +235,7 @@ class Untangling {
     }
     void sweep(std::vector<int> vertices, const Round& round, int sweeps) {
         LocalRelaxation local(sliding_, 99);
-        for (int i = 0; i < sweeps; ++i)
-            local.sweep(vertices, {options_.area_weight, round.regularisation}, false);
+        for (int i = 0; i < sweeps; ++i) local.sweep(vertices, {options_.area_weight, round.regularisation});
     }
     std::vector<int> free_among(std::vector<int> vertices) const {
         const std::vector<int> free = free_vertices(sliding_, fixed_, landmarks_);
