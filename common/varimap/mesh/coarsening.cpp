@@ -7,6 +7,7 @@
 #include <numbers>
 #include <queue>
 
+#include "varimap/core/plane.h"
 #include "varimap/mesh/private/half_edge_mesh.h"
 #include "varimap/mesh/topology.h"
 
@@ -30,10 +31,6 @@ constexpr double least_quality = 0.25;
 /// Of a new face in the plane: least share of the mean of the old ones' areas.
 constexpr double least_share = 1e-3;
 constexpr int most_neighbours = 11;
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();

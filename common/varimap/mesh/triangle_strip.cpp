@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "varimap/core/plane.h"
 #include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
@@ -14,10 +15,6 @@ namespace varimap {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a[0] * b[1] - a[1] * b[0];
-}
 
 /// A strip in the plane.
 struct Unfolded {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "varimap/core/plane.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/relaxation/fold_removal.h"
 
@@ -10,10 +11,6 @@ namespace varimap {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
     return cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;

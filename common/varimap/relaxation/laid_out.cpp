@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "varimap/core/plane.h"
+
 namespace varimap {
 
 double LaidOut::sense(const std::array<SurfacePoint, 3>& corners) const {
@@ -11,7 +13,7 @@ double LaidOut::sense(const std::array<SurfacePoint, 3>& corners) const {
     double sum = 0, size = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec2 &ahead = sides[k].first, &back = sides[(k + 2) % 3].second;
-        const double twice_area = ahead.x() * back.y() - ahead.y() * back.x();
+        const double twice_area = cross(ahead, back);
         sum += twice_area;
         size += std::abs(twice_area);
     }
