@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "varimap/core/rotation.h"
-#include "varimap/mesh/mass.h"
+#include "varimap/core/statistics.h"
 
 namespace varimap {
 namespace {
@@ -106,8 +106,8 @@ std::vector<bool> outliers(const std::vector<double>& distances) {
     std::vector<bool> found(distances.size(), false);
     if (distances.size() < 5) return found;
     const Eigen::VectorXd values = Eigen::VectorXd::Map(distances.data(), Eigen::Index(distances.size()));
-    const double middle = median(values);
-    const double spread = 1.4826 * median((values.array() - middle).abs());
+    const double middle = upper_median(values);
+    const double spread = 1.4826 * upper_median((values.array() - middle).abs());
     for (std::size_t i = 0; i < distances.size(); ++i) found[i] = distances[i] > middle + 3 * spread;
     return found;
 }

@@ -13,8 +13,14 @@ inline double variance(const RowMatrix& points, const Eigen::VectorXd& mass) {
     return mass.dot(Eigen::VectorXd((points.rowwise() - mean).rowwise().squaredNorm()));
 }
 
-/// The middle of an odd number of values, the mean of the two in the middle of an even one. (median of mass.h
-/// takes the upper of the two, which needs no sorting.)
+/// The middle of an odd number of values, the upper one of the two in the middle of an even one.
+inline double upper_median(Eigen::VectorXd values) {
+    const auto middle = values.begin() + values.size() / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The middle of an odd number of values, the mean of the two in the middle of an even one.
 inline double mean_median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t n = values.size();

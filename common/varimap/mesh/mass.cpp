@@ -60,10 +60,4 @@ double equilateral_edge(const TriangleMesh& mesh) {
     return std::sqrt(4 / std::sqrt(3.0) / mesh.face_count());
 }
 
-double median(Eigen::VectorXd values) {
-    const auto middle = values.begin() + values.size() / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 }  // namespace varimap

@@ -15,7 +15,4 @@ Vec3 area_centroid(const TriangleMesh& mesh);
 /// Length of the edges of a mesh of unit area if all its faces were equilateral and equal.
 double equilateral_edge(const TriangleMesh& mesh);
 
-/// The median of values per vertex, which must not be empty; the upper one of two.
-double median(Eigen::VectorXd values);
-
 }  // namespace varimap

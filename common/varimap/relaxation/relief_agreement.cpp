@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "varimap/core/statistics.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/spectral/laplacian.h"
 
@@ -23,8 +24,8 @@ constexpr double least_scale = 0.02;
 constexpr std::array<double, 2> scales{0.6, 1};
 
 Eigen::VectorXd normalised(Eigen::VectorXd values) {
-    values.array() -= median(values);
-    const double deviation = 1.5 * median(values.cwiseAbs());
+    values.array() -= upper_median(values);
+    const double deviation = 1.5 * upper_median(values.cwiseAbs());
     if (!(deviation > 0)) return Eigen::VectorXd::Zero(values.size());
     return bound * (values / (bound * deviation)).array().tanh();
 }

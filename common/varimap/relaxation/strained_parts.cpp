@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "varimap/mesh/mass.h"
+#include "varimap/core/statistics.h"
 #include "varimap/relaxation/face_energy.h"
 
 namespace varimap {
@@ -89,7 +89,7 @@ std::vector<std::vector<int>> strained_parts(const SlidingMap& map, const Edges&
                                              const FaceData<bool>& rejected, const StrainLimits& limits) {
     const FaceData<double> value = strain(map);
     const std::vector<double>& values = value;
-    const double middle = median(Eigen::Map<const Eigen::VectorXd>(values.data(), value.size()));
+    const double middle = upper_median(Eigen::Map<const Eigen::VectorXd>(values.data(), value.size()));
     const double limit = std::max(limits.excess, limits.contrast * middle);
     FaceData<bool> strained(value.size());
     for (int f = 0; f < value.size(); ++f) strained[f] = value[f] > limit;

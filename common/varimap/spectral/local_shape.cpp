@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/mass.h"
+#include "varimap/core/statistics.h"
 #include "varimap/mesh/ray_mesh.h"
 #include "varimap/mesh/topology.h"
 
@@ -28,7 +28,7 @@ Points outward_normals(const Domain& surface) {
 /// Compresses heights of either sign, relative to the typical one. Flat surfaces have none.
 Eigen::VectorXd compressed(const Eigen::VectorXd& height) {
     constexpr double flat = 1e-4;  // units of sqrt(area): what files and rounding leave of a plane
-    return (height / std::max(median(height.cwiseAbs()), flat)).array().asinh();
+    return (height / std::max(upper_median(height.cwiseAbs()), flat)).array().asinh();
 }
 
 /// Of mean 0 and variance 1, without outliers; what hardly varies stays small, for it may be noise.
