@@ -166,7 +166,7 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
     }
     FinishingOptions finishing = params.finishing;
     finishing.alternation = for_comparison(params.alternation, params.alternation.area_bound);
-    finishing.iron_all = true;
+    finishing.euclidean_rounds = finishing.ironing.maximum_rounds;
     finishing.most += 3;
     return finished(pooled(context, explorations, 2 * params.composed, params, known), context, finishing);
 }

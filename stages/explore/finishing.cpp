@@ -22,26 +22,32 @@ struct Pursued {
     double energy() const { return solution.step.energy; }
 };
 
+IroningOptions with_rounds(IroningOptions options, int rounds) {
+    options.maximum_rounds = rounds;
+    return options;
+}
+
 /// The way down of all starts, level by level.
 class JointDescent {
   public:
     JointDescent(const PairContext& context, const FinishingOptions& options)
-        : context_(context), options_(options), descent_(context, options.alternation, options.ironing) {}
+        : context_(context),
+          options_(options),
+          descent_(context, options.alternation, options.ironing),
+          euclidean_ironing_(context, with_rounds(options.ironing, options.euclidean_rounds)) {}
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
         for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}});
         const int first = first_level_for_a_map(context_);
         enter(context_.diffusion_level(first));
-        solve_all(true, [&](const Pursued& one) {
+        solve_all(descent_.ironing(), [&](const Pursued& one) {
             return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
         });
         if (const int last = context_.diffusion_levels() - 1; last > first)
-            go_on(context_.diffusion_level(last));
+            go_on(context_.diffusion_level(last), descent_.ironing());
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
-            const bool is_last = l + 1 == levels;
-            go_on(context_.euclidean_level(l, is_last ? 0 : 1),
-                  options_.iron_all && !is_last);  // as varimap-refine
+            go_on(context_.euclidean_level(l, l + 1 == levels ? 0 : 1), euclidean_ironing_);
             keep_best();
         }
         return std::move(pursued_);
@@ -53,15 +59,15 @@ class JointDescent {
         add_shape_term(level, context_, options_.shape_weight);
         descent_.enter(std::move(level));
     }
-    void go_on(LevelPair level, bool ironed = true) {
+    void go_on(LevelPair level, const Ironing& ironing) {
         enter(std::move(level));
-        solve_all(ironed, [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
+        solve_all(ironing, [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
     }
     template <class StartOf>
-    void solve_all(bool ironed, const StartOf& start_of) {
+    void solve_all(const Ironing& ironing, const StartOf& start_of) {
         parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) {
             AlternatingMinimization minimization = descent_.settled(start_of(pursued_[n]));
-            if (ironed) descent_.ironing().iron(descent_.level(), minimization, unobserved);
+            ironing.iron(descent_.level(), minimization, unobserved);
             pursued_[n].solution = minimization.take_solution();
         });
     }
@@ -82,6 +88,7 @@ class JointDescent {
     const PairContext& context_;
     const FinishingOptions& options_;
     Descent descent_;
+    Ironing euclidean_ironing_;
     std::vector<Pursued> pursued_;
 };
 

@@ -24,6 +24,8 @@ namespace {
 
 using TruePair = GeneratedPair::TruePair;
 
+constexpr const char* any = "any";
+
 /// A shape and its mesh at rest.
 struct Shape {
     shapes::Body body;
@@ -168,9 +170,18 @@ GeneratedPair merged_pair(const std::string& name, std::pair<shapes::Body, shape
     return pair_of(name, source, target, seed, Placement(random));
 }
 
-void require_default(double value, double usual, const char* name) {
-    if (value != usual)
-        throw UsageError(fmt::format("--{} is for families; shapes of isometric are copies, bent", name));
+/// Throws UsageError where what only families take is given to another.
+void require_defaults(const GenerateParams& params, const char* why) {
+    const GenerateParams usual;
+    const auto require = [&](const char* name, double value, double usual_value) {
+        if (value != usual_value) throw UsageError(fmt::format("--{} is for families; {}", name, why));
+    };
+    require("variation", params.variation, usual.variation);
+    require("build", params.build, usual.build);
+    require("bending", params.bending, usual.bending);
+    require("asymmetry", params.asymmetry, usual.asymmetry);
+    require("missing", params.missing, usual.missing);
+    require("relief", params.relief, usual.relief);
 }
 
 /// Six pairs, each next one farthest from those before.
@@ -200,6 +211,24 @@ int family_number(const std::string& family) {
     return int(found - names.begin());
 }
 
+/// A family and its parameters, drawn so that pairs differ about as real ones do; animals and people are
+/// drawn most often. Ranges were chosen by hand.
+GeneratedPair any_pair(unsigned seed, GenerateParams params) {
+    shapes::Random random(seed);
+    const std::vector<const char*> drawn{"biped",     "biped",     "biped",     "quadruped",
+                                         "quadruped", "quadruped", "quadruped", "quadruped",
+                                         "hand",      "bone",      "tool",      "chair"};
+    const int family = family_number(drawn[std::size_t(random.between(0, double(drawn.size())))]);
+    const auto often = [&](double most) { return std::max(0.0, random.between(-most, most)); };
+    params.variation = random.between(0.3, 1.4);
+    params.bending = random.between(0, 1.6);
+    params.relief = random.between(0.003, 0.025);
+    params.asymmetry = often(0.6);
+    params.missing = often(0.4);
+    params.build = often(1.2);
+    return family_pair(family, seed, params);
+}
+
 void require_vertices(const GenerateParams& params) {
     if (params.vertices != 0 && params.vertices < 500)
         throw UsageError(fmt::format("--vertices {}: give 500 or more, or 0", params.vertices));
@@ -212,7 +241,7 @@ std::string lines_of(const std::vector<int>& numbers) {
 }  // namespace
 
 std::vector<std::string> generated_families() {
-    std::vector<std::string> names{"isometric"};
+    std::vector<std::string> names{"isometric", any};
     for (const auto& others : {shapes::family_names(), shapes::merged_names()})
         names.insert(names.end(), others.begin(), others.end());
     return names;
@@ -221,14 +250,12 @@ std::vector<std::string> generated_families() {
 GeneratedPair generate(const std::string& family, unsigned seed, const GenerateParams& params) {
     require_vertices(params);
     if (family == "isometric") {
-        const GenerateParams usual;
-        require_default(params.variation, usual.variation, "variation");
-        require_default(params.build, usual.build, "build");
-        require_default(params.bending, usual.bending, "bending");
-        require_default(params.asymmetry, usual.asymmetry, "asymmetry");
-        require_default(params.missing, usual.missing, "missing");
-        require_default(params.relief, usual.relief, "relief");
+        require_defaults(params, "shapes of isometric are copies, bent");
         return isometric_pair(seed, params);
+    }
+    if (family == any) {
+        require_defaults(params, "of any they are drawn");
+        return any_pair(seed, params);
     }
     if (auto bodies = shapes::merged_pair(family, params))
         return merged_pair(family, std::move(*bodies), seed, params);

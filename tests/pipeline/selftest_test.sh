@@ -6,7 +6,7 @@ selftest=$VARIMAP_SOURCE/pipelines/selftest
 "$selftest" -o out --first 2 --count 2 "${small_picture[@]}" >out.txt 2>log || fail "selftest (exit $?)"
 cat out.txt
 [[ $(tail -n 1 out.txt) == '2 of 2 right;'* ]] || fail "the summary"
-[[ $(awk -F, 'NR > 1 { print $1, $2, $7 }' out/selftest.csv) == $'2 ring right\n3 animal right' ]] || fail "selftest.csv"
+[[ $(awk -F, 'NR > 1 { print $1, $2, $8 }' out/selftest.csv) == $'2 ring right\n3 animal right' ]] || fail "selftest.csv"
 
 # A map that reverses orientation is called wrong.
 code=0
@@ -20,7 +20,14 @@ expect_exit 2 "$selftest" --variation 0.5  # copies have no proportions that dif
 # Members of a family.
 "$selftest" -o members --family bone --first 1 --count 1 --variation 0.3 "${small_picture[@]}" >out.txt 2>log ||
     fail "--family bone (exit $?)"
-[[ $(awk -F, 'NR > 1 { print $1, $2, $7 }' members/selftest.csv) == '1 bone right' ]] || fail "members/selftest.csv"
+[[ $(awk -F, 'NR > 1 { print $1, $2, $8 }' members/selftest.csv) == '1 bone right' ]] || fail "members/selftest.csv"
+
+# Any: the number decides what is drawn; what was said of the maps is compared with what is true.
+code=0
+"$selftest" -o any --family any --first 4 --count 1 "${small_picture[@]}" >out.txt 2>log || code=$?
+((code <= 1)) || fail "--family any (exit $code)"
+awk -F, 'NR == 2 && $2 != "any" && $6 >= 0 && $6 <= 1 { fine = 1 } END { exit !fine }' any/selftest.csv || fail "any/selftest.csv"
+grep -A 1 '^said ' out.txt | tail -n 1 | grep -Eq ' [01] +1$' || fail "no table of what was said: $(<out.txt)"
 
 # Leading zeros do not make a number octal.
 "$selftest" -o zeros --first 08 --count 1 "${small_picture[@]}" >out.txt 2>log || (($? == 1)) || fail "--first 08"

@@ -134,16 +134,22 @@ TEST(SelfMaps, BringTheRightMapToAWrongOne) {
     EXPECT_GT(shapes::mean_error(finish(context, starts, options)[0].maps.A_to_B, surface.mesh, truth), .2);
 }
 
+VertexImages true_images(const KnownPair& pair) {
+    const TriangleMesh &A = pair.A.surface.mesh, &B = pair.B.surface.mesh;
+    VertexImages images;
+    for (int v = 0; v < A.vertex_count(); ++v)
+        images.A_to_B.push_back(shapes::nearest_vertex(B, pair.A_on_B.row(v).transpose()));
+    for (int v = 0; v < B.vertex_count(); ++v)
+        images.B_to_A.push_back(shapes::nearest_vertex(A, pair.B_on_A.row(v).transpose()));
+    return images;
+}
+
 TEST(Finishing, IsBestForTheRightMap) {
     const KnownPair& pair = figures();
     const PairContext context = pair.context();
     const Surface &A = context.A().surface, &B = context.B().surface;
-    VertexImages right, wrong;
-    for (int v = 0; v < A.mesh.vertex_count(); ++v)
-        right.A_to_B.push_back(shapes::nearest_vertex(B.mesh, pair.A_on_B.row(v).transpose()));
-    for (int v = 0; v < B.mesh.vertex_count(); ++v)
-        right.B_to_A.push_back(shapes::nearest_vertex(A.mesh, pair.B_on_A.row(v).transpose()));
-    wrong = right;
+    const VertexImages right = true_images(pair);
+    VertexImages wrong = right;
     for (int& image : wrong.A_to_B) image = (image + 300) % B.mesh.vertex_count();
     for (int& image : wrong.B_to_A) image = (image + 300) % A.mesh.vertex_count();
     FinishingOptions options;
@@ -161,6 +167,42 @@ TEST(Finishing, IsBestForTheRightMap) {
         appraisal.measure(finished.back(), other);
         EXPECT_GT(other.score, best.score);
     }
+}
+
+/// The right map but for the limb that ends farthest from the centre, which it mirrors.
+VertexImages with_a_mirrored_limb(VertexImages images, const TriangleMesh& A) {
+    const Vec3 centre = A.vertices.colwise().mean().transpose();
+    Eigen::Index tip;
+    (A.vertices.rowwise() - centre.transpose()).rowwise().squaredNorm().maxCoeff(&tip);
+    const Vec3 along = A.vertex(int(tip)) - centre, across = along.unitOrthogonal();
+    const auto is_on_limb = [&](int v) {
+        return (A.vertex(v) - A.vertex(int(tip))).norm() < .45 * along.norm();
+    };
+    const auto reflection = [&](int v) {
+        const Vec3 p = A.vertex(v);
+        return shapes::nearest_vertex(A, p - 2 * across.dot(p - centre) * across);
+    };
+    const VertexImages before = images;
+    for (int v = 0; v < A.vertex_count(); ++v)
+        if (is_on_limb(v)) images.A_to_B[std::size_t(v)] = before.A_to_B[std::size_t(reflection(v))];
+    for (int& v : images.B_to_A)
+        if (is_on_limb(v)) v = reflection(v);
+    return images;
+}
+
+TEST(Finishing, PlacesAMirroredLimbAnew) {
+    const KnownPair& pair = figures();
+    const PairContext context = pair.context();
+    const VertexImages start = with_a_mirrored_limb(true_images(pair), context.A().surface.mesh);
+    const auto reversed = [&](const FinishingOptions& options) {
+        Candidate candidate;
+        Appraisal(context).measure(finish(context, {start}, options).front(), candidate);
+        return candidate.reversed_mass;
+    };
+    FinishingOptions options;
+    EXPECT_LT(reversed(options), .005);
+    options.ironing.enabled = false;
+    EXPECT_GT(reversed(options), .02);
 }
 
 TEST(Explore, PreviewsMapsWhereItIsNotSure) {

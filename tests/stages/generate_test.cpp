@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "stages/generate/families.h"
 #include "stages/generate/partner.h"
 #include "varimap/core/error.h"
@@ -92,6 +94,20 @@ TEST(Generate, TheSeedDecidesAll) {
         EXPECT_EQ(pairs_of(pair), pairs_of(again));
         EXPECT_NE(to_ply(generate(family, 9, small_meshes()).source), to_ply(pair.source));
     }
+}
+
+TEST(Generate, AnyDrawsAFamilyAndHowItVaries) {
+    GenerateParams params;
+    params.vertices = small_meshes().vertices;
+    std::set<std::string> kinds;
+    for (unsigned seed = 3; seed < 7; ++seed) {
+        const GeneratedPair pair = generate("any", seed, params);
+        kinds.insert(pair.kind);
+        expect_sphere(pair.source);
+        expect_sphere(pair.target);
+    }
+    EXPECT_GE(kinds.size(), 3u);
+    EXPECT_EQ(kinds.count("any"), 0u);
 }
 
 TEST(Generate, StoutQuadrupedsHaveMoreVolumeForTheirArea) {
@@ -242,10 +258,11 @@ TEST(Generate, RowsOfACollectionAreTheSamePlaces) {
 }
 
 TEST(Generate, SaysWhatFamiliesThereAre) {
-    EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, biped"));
+    EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, any, biped"));
     GenerateParams varied;
     varied.variation = 0.5;
     EXPECT_THAT(refusal("isometric", varied), HasSubstr("--variation"));
+    EXPECT_THAT(refusal("any", varied), HasSubstr("--variation"));
     GenerateParams few;
     few.vertices = 20;
     EXPECT_THAT(refusal("hand", few), HasSubstr("--vertices 20"));

@@ -215,7 +215,10 @@ class Untangling {
             report_.replaced_area_percent = replacement_->report().area_percent;
         }
         const Distortion after = measure_distortion(sliding_.points(), source_, target_);
-        if (after.flipped_area_percent > before_.flipped_area_percent) return report_;
+        // A large triangle that is reversed instead of many small ones is no reason to give up the rest.
+        if (after.flipped_area_percent > before_.flipped_area_percent &&
+            after.flipped_count >= before_.flipped_count)
+            return report_;
         map_ = sliding_.points();
         report_.flipped_after = after.flipped_count;
         report_.flipped_area_percent_after = after.flipped_area_percent;
