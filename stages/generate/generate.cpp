@@ -254,7 +254,7 @@ GeneratedPair generate(const std::string& family, unsigned seed, const GenerateP
         return isometric_pair(seed, params);
     }
     if (family == any) {
-        require_defaults(params, "of any they are drawn");
+        require_defaults(params, "the seed draws it for any");
         return any_pair(seed, params);
     }
     if (auto bodies = shapes::merged_pair(family, params))
