@@ -22,8 +22,10 @@ struct Pursued {
     double energy() const { return solution.step.energy; }
 };
 
-IroningOptions with_rounds(IroningOptions options, int rounds) {
+/// On the Euclidean levels, which make the score: what raises it is not taken.
+IroningOptions euclidean(IroningOptions options, int rounds) {
     options.maximum_rounds = rounds;
+    options.energy_for_mass = 0.5;  // as in score_of
     return options;
 }
 
@@ -34,7 +36,7 @@ class JointDescent {
         : context_(context),
           options_(options),
           descent_(context, options.alternation, options.ironing),
-          euclidean_ironing_(context, with_rounds(options.ironing, options.euclidean_rounds)) {}
+          euclidean_ironing_(context, euclidean(options.ironing, options.euclidean_rounds)) {}
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
         for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}});

@@ -1,6 +1,7 @@
 #include "varimap/multilevel/ironing.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "varimap/core/log.h"
 #include "varimap/mesh/face_geometry.h"
@@ -76,11 +77,13 @@ class Ironing::Run {
     PairOrientation orientation_;  ///< of the minimisation's solution
 };
 
-/// Goes on from where a trial has ended if less mass is reversed there. Returns how much is.
+/// Goes on from where a trial has ended if less mass is reversed there, at no too high an energy. Returns how
+/// much is.
 double Ironing::Run::adopt_if_better(AlternatingMinimization& trial) {
     PairOrientation after = ironing_.measure(level_, trial.solution());
-    const double reversed = after.reversed_mass();
-    if (reversed < orientation_.reversed_mass()) {
+    const double reversed = after.reversed_mass(), put_right = orientation_.reversed_mass() - reversed;
+    const double cost = std::log(trial.solution().step.energy / minimization_.solution().step.energy);
+    if (put_right > 0 && !(cost > options_.energy_for_mass * put_right)) {
         minimization_.adopt(trial.take_solution());
         orientation_ = std::move(after);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "varimap/multilevel/orientation.h"
@@ -24,6 +25,8 @@ struct IroningOptions {
     double reflected_mass = 0.5;   ///< reflect when more than this share is reversed
     double reanchored_mass =
         0.008;  ///< reversed patches of at least that mass are placed anew from their surroundings
+    /// How much log energy a map that reverses less may cost, for the share of the mass that is put right.
+    double energy_for_mass = std::numeric_limits<double>::infinity();
     int maximum_samples = 20000;  ///< finer levels are left to the untangling of the final map
     int reflected_samples =
         1000;  ///< only on levels with at most that many samples: the reflected map starts from the full plan

@@ -65,6 +65,26 @@ TEST(Ironing, ReturnsTheOrientationOfWhatItEndsWith) {
     EXPECT_EQ(orientation->B_to_A.determinant, measured.B_to_A.determinant);
 }
 
+TEST(Ironing, TakesWhatReversesLessForTheEnergyThatItMayCost) {
+    const KnownPair figures = shapes::figure_pair(.6, false);
+    const PairContext context = figures.context();
+    Descent descent(context, {}, {});
+    descent.enter(context.diffusion_level(7));
+    const LevelPair& pair = descent.level();
+    const Start start{centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}};
+    const auto reversed_after = [&](double energy_for_mass) {
+        IroningOptions options;
+        options.maximum_rounds = 0;  // parts are only placed anew
+        options.energy_for_mass = energy_for_mass;
+        const Ironing ironing(context, options);
+        AlternatingMinimization minimization = descent.settled(start);
+        ironing.iron(pair, minimization, unobserved);
+        return ironing.measure(pair, minimization.solution()).reversed_mass();
+    };
+    EXPECT_LT(reversed_after(IroningOptions().energy_for_mass), .02);
+    EXPECT_GT(reversed_after(-1000), .05);  // the energy would have to vanish
+}
+
 TEST(Ironing, TurnsMirroredLimbsBack) {
     const KnownPair figures = shapes::figure_pair(.6, false);
     const PairContext context = figures.context();
