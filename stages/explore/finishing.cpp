@@ -9,6 +9,7 @@
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
+#include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
 
 namespace varimap {
@@ -23,9 +24,9 @@ struct Pursued {
 };
 
 /// On the Euclidean levels, which make the score: what raises it is not taken.
-IroningOptions euclidean(IroningOptions options, int rounds) {
+IroningOptions euclidean_ironing(IroningOptions options, int rounds) {
     options.maximum_rounds = rounds;
-    options.energy_for_mass = 0.5;  // as in score_of
+    options.energy_for_mass = reversed_worth;
     return options;
 }
 
@@ -36,17 +37,17 @@ class JointDescent {
         : context_(context),
           options_(options),
           descent_(context, options.alternation, options.ironing),
-          euclidean_ironing_(context, euclidean(options.ironing, options.euclidean_rounds)) {}
+          euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
         for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}});
         const int first = first_level_for_a_map(context_);
         enter(context_.diffusion_level(first));
-        solve_all(descent_.ironing(), [&](const Pursued& one) {
+        solve_all(options_.ironing, [&](const Pursued& one) {
             return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
         });
         if (const int last = context_.diffusion_levels() - 1; last > first)
-            go_on(context_.diffusion_level(last), descent_.ironing());
+            go_on(context_.diffusion_level(last), options_.ironing);
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
             go_on(context_.euclidean_level(l, l + 1 == levels ? 0 : 1), euclidean_ironing_);
@@ -61,15 +62,15 @@ class JointDescent {
         add_shape_term(level, context_, options_.shape_weight);
         descent_.enter(std::move(level));
     }
-    void go_on(LevelPair level, const Ironing& ironing) {
+    void go_on(LevelPair level, const IroningOptions& ironing) {
         enter(std::move(level));
         solve_all(ironing, [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
     }
     template <class StartOf>
-    void solve_all(const Ironing& ironing, const StartOf& start_of) {
+    void solve_all(const IroningOptions& ironing, const StartOf& start_of) {
         parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) {
             AlternatingMinimization minimization = descent_.settled(start_of(pursued_[n]));
-            ironing.iron(descent_.level(), minimization, unobserved);
+            descent_.ironing().iron(descent_.level(), minimization, unobserved, ironing);
             pursued_[n].solution = minimization.take_solution();
         });
     }
@@ -90,7 +91,7 @@ class JointDescent {
     const PairContext& context_;
     const FinishingOptions& options_;
     Descent descent_;
-    Ironing euclidean_ironing_;
+    const IroningOptions euclidean_ironing_;
     std::vector<Pursued> pursued_;
 };
 

@@ -50,9 +50,9 @@ struct ReversedParts {
 class Ironing::Run {
   public:
     Run(const Ironing& ironing, const LevelPair& level, AlternatingMinimization& minimization,
-        const Observer& observe)
+        const Observer& observe, const IroningOptions& options)
         : ironing_(ironing),
-          options_(ironing.options_),
+          options_(options),
           level_(level),
           minimization_(minimization),
           observe_(observe),
@@ -201,11 +201,15 @@ PairOrientation Ironing::measure(const LevelPair& level, const Solution& solutio
 
 std::optional<PairOrientation> Ironing::iron(const LevelPair& level, AlternatingMinimization& minimization,
                                              const Observer& observe) const {
+    return iron(level, minimization, observe, options_);
+}
+
+std::optional<PairOrientation> Ironing::iron(const LevelPair& level, AlternatingMinimization& minimization,
+                                             const Observer& observe, const IroningOptions& options) const {
     const int samples = int(std::min(level.A.level.samples.size(), level.B.level.samples.size()));
-    if (!options_.enabled || samples < options_.minimum_samples || samples > options_.maximum_samples)
-        return {};
-    Run run(*this, level, minimization, observe);
-    if (samples <= options_.reflected_samples) run.reflect();
+    if (!options.enabled || samples < options.minimum_samples || samples > options.maximum_samples) return {};
+    Run run(*this, level, minimization, observe, options);
+    if (samples <= options.reflected_samples) run.reflect();
     run.damp();
     run.reanchor();
     return run.take_orientation();

@@ -43,6 +43,9 @@ class Ironing {
     /// there is nothing to do at this level. Every alternation is observed.
     std::optional<PairOrientation> iron(const LevelPair& level, AlternatingMinimization& minimization,
                                         const Observer& observe) const;
+    /// The same with other options.
+    std::optional<PairOrientation> iron(const LevelPair& level, AlternatingMinimization& minimization,
+                                        const Observer& observe, const IroningOptions& options) const;
     PairOrientation measure(const LevelPair& level, const Solution& solution) const;
 
     const IroningOptions& options() const { return options_; }

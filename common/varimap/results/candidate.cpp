@@ -9,7 +9,7 @@ namespace varimap {
 
 double score_of(const Candidate& candidate) {
     return std::log(candidate.energy) + std::log(candidate.dirichlet) / 2 - candidate.relief +
-           candidate.reversed_mass / 2;
+           reversed_worth * candidate.reversed_mass;
 }
 
 bool is_mirrored(const Candidate& candidate) {

@@ -19,8 +19,11 @@ struct Candidate {
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
 };
 
-/// log energy + 1/2 log dirichlet - relief + 1/2 reversed_mass. No one of them tells the right map from a
-/// wrong one everywhere: of people turned front to back energies say little and relief much; of limbs
+/// How much log energy the whole mass, reversed, is worth.
+constexpr double reversed_worth = 0.5;
+
+/// log energy + 1/2 log dirichlet - relief + reversed_worth reversed_mass. No one of them tells the right map
+/// from a wrong one everywhere: of people turned front to back energies say little and relief much; of limbs
 /// exchanged, the converse.
 double score_of(const Candidate& candidate);
 

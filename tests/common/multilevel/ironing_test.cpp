@@ -50,36 +50,42 @@ double reversed_mass(const PairContext& context, const KnownPair& figures, bool 
     return descent.ironing().measure(pair, solution).reversed_mass();
 }
 
+/// A level of about 400 samples, and where a map with mirrored limbs starts there.
+struct MirroredLimbs {
+    KnownPair figures = shapes::figure_pair(.6, false);
+    PairContext context = figures.context();
+    Descent descent{context, {}, {}};
+    const LevelPair& pair;
+    Start start;
+
+    MirroredLimbs()
+        : pair(entered()), start{centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}} {}
+    const LevelPair& entered() {
+        descent.enter(context.diffusion_level(7));
+        return descent.level();
+    }
+};
+
 TEST(Ironing, ReturnsTheOrientationOfWhatItEndsWith) {
-    const KnownPair figures = shapes::figure_pair(.6, false);
-    const PairContext context = figures.context();
-    Descent descent(context, {}, {});
-    descent.enter(context.diffusion_level(7));
-    const LevelPair& pair = descent.level();
-    AlternatingMinimization minimization =
-        descent.settled({centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}});
-    const auto orientation = descent.ironing().iron(pair, minimization, unobserved);
+    MirroredLimbs limbs;
+    AlternatingMinimization minimization = limbs.descent.settled(limbs.start);
+    const auto orientation = limbs.descent.ironing().iron(limbs.pair, minimization, unobserved);
     ASSERT_TRUE(orientation.has_value());
-    const PairOrientation measured = descent.ironing().measure(pair, minimization.solution());
+    const PairOrientation measured = limbs.descent.ironing().measure(limbs.pair, minimization.solution());
     EXPECT_EQ(orientation->A_to_B.determinant, measured.A_to_B.determinant);
     EXPECT_EQ(orientation->B_to_A.determinant, measured.B_to_A.determinant);
 }
 
 TEST(Ironing, TakesWhatReversesLessForTheEnergyThatItMayCost) {
-    const KnownPair figures = shapes::figure_pair(.6, false);
-    const PairContext context = figures.context();
-    Descent descent(context, {}, {});
-    descent.enter(context.diffusion_level(7));
-    const LevelPair& pair = descent.level();
-    const Start start{centres_after(with_mirrored_limbs(figures.A.surface), pair, figures), {}};
+    MirroredLimbs limbs;
     const auto reversed_after = [&](double energy_for_mass) {
         IroningOptions options;
         options.maximum_rounds = 0;  // parts are only placed anew
         options.energy_for_mass = energy_for_mass;
-        const Ironing ironing(context, options);
-        AlternatingMinimization minimization = descent.settled(start);
-        ironing.iron(pair, minimization, unobserved);
-        return ironing.measure(pair, minimization.solution()).reversed_mass();
+        const Ironing& ironing = limbs.descent.ironing();
+        AlternatingMinimization minimization = limbs.descent.settled(limbs.start);
+        ironing.iron(limbs.pair, minimization, unobserved, options);
+        return ironing.measure(limbs.pair, minimization.solution()).reversed_mass();
     };
     EXPECT_LT(reversed_after(IroningOptions().energy_for_mass), .02);
     EXPECT_GT(reversed_after(-1000), .05);  // the energy would have to vanish
