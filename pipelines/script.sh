@@ -124,6 +124,15 @@ reason() {  # FILE of what was said on stderr: the error among it, or the last l
     { grep 'error: ' "$1" || tail -n 1 "$1"; } 2>/dev/null | tail -n 1
 }
 
+# What awk needs to tell how often that is true which is said to be right with some probability: bins of these, and their edges.
+# shellcheck disable=SC2034  # for those that source this
+reliability='
+    function bin_of(probability) {
+        return probability == "-" ? 0 : probability < .5 ? 1 : probability < .7 ? 2 : probability < .9 ? 3 : probability < .98 ? 4 : 5
+    }
+    BEGIN { split("0 .5 .7 .9 .98 1", edge, " ") }
+'
+
 require_number() {  # OPTION VALUE LEAST
     [[ $2 =~ ^[0-9]{1,6}$ && $((10#$2)) -ge $3 ]] || fail 2 "$1 $2: give a whole number, at least $3"
 }
