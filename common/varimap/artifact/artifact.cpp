@@ -76,10 +76,6 @@ void require_writable(const Header& header) {
 
 }  // namespace
 
-std::string version() {
-    return VARIMAP_VERSION;
-}
-
 Header read_header(const std::string& path) {
     return open_artifact(path).header;
 }

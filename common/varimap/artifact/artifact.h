@@ -43,7 +43,7 @@ struct Artifact {
     T value;
 };
 
-/// Version of varimap that headers record.
+/// Version of varimap that headers record, with a hash of its sources: "0.1.0+1a2b3c4d".
 std::string version();
 /// 128-bit content hash as 32 hexadecimal digits.
 std::string content_hash(const std::string& bytes);
