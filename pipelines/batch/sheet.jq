@@ -1,13 +1,14 @@
 # The contact sheet: a card for each pair, the worst first, a thousand at most.
 #   jq -r -n -f sheet.jq results.jsonl
 def rank: if .status == "done" then [1, -.badness, .name] elif .status == "failed" then [0, 0, .name] else [2, 0, .name] end;
+def shown: if any(.warnings[]; contains("candidates.png")) then "candidates.png" else "picture.png" end;
 def card: (.name | @uri) as $folder
     | "<article class=\"\(.verdict // .status | gsub(" "; "-") | @html)\"><h2><a href=\"pairs/\($folder)/\">\(.name | @html)</a></h2>"
     + (if .status == "done" then
         "<a href=\"pairs/\($folder)/picture.png\"><img loading=\"lazy\" alt=\"the map, from both sides\" src=\"pairs/\($folder)/picture.png\"></a>"
         + "<p><b>\(.verdict | @html)</b> · reversed \(.reversed_percent) % · covered \(.coverage_percent) % · angles \(.conformal_p95) · there and back \(.round_trip)"
         + (if .landmarks_off then " · landmarks off \(.landmarks_off)" else "" end)
-        + (if .probability then " · \(if .sure then "sure" else "<a href=\"pairs/\($folder)/candidates.png\">not sure</a>" end) (\(.probability))" else "" end) + "</p>"
+        + (if .probability then " · \(if .sure then "sure" else "<a href=\"pairs/\($folder)/\(shown)\">not sure</a>" end) (\(.probability))" else "" end) + "</p>"
         + ([.warnings[] | "<p class=\"warning\">\(.[:240] | @html)</p>"] | join(""))
       elif .status == "failed" then "<p class=\"warning\">failed (\(.code)): \(.message | @html)</p>"
       else "<p>waiting</p>" end) + "</article>";

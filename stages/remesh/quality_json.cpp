@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "varimap/core/log.h"
 #include "varimap/quality/quality.h"
@@ -97,8 +98,16 @@ Json levels(const Trace& trace) {
     return list;
 }
 
-Json to_json(const std::vector<Candidate>& candidates, int continued) {
-    const Confidence confidence = confidence_of(candidates);
+/// `finished`: the Dirichlet energy of the map.
+Json to_json(const std::vector<Candidate>& candidates, int continued, double finished) {
+    const auto of_first = continued == 1 ? std::optional(finished) : std::nullopt;
+    const Confidence confidence = confidence_of(candidates, of_first);
+    if (confidence_of(candidates).confident && !confidence.confident)
+        warn(
+            "the map is less sure than its candidate was ({}): look at the picture, try --candidate 2, or "
+            "give "
+            "landmarks",
+            doubt(candidates, of_first));
     Json list = Json::array();
     for (const Candidate& c : candidates)
         list.push_back({{"origin", origin(c)},
@@ -110,9 +119,12 @@ Json to_json(const std::vector<Candidate>& candidates, int continued) {
                         {"moved_percent", 100 * c.moved_mass},
                         {"turn_degrees", c.turn},
                         {"mirrored", is_mirrored(c)}});
-    return {{"continued", continued},      {"confident", confidence.confident},
-            {"margin", confidence.margin}, {"probability", confidence.probability},
-            {"doubt", doubt(candidates)},  {"candidates", list}};
+    return {{"continued", continued},
+            {"confident", confidence.confident},
+            {"margin", confidence.margin},
+            {"probability", confidence.probability},
+            {"doubt", doubt(candidates, of_first)},
+            {"candidates", list}};
 }
 
 Json to_json(const std::vector<LandmarkCheck>& checks) {
@@ -133,6 +145,13 @@ void remove_not_finite(Json& json) {
         const bool keep = !member->is_number_float() || std::isfinite(member->get<double>());
         member = keep ? std::next(member) : json.erase(member);
     }
+}
+
+/// Geometric mean of the directions.
+double dirichlet_of_both(const Json& quality) {
+    const double there = quality["source_to_target"]["dirichlet_energy"],
+                 back = quality["target_to_source"]["dirichlet_energy"];
+    return std::sqrt(there * back);
 }
 
 /// Good maps of whole surfaces have less than .5% reversed and more than 95% covered, those of skulls with
@@ -163,9 +182,10 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     quality["landmarks"] = landmark_residuals(A_to_B, landmarks_on_inputs(record, A, B), A.input, B.input);
     if (!record.landmarks.empty()) quality["landmark_weight"] = record.landmark_weight;
     if (!record.landmark_checks.empty()) quality["landmark_checks"] = to_json(record.landmark_checks);
-    if (!record.candidates.empty()) quality["exploration"] = to_json(record.candidates, record.candidate);
     quality["source_to_target"] = direction(A_to_B, without_added_faces(A), B, plan.area_bound);
     quality["target_to_source"] = direction(B_to_A, without_added_faces(B), A, plan.area_bound);
+    if (!record.candidates.empty())
+        quality["exploration"] = to_json(record.candidates, record.candidate, dirichlet_of_both(quality));
     quality["source_to_target"]["untangling"] = to_json(map.untangling.A_to_B);
     quality["target_to_source"]["untangling"] = to_json(map.untangling.B_to_A);
     warn_of_tears(quality["source_to_target"], "source to target");

@@ -348,5 +348,21 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     EXPECT_EQ(confidence_of({mirrored}).probability, 0);
 }
 
+TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
+    const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -6}};
+    const double found = confidence_of(candidates).probability;
+    double last = found;
+    for (const double dirichlet : {1.05, 1.15, 1.25, 1.35, 2.}) {
+        const double probability = confidence_of(candidates, dirichlet).probability;
+        EXPECT_LT(probability, last);
+        last = probability;
+    }
+    EXPECT_TRUE(confidence_of(candidates, 1.15).confident);
+    EXPECT_EQ(doubt(candidates, 1.15), "");
+    EXPECT_FALSE(confidence_of(candidates, 1.35).confident);
+    EXPECT_THAT(doubt(candidates, 1.35), testing::HasSubstr("a Dirichlet energy of 1.35"));
+    EXPECT_NEAR(confidence_of(candidates, .99).probability, found, 1e-3);
+}
+
 }  // namespace
 }  // namespace varimap

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 
 #include "fixtures/sphere_pair.h"
 #include "stages/remesh/quality_json.h"
@@ -83,6 +85,21 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
     EXPECT_EQ(numbers["source"]["input_vertices"], pair_.A.input.vertex_count());
     EXPECT_EQ(numbers["target"]["input_faces"], pair_.B.input.face_count());
     EXPECT_EQ(numbers["source"]["vertices"], pair_.A.mesh.vertex_count());
+}
+
+TEST_F(Remesh, IsLessSureOfAMapThatIsStrainedInTheEnd) {
+    pair_.plan.record.candidates = {Candidate{.dirichlet = 1, .relief = .9, .score = -6}};
+    pair_.plan.record.candidate = 1;
+    EXPECT_TRUE(quality()["exploration"]["confident"]);
+    SurfaceMap strained = pair_.as_planned();
+    std::rotate(strained.A_to_B.begin(), strained.A_to_B.begin() + 7, strained.A_to_B.end());
+    Json exploration = quality(strained)["exploration"];
+    EXPECT_FALSE(exploration["confident"]);
+    EXPECT_NE(std::string(exploration["doubt"]).find("finished, it is strained"), std::string::npos);
+    pair_.plan.record.candidate = 2;  // the map says nothing of the first
+    exploration = quality(strained)["exploration"];
+    EXPECT_TRUE(exploration["confident"]);
+    EXPECT_EQ(exploration["doubt"], "");
 }
 
 TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {

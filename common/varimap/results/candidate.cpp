@@ -37,7 +37,13 @@ double plausibility(const Candidate& candidate) {
                              4 * (std::log(std::max(candidate.dirichlet, 1.0)) - dirichlet)));
 }
 
-Confidence confidence_of(const std::vector<Candidate>& candidates) {
+double plausibility_when_finished(double dirichlet) {
+    // Fitted by eye to 60 pairs of generated families, of which it divides 3 wrong maps from 56 right ones.
+    constexpr double even = 1.3, scale = 0.03;
+    return 1 / (1 + std::pow(std::max(dirichlet, 1.0) / even, 1 / scale));
+}
+
+Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished) {
     constexpr double sure = 0.9;
     constexpr double detail = 0.05;  // what differs on less, a foot or an ear, is no other map
     if (candidates.empty()) return {};
@@ -49,20 +55,23 @@ Confidence confidence_of(const std::vector<Candidate>& candidates) {
         margin = std::min(margin, rival.score - best.score);
         doubt = std::max(doubt, doubt_by(rival, best));
     }
-    const double probability = is_mirrored(best) ? 0 : plausibility(best) * (1 - doubt);
+    double probability = is_mirrored(best) ? 0 : plausibility(best) * (1 - doubt);
+    if (finished) probability *= plausibility_when_finished(*finished);
     return {margin, probability, probability >= sure};
 }
 
-std::string doubt(const std::vector<Candidate>& candidates) {
-    constexpr double strained = 1.3, unlike = 0.6, close = 0.07;
-    const Confidence confidence = confidence_of(candidates);
+std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished) {
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.07;
+    const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
     const Candidate& best = candidates.front();
     if (is_mirrored(best)) return "only mirrored maps were found";
     std::string why;
     const auto add = [&](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
     if (confidence.margin < close) add(fmt::format("another is only {:.1f}% worse", 100 * confidence.margin));
-    if (best.dirichlet > strained)
+    if (finished > strained_in_the_end)
+        add(fmt::format("finished, it is strained, with a Dirichlet energy of {:.2f}", *finished));
+    else if (best.dirichlet > strained)
         add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
     if (best.relief < unlike) add(fmt::format("relief agrees by {:.2f} only", best.relief));
     return why.empty() ? "no one cue decides" : why;
