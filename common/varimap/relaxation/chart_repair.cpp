@@ -21,6 +21,7 @@ namespace {
 constexpr std::array<int, 10> ring_counts{2, 3, 4, 5, 6, 8, 10, 13, 2, 4};
 constexpr double largest_part = 0.2;  ///< share of the faces of either surface in a disc
 constexpr int least_part = 1000;      ///< faces that a disc may have in any case
+constexpr double most_filled = 10;    ///< times the faces around defects that a disc may have besides
 /// Faces in discs that are tried, by all the faces, or so many of them if there are more: bounds the time. A
 /// map of a large mesh has few defects, or is torn beyond repair.
 constexpr double most_tried = 2;
@@ -32,8 +33,11 @@ constexpr int patience = 3;          ///< attempts without gain after which defe
 const FoldEnergy polish_energy{1, 0.03};
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
-int most_faces(const TriangleMesh& mesh) {
-    return std::max(least_part, int(largest_part * mesh.face_count()));
+/// Of a disc on `mesh` that has to hold a part with so many faces: what is much larger is the outside of its
+/// rim, and would be walked over in vain.
+int most_faces(const TriangleMesh& mesh, double part) {
+    const int most = std::max(least_part, int(largest_part * mesh.face_count()));
+    return std::min(most, least_part + int(most_filled * part));
 }
 
 std::vector<int> vertices_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
@@ -93,7 +97,8 @@ std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std:
     const auto face = [&](std::size_t i) {
         return map_.point(part.vertex[std::size_t(rim[i % rim.size()])]).face;
     };
-    const int most = most_faces(map_.target());
+    const double finer = double(map_.target().face_count()) / map_.source().face_count();
+    const int most = most_faces(map_.target(), finer * part.mesh.face_count());
     std::vector<int> wall, inside;
     for (std::size_t i = 0; i < rim.size(); ++i) {
         if (face(i) < 0 || face(i + 1) < 0) return {};
@@ -155,8 +160,9 @@ void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
 
 ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int rings,
                                           const VertexData<bool>& fixed) {
-    const int most = most_faces(map_.source());
-    std::vector<int> faces = source_.filled(source_.widened(cluster, rings), most);
+    std::vector<int> faces = source_.widened(cluster, rings);
+    const int most = most_faces(map_.source(), double(faces.size()));
+    faces = source_.filled(std::move(faces), most);
     if (int(faces.size()) > most) return Outcome::no_disc;
     const std::vector<int> around = source_.widened(faces, 2);
     const double before = badness(around);
