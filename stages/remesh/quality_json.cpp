@@ -103,11 +103,8 @@ Json to_json(const std::vector<Candidate>& candidates, int continued, double fin
     const auto of_first = continued == 1 ? std::optional(finished) : std::nullopt;
     const Confidence confidence = confidence_of(candidates, of_first);
     if (confidence_of(candidates).confident && !confidence.confident)
-        warn(
-            "the map is less sure than its candidate was ({}): look at the picture, try --candidate 2, or "
-            "give "
-            "landmarks",
-            doubt(candidates, of_first));
+        warn("the map is less sure than its candidate was ({}): look at the picture, {}or give landmarks",
+             doubt(candidates, of_first), candidates.size() > 1 ? "try --candidate 2, " : "");
     Json list = Json::array();
     for (const Candidate& c : candidates)
         list.push_back({{"origin", origin(c)},
