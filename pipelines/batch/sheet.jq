@@ -1,7 +1,7 @@
 # The contact sheet: a card for each pair, the worst first, a thousand at most.
 #   jq -r -n -f sheet.jq results.jsonl
 def rank: if .status == "done" then [1, -.badness, .name] elif .status == "failed" then [0, 0, .name] else [2, 0, .name] end;
-def shown: if any(.warnings[]; contains("candidates.png")) then "candidates.png" else "picture.png" end;
+def shown: if .sure_when_found then "picture.png" else "candidates.png" end;
 def card: (.name | @uri) as $folder
     | "<article class=\"\(.verdict // .status | gsub(" "; "-") | @html)\"><h2><a href=\"pairs/\($folder)/\">\(.name | @html)</a></h2>"
     + (if .status == "done" then

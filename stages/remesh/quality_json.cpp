@@ -102,7 +102,8 @@ Json levels(const Trace& trace) {
 Json to_json(const std::vector<Candidate>& candidates, int continued, double finished) {
     const auto of_first = continued == 1 ? std::optional(finished) : std::nullopt;
     const Confidence confidence = confidence_of(candidates, of_first);
-    if (confidence_of(candidates).confident && !confidence.confident)
+    const bool confident_when_found = confidence_of(candidates).confident;
+    if (confident_when_found && !confidence.confident)
         warn("the map is less sure than its candidate was ({}): look at the picture, {}or give landmarks",
              doubt(candidates, of_first), candidates.size() > 1 ? "try --candidate 2, " : "");
     Json list = Json::array();
@@ -118,6 +119,7 @@ Json to_json(const std::vector<Candidate>& candidates, int continued, double fin
                         {"mirrored", is_mirrored(c)}});
     return {{"continued", continued},
             {"confident", confidence.confident},
+            {"confident_when_found", confident_when_found},
             {"margin", confidence.margin},
             {"probability", confidence.probability},
             {"doubt", doubt(candidates, of_first)},

@@ -95,6 +95,7 @@ TEST_F(Remesh, IsLessSureOfAMapThatIsStrainedInTheEnd) {
     std::rotate(strained.A_to_B.begin(), strained.A_to_B.begin() + 7, strained.A_to_B.end());
     Json exploration = quality(strained)["exploration"];
     EXPECT_FALSE(exploration["confident"]);
+    EXPECT_TRUE(exploration["confident_when_found"]);
     EXPECT_NE(std::string(exploration["doubt"]).find("finished, it is strained"), std::string::npos);
     pair_.plan.record.candidate = 2;  // the map says nothing of the first
     exploration = quality(strained)["exploration"];

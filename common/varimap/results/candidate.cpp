@@ -29,19 +29,22 @@ double doubt_by(const Candidate& rival, const Candidate& best) {
            std::min(1.0, rival.moved_mass / whole);
 }
 
+/// How probable it is that a map which looked right at low resolution is right, by the Dirichlet energy that
+/// it has in the end: right maps of animals as unlike as a cow and a fox have 1.2 at most, those on which
+/// limbs are exchanged mostly more.
+double plausibility_when_finished(double dirichlet) {
+    // Fitted by eye to 60 pairs of generated families, of which it divides 3 wrong maps from all right ones
+    // but one: a few that are as strained as wrong ones are right all the same.
+    constexpr double even = 1.3, scale = 0.03, least = 0.25;
+    return least + (1 - least) / (1 + std::pow(std::max(1.0, dirichlet) / even, 1 / scale));
+}
+
 }  // namespace
 
 double plausibility(const Candidate& candidate) {
     constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
     return 1 / (1 + std::exp(-14 * (candidate.relief - relief) +
                              4 * (std::log(std::max(candidate.dirichlet, 1.0)) - dirichlet)));
-}
-
-double plausibility_when_finished(double dirichlet) {
-    // Fitted by eye to 60 pairs of generated families, of which it divides 3 wrong maps from all right ones
-    // but one: a few that are as strained as wrong ones are right all the same.
-    constexpr double even = 1.3, scale = 0.03, least = 0.25;
-    return least + (1 - least) / (1 + std::pow(std::max(1.0, dirichlet) / even, 1 / scale));
 }
 
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished) {

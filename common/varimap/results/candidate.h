@@ -34,11 +34,6 @@ bool is_mirrored(const Candidate& candidate);
 /// How probable it is that a map of that quality is right at all, if it is the best of those found.
 double plausibility(const Candidate& candidate);
 
-/// How probable it is that a map which looked right at low resolution is right, by the Dirichlet energy that
-/// it has in the end (geometric mean of both directions): right maps of animals as unlike as a cow and a fox
-/// have 1.2 at most, those on which limbs are exchanged mostly more.
-double plausibility_when_finished(double dirichlet);
-
 /// How sure the choice of the first candidate is among its rivals: those that are not mirrored and give more
 /// than 5% of A another image.
 struct Confidence {
@@ -46,7 +41,8 @@ struct Confidence {
     double probability = 0;  ///< that the first is right
     bool confident = false;  ///< the probability is at least 0.9
 };
-/// `finished`: the Dirichlet energy of the first, where it has been continued to the end.
+/// `finished`: the Dirichlet energy of the first (geometric mean of both directions), where it has been
+/// continued to the end.
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished = {});
 
 /// Why the choice is not sure, in words; for a choice that is, "".
