@@ -30,6 +30,7 @@ constexpr int polishing = 15;  ///< sweeps
 constexpr int careful_polishing = 6;
 constexpr int most_with_care = 200;  ///< vertices
 constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
+constexpr int rings_of_kernels = 2;  ///< around defects, where vertices may be moved one by one
 const FoldEnergy polish_energy{1, 0.03};
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
@@ -55,6 +56,7 @@ ChartRepair::ChartRepair(SlidingMap& map, NormalAgreement& agreement, const Poin
       agreement_(agreement),
       inverse_(map, back),
       laid_out_(map.target()),
+      kernels_(map, laid_out_),
       source_(map.source()),
       target_(map.target()),
       reversed_(map),
@@ -83,6 +85,12 @@ std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
     }
     make_set(defects);
     return defects;
+}
+
+std::vector<int> ChartRepair::all_defects() {
+    std::vector<int> faces(std::size_t(map_.source().face_count()));
+    std::iota(faces.begin(), faces.end(), 0);
+    return defects_among(faces);
 }
 
 double ChartRepair::badness(const std::vector<int>& faces, double limit) {
@@ -221,7 +229,11 @@ bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const std::vector
 std::vector<std::vector<int>> ChartRepair::clusters_of(const std::vector<int>& defects) {
     std::vector<char> marks(std::size_t(map_.source().face_count()), 0);
     for (const int f : source_.widened(defects, 1)) marks[std::size_t(f)] = 1;
-    std::vector<std::vector<int>> clusters = face_components(source_.edges(), std::move(marks));
+    return face_components(source_.edges(), std::move(marks));
+}
+
+std::vector<std::vector<int>> ChartRepair::promising_clusters_of(const std::vector<int>& defects) {
+    std::vector<std::vector<int>> clusters = clusters_of(defects);
     std::erase_if(clusters, [&](const std::vector<int>& cluster) {
         return std::any_of(cluster.begin(), cluster.end(), [&](int f) { return strikes_[f] >= patience; });
     });
@@ -230,13 +242,11 @@ std::vector<std::vector<int>> ChartRepair::clusters_of(const std::vector<int>& d
 
 std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
     const Timer timer("repair in charts");
-    std::vector<int> touched(std::size_t(map_.source().face_count()));
-    std::iota(touched.begin(), touched.end(), 0);
-    std::vector<int> defects = defects_among(touched), all_touched;
+    std::vector<int> defects = all_defects(), touched, all_touched;
     double budget = most_tried * std::min(map_.source().face_count(), most_counted);
     for (const int rings : ring_counts) {
         touched.clear();
-        for (const std::vector<int>& cluster : clusters_of(defects)) {
+        for (const std::vector<int>& cluster : promising_clusters_of(defects)) {
             const std::vector<int> around = source_.widened(cluster, rings + 2);
             budget -= double(around.size());
             if (budget < 0) break;
@@ -255,6 +265,25 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
     }
     make_set(all_touched);
     return all_touched;
+}
+
+std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
+    const Timer timer("kernels of stars");
+    std::vector<int> touched;
+    for (std::vector<int> cluster : clusters_of(all_defects())) {
+        const std::vector<int> faces = source_.widened(cluster, rings_of_kernels),
+                               around = source_.widened(faces, 1), free = free_within(faces, fixed);
+        const PointMap kept = points_of(free);
+        const double before = badness(around);
+        std::erase_if(cluster, [&](int f) { return !is_reversed(f); });
+        kernels_.centre(cluster, free);
+        if (badness(around, before) < before)
+            touched.insert(touched.end(), around.begin(), around.end());
+        else
+            place(free, kept);
+    }
+    make_set(touched);
+    return touched;
 }
 
 }  // namespace varimap

@@ -11,6 +11,7 @@
 #include "varimap/relaxation/laid_out.h"
 #include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/sliding_map.h"
+#include "varimap/relaxation/star_kernels.h"
 
 namespace varimap {
 
@@ -32,6 +33,9 @@ class ChartRepair {
     /// Vertices with fixed[v] stay, and those on the source's boundary. Returns the faces that may have
     /// moved, ascending.
     std::vector<int> operator()(const VertexData<bool>& fixed);
+    /// Moves single vertices where that suffices (star_kernels.h), for what is left or has come back since.
+    /// Returns the faces that may have moved, ascending.
+    std::vector<int> centre_stars(const VertexData<bool>& fixed);
     const Report& report() const { return report_; }
 
   private:
@@ -40,14 +44,16 @@ class ChartRepair {
     bool lies_reversed(int f) const;  ///< not from memory
     /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
     std::vector<int> defects_among(const std::vector<int>& faces);
+    std::vector<int> all_defects();
     /// Once it gets to `limit`, the rest is left out.
     double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
     /// too much.
     std::vector<int> enclosed_on_target(const SubMesh& part, const std::vector<int>& rim);
-    /// Defects that hang together, with the faces around them, but for those that were tried in vain often
-    /// enough.
+    /// Defects that hang together, with the faces around them.
     std::vector<std::vector<int>> clusters_of(const std::vector<int>& defects);
+    /// But for those that were tried in vain often enough.
+    std::vector<std::vector<int>> promising_clusters_of(const std::vector<int>& defects);
     Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
     /// The vertices of faces of which all lie among these, but for fixed ones.
     std::vector<int> free_within(const std::vector<int>& faces, const VertexData<bool>& fixed);
@@ -64,6 +70,7 @@ class ChartRepair {
     NormalAgreement& agreement_;
     InverseMap inverse_;
     LaidOut laid_out_;  ///< on the target
+    StarKernels kernels_;
     FaceSets source_, target_;
     FaceMemory reversed_;    ///< by laid_out_, which may look at thousands of faces
     FaceData<int> strikes_;  ///< attempts without gain

@@ -266,10 +266,13 @@ class Untangling {
         const VertexData<bool> stays = held();
         std::vector<int> left = agreement.improve(disagreeing, stays);
         ChartRepair repair(sliding_, agreement, back);
-        const std::vector<int> touched = repair(stays);
+        const auto leave = [&](const std::vector<int>& touched) {
+            left.insert(left.end(), touched.begin(), touched.end());
+        };
+        leave(repair(stays));
         // What is upright along the target may still be reversed by the normals at its corners.
         report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(last_fold_visits)}(sliding_, stays);
-        left.insert(left.end(), touched.begin(), touched.end());
+        leave(repair.centre_stars(stays));
         make_set(left);
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
         log_repair(repair.report());

@@ -1,0 +1,91 @@
+#include "varimap/relaxation/star_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/relaxation/chart_repair.h"
+#include "varimap/verification/verification.h"
+
+namespace varimap {
+namespace {
+
+class StarKernelsOfASphere : public testing::Test {
+  protected:
+    const TriangleMesh sphere_ = shapes::ellipsoid(3);
+
+    /// The identity, but for one vertex, which lies on another.
+    PointMap with_one_astray(int astray, int on) const {
+        PointMap images = shapes::at_vertices(sphere_);
+        images[std::size_t(astray)] = images[std::size_t(on)];
+        return images;
+    }
+    /// The nearest of those 1.5 edges away or more.
+    int beyond_the_star_of(int v) const {
+        const double edge = std::sqrt(surface_area(sphere_) / sphere_.face_count() * 4 / std::sqrt(3));
+        int nearest = -1;
+        const auto distance = [&](int u) { return (sphere_.vertex(u) - sphere_.vertex(v)).norm(); };
+        for (int u = 0; u < sphere_.vertex_count(); ++u)
+            if (distance(u) > 1.5 * edge && (nearest < 0 || distance(u) < distance(nearest))) nearest = u;
+        return nearest;
+    }
+    std::vector<int> reversed(const PointMap& map) const {
+        return verify_map(map, sphere_, sphere_).reversed_faces;
+    }
+    static std::vector<int> moved(const PointMap& before, const PointMap& after) {
+        std::vector<int> vertices;
+        for (std::size_t v = 0; v < before.size(); ++v)
+            if (before[v].face != after[v].face || before[v].barycentric != after[v].barycentric)
+                vertices.push_back(int(v));
+        return vertices;
+    }
+};
+
+TEST_F(StarKernelsOfASphere, TakeAVertexBackIntoItsStar) {
+    for (const int astray : {1, 100, 333}) {
+        SlidingMap map(with_one_astray(astray, beyond_the_star_of(astray)), sphere_, sphere_);
+        const PointMap before = map.points();
+        ASSERT_FALSE(reversed(before).empty());
+        const LaidOut laid_out(map.target());
+        StarKernels(map, laid_out).centre(reversed(before), {astray});
+        EXPECT_TRUE(reversed(map.points()).empty());
+        EXPECT_EQ(moved(before, map.points()), std::vector{astray});
+        // On this even mesh the centre is near the place that the vertex had.
+        EXPECT_LT((position(sphere_, map.point(astray)) - sphere_.vertex(astray)).norm(), 0.05);
+    }
+}
+
+TEST_F(StarKernelsOfASphere, LeaveWhatMayNotMoveAndWhatIsUpright) {
+    SlidingMap map(with_one_astray(100, beyond_the_star_of(100)), sphere_, sphere_);
+    const PointMap before = map.points();
+    const LaidOut laid_out(map.target());
+    StarKernels kernels(map, laid_out);
+    kernels.centre(reversed(before), {});
+    EXPECT_TRUE(moved(before, map.points()).empty());
+    kernels.centre({0, 1, 2}, {0, 1, 2, 3, 4, 5});
+    EXPECT_TRUE(moved(before, map.points()).empty());
+}
+
+TEST_F(StarKernelsOfASphere, AreCentredByTheRepairWhichSaysWhereItMovedSomething) {
+    const int astray = 100, fixed = beyond_the_star_of(astray);
+    SlidingMap map(with_one_astray(astray, fixed), sphere_, sphere_);
+    const PointMap before = map.points();
+    NormalAgreement agreement(map);
+    ChartRepair repair(map, agreement, PointMap(before.size()));
+    VertexData<bool> stays(sphere_.vertex_count());
+    stays[fixed] = true;
+    const std::vector<int> touched = repair.centre_stars(stays);
+    EXPECT_TRUE(reversed(map.points()).empty());
+    const std::vector<int> vertices = moved(before, map.points());
+    EXPECT_EQ(std::count(vertices.begin(), vertices.end(), fixed), 0);
+    for (const int v : vertices)
+        for (const int f : map.faces_of_vertex()[v])
+            EXPECT_TRUE(std::binary_search(touched.begin(), touched.end(), f));
+    EXPECT_TRUE(repair.centre_stars(stays).empty());
+}
+
+}  // namespace
+}  // namespace varimap
