@@ -15,7 +15,7 @@ namespace {
 
 using Vec2 = LogMap::Vec2;
 
-constexpr int most_rounds = 20;
+constexpr int most_rounds = 5;
 /// Sense from which on a face is upright beyond doubt. On 14 pairs .05 and .1 leave as few reversed, .3 more.
 constexpr double enough = 0.1;
 

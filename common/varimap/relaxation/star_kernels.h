@@ -19,7 +19,7 @@ class StarKernels {
         : map_(map), laid_out_(laid_out), log_map_(map.target()) {}
 
     /// Visits the corners of these faces, and then what is around those that moved, for as long as faces get
-    /// less wrong, 20 times at most. Moved are vertices of `free` (ascending; none on the source's boundary).
+    /// less wrong, 5 times at most. Moved are vertices of `free` (ascending; none on the source's boundary).
     void centre(std::vector<int> faces, const std::vector<int>& free);
 
   private:
