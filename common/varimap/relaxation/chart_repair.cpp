@@ -32,10 +32,6 @@ constexpr int most_with_care = 200;  ///< vertices
 constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
 constexpr int rings_of_kernels = 2;  ///< around defects, where vertices may be moved one by one
 const FoldEnergy polish_energy{1, 0.03};
-const RobustEnergy strain({1, 0.1}, 3);  ///< as parts that are mapped anew are compared (part_trial.h)
-/// Energy that less badness is worth. On 14 pairs 8 to 18 make errors less by half a percent, 30 by nothing:
-/// a leg mapped askew is worse than one reversed triangle. With 8, torn maps of others stay torn.
-constexpr double worth = 15;
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
 /// Of a disc on `mesh` that has to hold a part with so many faces: what is much larger is the outside of its
@@ -103,22 +99,6 @@ double ChartRepair::badness(const std::vector<int>& faces, double limit) {
     double sum = branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
     for (std::size_t i = 0; i < faces.size() && sum < limit; ++i) sum += reversed * is_reversed(faces[i]);
     return sum < limit ? sum + double(agreement_.disagreeing_among(faces).size()) : sum;
-}
-
-double ChartRepair::energy(const std::vector<int>& faces) const {
-    double sum = 0, area = 0;
-    for (const int f : faces) {
-        if (!map_.is_mapped(f)) continue;
-        const ImageTriangle image = map_.image_triangle(f);
-        sum += map_.rest(f).area * strain.value(image.q, image.D);
-        area += map_.rest(f).area;
-    }
-    return area > 0 ? sum / area * double(faces.size()) : 0;
-}
-
-bool ChartRepair::is_better(const std::vector<int>& faces, const Before& before) {
-    const double now = badness(faces, before.badness);
-    return now < before.badness && energy(faces) - before.energy < worth * (before.badness - now);
 }
 
 std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std::vector<int>& rim) {
@@ -193,7 +173,7 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     faces = source_.filled(std::move(faces), most);
     if (int(faces.size()) > most) return Outcome::no_disc;
     const std::vector<int> around = source_.widened(faces, 2);
-    const Before before = this->before(around);
+    const double before = badness(around);
     if (adopt_inverse(faces, around, before, fixed)) return Outcome::inverted;
     SubMesh disc(map_.source(), std::move(faces));
     std::vector<int> rim = disc_boundary(disc.mesh);
@@ -209,15 +189,15 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const std::vector<int> free = part.free_vertices(fixed);
     place(part.vertices(), unfolded);
     polish(free);
-    if (is_better(around, before)) return Outcome::repaired;
+    if (badness(around, before) < before) return Outcome::repaired;
     VertexData<bool> held(map_.source().vertex_count(), true);
     for (const int v : free) held[v] = false;
     agreement_.improve(agreement_.disagreeing_among(part.faces()), held);
-    if (is_better(around, before)) return Outcome::repaired;
+    if (badness(around, before) < before) return Outcome::repaired;
     if (int(free.size()) <= most_with_care) {
         place(part.vertices(), unfolded);
         polish_with_care(free);
-        if (is_better(around, before)) return Outcome::repaired;
+        if (badness(around, before) < before) return Outcome::repaired;
     }
     place(part.vertices(), kept);
     return Outcome::no_gain;
@@ -234,14 +214,14 @@ std::vector<int> ChartRepair::free_within(const std::vector<int>& faces, const V
     return free;
 }
 
-bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around,
-                                const Before& before, const VertexData<bool>& fixed) {
+bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, double before,
+                                const VertexData<bool>& fixed) {
     const std::vector<int> free = free_within(faces, fixed);
     const PointMap kept = points_of(free);
     for (const int v : free)
         if (const SurfacePoint image = inverse_(v); image.face >= 0) map_.place(v, image);
     polish(free);
-    if (is_better(around, before)) return true;
+    if (badness(around, before) < before) return true;
     place(free, kept);
     return false;
 }
@@ -294,10 +274,10 @@ std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
         const std::vector<int> faces = source_.widened(cluster, rings_of_kernels),
                                around = source_.widened(faces, 1), free = free_within(faces, fixed);
         const PointMap kept = points_of(free);
-        const Before before = this->before(around);
+        const double before = badness(around);
         std::erase_if(cluster, [&](int f) { return !is_reversed(f); });
         kernels_.centre(cluster, free);
-        if (is_better(around, before))
+        if (badness(around, before) < before)
             touched.insert(touched.end(), around.begin(), around.end());
         else
             place(free, kept);

@@ -45,15 +45,6 @@ class ChartRepair {
     /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
     std::vector<int> defects_among(const std::vector<int>& faces);
     std::vector<int> all_defects();
-    /// What some faces are like before a part of them is mapped anew.
-    struct Before {
-        double badness, energy;
-    };
-    Before before(const std::vector<int>& faces) { return {badness(faces), energy(faces)}; }
-    /// Whether they have become less bad, and not at the price of a map that is far from an isometry.
-    bool is_better(const std::vector<int>& faces, const Before& before);
-    /// Of the map, robust; in units of a face of mean area.
-    double energy(const std::vector<int>& faces) const;
     /// Once it gets to `limit`, the rest is left out.
     double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
@@ -66,8 +57,8 @@ class ChartRepair {
     Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
     /// The vertices of faces of which all lie among these, but for fixed ones.
     std::vector<int> free_within(const std::vector<int>& faces, const VertexData<bool>& fixed);
-    /// `around`: the faces that may move, which are to become better.
-    bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, const Before& before,
+    /// `before`: the badness of `around`, the faces that may move; it is to fall.
+    bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, double before,
                        const VertexData<bool>& fixed);
     void polish(std::vector<int> vertices);
     /// No vertex moves where more faces would be reversed.
