@@ -16,6 +16,8 @@ namespace {
 using Vec2 = LogMap::Vec2;
 
 constexpr int most_rounds = 5;
+/// Stars of more faces are left as they are: their deepest point would take long to find.
+constexpr std::ptrdiff_t most_faces = 64;
 /// Sense from which on a face is upright beyond doubt. On 14 pairs .05 and .1 leave as few reversed, .3 more.
 constexpr double enough = 0.1;
 
@@ -32,8 +34,7 @@ double least_depth(const std::vector<HalfPlane>& planes, const Vec2& x) {
     return least;
 }
 
-/// The point equally deep in all three, and how deep; none where two of them are (almost) parallel and the
-/// third does not tell.
+/// The point equally deep in all three, and how deep; none where there is no such point, or many.
 std::optional<Vec3> equally_deep(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c) {
     Eigen::Matrix3d equations;
     equations << a.normal.transpose(), -1, b.normal.transpose(), -1, c.normal.transpose(), -1;
@@ -93,8 +94,11 @@ bool StarKernels::move_to_centre(int v) {
     const double before = wrong_around(v);
     if (before == 0) return false;
     const SurfacePoint kept = map_.point(v), start = within_its_face(kept);
+    const auto star = map_.faces_of_vertex()[v];
+    if (std::ssize(star) > most_faces) return false;
     std::vector<HalfPlane> planes;
-    for (const int f : map_.faces_of_vertex()[v]) {
+    for (const int f : star) {
+        if (!map_.is_mapped(f)) return false;
         const int k = map_.corner_of(f, v);
         const auto seen = [&](int corner) {
             return log_map_(start, map_.point(map_.source().faces(f, corner % 3))).first;

@@ -69,6 +69,17 @@ TEST_F(StarKernelsOfASphere, LeaveWhatMayNotMoveAndWhatIsUpright) {
     EXPECT_TRUE(moved(before, map.points()).empty());
 }
 
+TEST_F(StarKernelsOfASphere, StayAsTheyAreWhereANeighbourHasNoImage) {
+    const int astray = 100;
+    PointMap images = with_one_astray(astray, beyond_the_star_of(astray));
+    images[std::size_t(vertex_neighbours(sphere_)[astray][0])].face = -1;
+    SlidingMap map(images, sphere_, sphere_);
+    const PointMap before = map.points();
+    const LaidOut laid_out(map.target());
+    StarKernels(map, laid_out).centre(reversed(before), {astray});
+    EXPECT_TRUE(moved(before, map.points()).empty());
+}
+
 TEST_F(StarKernelsOfASphere, AreCentredByTheRepairWhichSaysWhereItMovedSomething) {
     const int astray = 100, fixed = beyond_the_star_of(astray);
     SlidingMap map(with_one_astray(astray, fixed), sphere_, sphere_);
