@@ -31,6 +31,8 @@ constexpr int careful_polishing = 6;
 constexpr int most_with_care = 200;  ///< vertices
 constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
 constexpr int rings_of_kernels = 2;  ///< around defects, where vertices may be moved one by one
+/// Faces of a cluster in which that is tried: tangles of a large mesh take long, and gain nothing.
+constexpr std::ptrdiff_t most_for_kernels = 1000;
 const FoldEnergy polish_energy{1, 0.03};
 constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
@@ -271,6 +273,7 @@ std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
     const Timer timer("kernels of stars");
     std::vector<int> touched;
     for (std::vector<int> cluster : clusters_of(all_defects())) {
+        if (std::ssize(cluster) > most_for_kernels) continue;
         const std::vector<int> faces = source_.widened(cluster, rings_of_kernels),
                                around = source_.widened(faces, 1), free = free_within(faces, fixed);
         const PointMap kept = points_of(free);
