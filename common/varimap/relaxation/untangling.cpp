@@ -272,7 +272,7 @@ class Untangling {
         leave(repair(stays));
         // What is upright along the target may still be reversed by the normals at its corners.
         report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(last_fold_visits)}(sliding_, stays);
-        leave(repair.centre_stars(stays));
+        if (options_.centre_stars) leave(repair.centre_stars(stays));
         make_set(left);
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
         log_repair(repair.report());
