@@ -28,6 +28,14 @@ bool is_apart(const Surface& surface) {
            double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
 }
 
+/// Whether what is wrong on the mesh becomes a tangle on the input. Where the input has up to 5 times the
+/// vertices, maps whose vertices were moved one by one on the meshes end with a tenth fewer reversed faces;
+/// where it has 50 times, with 70% more.
+bool is_far_apart(const Surface& surface) {
+    constexpr int far = 10;
+    return surface.input.vertex_count() > far * surface.mesh.vertex_count();
+}
+
 PinnedPair none_pinned(const TriangleMesh& A, const TriangleMesh& B) {
     return {VertexData<bool>(A.vertex_count()), VertexData<bool>(B.vertex_count())};
 }
@@ -130,7 +138,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
     const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;
     if (is_apart(A) || is_apart(B)) {
-        options.centre_stars = false;
+        options.centre_stars = !is_far_apart(A) && !is_far_apart(B);
         on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, options);
         options.centre_stars = true;
         if (options.enabled) log_untangling("on the meshes", *on_meshes);

@@ -40,8 +40,7 @@ struct UntanglingOptions {
     PartReplacementOptions parts;
     bool replace_parts = true;
     bool align_normals = true;
-    /// Moves single vertices at the end (star_kernels.h): not where the map is then carried over to finer
-    /// meshes, on which fewer faces come out reversed without it.
+    /// Moves single vertices at the end (star_kernels.h).
     bool centre_stars = true;
 };
 
