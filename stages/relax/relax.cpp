@@ -138,9 +138,9 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
     const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;
     if (is_apart(A) || is_apart(B)) {
-        options.centre_stars = !is_far_apart(A) && !is_far_apart(B);
+        if (is_far_apart(A) || is_far_apart(B)) options.centre_stars = false;
         on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, options);
-        options.centre_stars = true;
+        options.centre_stars = params.untangling.centre_stars;
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = fine_sweeps;
