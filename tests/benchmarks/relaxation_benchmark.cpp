@@ -69,7 +69,8 @@ void normal_check(benchmark::State& state) {
     SlidingMap map(turned.images, turned.mesh, turned.mesh);
     for (auto _ : state) {
         state.PauseTiming();
-        NormalAgreement agreement(map);  // it remembers
+        AlongTarget along_target(map);
+        NormalAgreement agreement(map, along_target);  // it remembers
         state.ResumeTiming();
         benchmark::DoNotOptimize(agreement.disagreeing_faces().size());
     }

@@ -25,11 +25,13 @@ struct SubMesh {
 /// genus 0, one boundary that touches itself nowhere).
 std::vector<int> disc_boundary(const TriangleMesh& mesh);
 
-/// Tutte's embedding of a disc with the mean-value weights of Floater (2003), made symmetric: every vertex of
-/// the result, which lies in the plane z = 0, is a mean of its neighbours with positive weights, and
-/// `boundary` (as disc_boundary gives it) has the positions of `rim`, one per row. Positive throughout if
-/// these are the corners of a strictly convex polygon, counter-clockwise.
-Points tutte_embedding(const TriangleMesh& disc, const std::vector<int>& boundary, const Points& rim);
+/// Tutte's embedding of a disc: every vertex of the result, which lies in the plane z = 0, is a mean of its
+/// neighbours with positive weights, and `boundary` (as disc_boundary gives it) has the positions of `rim`,
+/// one per row. Positive throughout if these are the corners of a strictly convex polygon, counter-clockwise.
+/// The weights are the mean-value ones of Floater (2003), made symmetric, and then made smaller where areas
+/// have shrunk, and once more, so that areas become more even (Yoshizawa et al. 2004): with the first ones a
+/// limb shrinks by exp(-2 pi length / girth).
+Points even_embedding(const TriangleMesh& disc, const std::vector<int>& boundary, const Points& rim);
 /// The same onto the unit circle, which is divided as the lengths along the boundary are.
 TriangleMesh circular_chart(const TriangleMesh& disc, const std::vector<int>& boundary);
 

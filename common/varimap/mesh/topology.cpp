@@ -52,6 +52,14 @@ Adjacency vertex_faces(const TriangleMesh& mesh) {
     return result;
 }
 
+std::vector<int> vertices_of(const TriangleMesh& mesh, std::span<const int> faces) {
+    std::vector<int> vertices;
+    for (const int f : faces)
+        for (int k = 0; k < 3; ++k) vertices.push_back(mesh.faces(f, k));
+    make_set(vertices);
+    return vertices;
+}
+
 Adjacency vertex_neighbours(const TriangleMesh& mesh) {
     const Adjacency faces = vertex_faces(mesh);
     Adjacency result;

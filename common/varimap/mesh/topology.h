@@ -25,6 +25,9 @@ Adjacency vertex_faces(const TriangleMesh& mesh);
 /// Per vertex: the vertices it shares an edge with, ascending.
 Adjacency vertex_neighbours(const TriangleMesh& mesh);
 
+/// The vertices that some faces use, ascending.
+std::vector<int> vertices_of(const TriangleMesh& mesh, std::span<const int> faces);
+
 /// Per vertex: the length of its longest edge, which is as far as its faces go from it; 0 without a face.
 VertexData<double> longest_edges(const TriangleMesh& mesh);
 

@@ -1,40 +1,45 @@
 #include "varimap/relaxation/branch_points.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace varimap {
 
-double winding_number(const SlidingMap& map, int v) {
+namespace {
+
+/// How often a side of a polygon crosses the positive first axis, counted from right to left.
+int crossing(double ax, double ay, double bx, double by) {
+    if ((ay < 0) == (by < 0)) return 0;
+    const bool is_leftward = ay < 0;
+    const double turn = ax * by - ay * bx;
+    if (is_leftward) return turn > 0;
+    return -(turn < 0);
+}
+
+}  // namespace
+
+int winding_number(const SlidingMap& map, int v) {
     const auto faces = map.faces_of_vertex()[v];
     Vec3 axis = Vec3::Zero();
-    std::vector<int> around;
+    for (const int f : faces)
+        if (map.is_mapped(f)) axis += map.normal_sum(f);
+    const Vec3 first = axis.unitOrthogonal(), second = axis.cross(first);
+    int turns = 0;
     for (const int f : faces) {
-        if (!map.is_mapped(f)) return 0;
-        axis += map.mean_normal(f);
-        const int k = map.corner_of(f, v);
-        around.push_back(map.source().faces(f, (k + 1) % 3));
-        around.push_back(map.source().faces(f, (k + 2) % 3));
+        if (!map.is_mapped(f)) continue;
+        const auto [a, b] = map.image_sides(f, map.corner_of(f, v));
+        turns += crossing(first.dot(a), second.dot(a), first.dot(b), second.dot(b));
     }
-    axis.normalize();
-    double turns = 0;
-    for (std::size_t i = 0; i < around.size(); i += 2) {
-        const Vec3 a = map.image(around[i]) - map.image(v), b = map.image(around[i + 1]) - map.image(v);
-        turns += std::atan2(axis.dot(a.cross(b)), a.dot(b) - a.dot(axis) * b.dot(axis));
-    }
-    // On a boundary some vertex is beside one face only.
-    std::sort(around.begin(), around.end());
-    for (std::size_t i = 0; i < around.size(); i += 2)
-        if (i + 1 == around.size() || around[i] != around[i + 1]) return 0;
-    return turns / (2 * std::numbers::pi);
+    return turns;
 }
 
 std::vector<int> branch_points(const SlidingMap& map, const std::vector<int>& vertices) {
     std::vector<int> found;
     for (const int v : vertices)
-        if (winding_number(map, v) > 1.5) found.push_back(v);
+        if (winding_number(map, v) > 1) found.push_back(v);
     return found;
+}
+
+void BranchGuard::watch(int v) {
+    watched_ = vertices_of(map_.source(), map_.faces_of_vertex()[v]);
+    most_ = count();
 }
 
 }  // namespace varimap

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <unordered_map>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/triangle_strip.h"
-#include "varimap/relaxation/branch_points.h"
 #include "varimap/relaxation/local_relaxation.h"
 
 namespace varimap {
@@ -34,7 +32,6 @@ constexpr int rings_of_kernels = 2;  ///< around defects, where vertices may be 
 /// Faces of a cluster in which that is tried: tangles of a large mesh take long, and gain nothing.
 constexpr std::ptrdiff_t most_for_kernels = 1000;
 const FoldEnergy polish_energy{1, 0.03};
-constexpr double upright = 0.05;  ///< least sense of a face; those below may be reversed for another judge
 
 /// Of a disc on `mesh` that has to hold a part with so many faces: what is much larger is the outside of its
 /// rim, and would be walked over in vain.
@@ -43,45 +40,29 @@ int most_faces(const TriangleMesh& mesh, double part) {
     return std::min(most, least_part + int(most_filled * part));
 }
 
-std::vector<int> vertices_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
-    std::vector<int> vertices;
-    for (const int f : faces)
-        for (int k = 0; k < 3; ++k) vertices.push_back(mesh.faces(f, k));
-    make_set(vertices);
-    return vertices;
-}
-
 }  // namespace
 
-ChartRepair::ChartRepair(SlidingMap& map, NormalAgreement& agreement, const PointMap& back)
+ChartRepair::ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgreement& agreement,
+                         const PointMap& back)
     : map_(map),
+      along_target_(along_target),
       agreement_(agreement),
       inverse_(map, back),
-      laid_out_(map.target()),
-      kernels_(map, laid_out_),
+      kernels_(map, along_target),
       source_(map.source()),
       target_(map.target()),
-      reversed_(map),
       strikes_(map.source().face_count(), 0) {}
-
-bool ChartRepair::is_reversed(int f) {
-    return reversed_(f, [&](int g) { return lies_reversed(g); });
-}
-
-bool ChartRepair::lies_reversed(int f) const {
-    if (!map_.is_mapped(f) || agreement_.lies_within_a_star(f)) return false;
-    const auto c = map_.source().faces.row(f);
-    return !(laid_out_.sense({map_.point(c[0]), map_.point(c[1]), map_.point(c[2])}) > upright);
-}
 
 std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
     std::vector<char> marks(faces.size(), 0);
-    parallel_for_each_index(int(faces.size()), 64,
-                            [&](int i) { marks[std::size_t(i)] = is_reversed(faces[std::size_t(i)]); });
+    parallel_for_each_index(int(faces.size()), 64, [&](int i) {
+        marks[std::size_t(i)] = along_target_.is_reversed(faces[std::size_t(i)]);
+    });
     std::vector<int> defects;
     for (std::size_t i = 0; i < faces.size(); ++i)
         if (marks[i]) defects.push_back(faces[i]);
-    for (const int v : branch_points(map_, vertices_of(map_.source(), faces))) {
+    for (const int v : vertices_of(map_.source(), faces)) {
+        if (!along_target_.is_branch_point(v)) continue;
         const auto star = map_.faces_of_vertex()[v];
         defects.insert(defects.end(), star.begin(), star.end());
     }
@@ -98,8 +79,12 @@ std::vector<int> ChartRepair::all_defects() {
 double ChartRepair::badness(const std::vector<int>& faces, double limit) {
     // That a face cuts through the target is worth less than that it is reversed.
     constexpr double reversed = 4, branch = 12;
-    double sum = branch * double(branch_points(map_, vertices_of(map_.source(), faces)).size());
-    for (std::size_t i = 0; i < faces.size() && sum < limit; ++i) sum += reversed * is_reversed(faces[i]);
+    double sum = 0;
+    for (std::size_t i = 0; i < faces.size() && sum < limit; ++i)
+        sum += reversed * along_target_.is_reversed(faces[i]);
+    const std::vector<int> vertices = vertices_of(map_.source(), faces);
+    for (std::size_t i = 0; i < vertices.size() && sum < limit; ++i)
+        sum += branch * along_target_.is_branch_point(vertices[i]);
     return sum < limit ? sum + double(agreement_.disagreeing_among(faces).size()) : sum;
 }
 
@@ -142,29 +127,15 @@ void ChartRepair::polish(std::vector<int> vertices) {
 
 void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
     LocalRelaxation local(map_, 7);
-    std::unordered_map<int, bool> reversed;
-    for (const int v : vertices)
-        for (const int f : map_.faces_of_vertex()[v])
-            if (const auto [entry, is_new] = reversed.try_emplace(f, false); is_new)
-                entry->second = is_reversed(f);
     std::vector<int> one(1);
     for (int i = 0; i < careful_polishing; ++i)
         for (const int v : vertices) {
             const SurfacePoint point = map_.point(v);
+            const auto faults = along_target_.faults_around(v);
             one[0] = v;
             local.sweep(one, polish_energy);
             if (map_.point(v).face == point.face && map_.point(v).barycentric == point.barycentric) continue;
-            const auto faces = map_.faces_of_vertex()[v];
-            std::vector<bool> now;
-            int more = 0;
-            for (const int f : faces) {
-                now.push_back(is_reversed(f));
-                more += int(now.back()) - int(reversed[f]);
-            }
-            if (more > 0)
-                map_.place(v, point);
-            else
-                for (std::size_t n = 0; n < faces.size(); ++n) reversed[faces[n]] = now[n];
+            if (along_target_.faults_around(v).more_than(faults)) map_.place(v, point);
         }
 }
 
@@ -278,7 +249,7 @@ std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
                                around = source_.widened(faces, 1), free = free_within(faces, fixed);
         const PointMap kept = points_of(free);
         const double before = badness(around);
-        std::erase_if(cluster, [&](int f) { return !is_reversed(f); });
+        std::erase_if(cluster, [&](int f) { return !along_target_.is_reversed(f); });
         kernels_.centre(cluster, free);
         if (badness(around, before) < before)
             touched.insert(touched.end(), around.begin(), around.end());

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "varimap/mesh/disc.h"
+#include "varimap/relaxation/along_target.h"
 #include "varimap/relaxation/charted_part.h"
-#include "varimap/relaxation/face_memory.h"
 #include "varimap/relaxation/inverse_map.h"
-#include "varimap/relaxation/laid_out.h"
 #include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/sliding_map.h"
 #include "varimap/relaxation/star_kernels.h"
@@ -16,8 +15,8 @@
 namespace varimap {
 
 /// Repairs what sliding cannot: folds around branch points, where the map covers the target twice, and
-/// vertices on the wrong side of a thin part. Defects are faces reversed along the target (laid_out.h) and
-/// branch points (branch_points.h). They are widened, ring by ring; the part takes the images that the other
+/// vertices on the wrong side of a thin part. Defects are faces reversed along the target and
+/// branch points (along_target.h). They are widened, ring by ring; the part takes the images that the other
 /// direction, inverted, has for it, or, where it is a disc, is mapped anew in the plane (charted_part.h).
 /// What comes of it is relaxed on the target and kept if there are fewer defects than before.
 class ChartRepair {
@@ -28,7 +27,7 @@ class ChartRepair {
     };
 
     /// Keeps references. `back`: the other direction.
-    ChartRepair(SlidingMap& map, NormalAgreement& agreement, const PointMap& back);
+    ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgreement& agreement, const PointMap& back);
 
     /// Vertices with fixed[v] stay, and those on the source's boundary. Returns the faces that may have
     /// moved, ascending.
@@ -39,9 +38,6 @@ class ChartRepair {
     const Report& report() const { return report_; }
 
   private:
-    /// Along the target.
-    bool is_reversed(int f);
-    bool lies_reversed(int f) const;  ///< not from memory
     /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
     std::vector<int> defects_among(const std::vector<int>& faces);
     std::vector<int> all_defects();
@@ -67,12 +63,11 @@ class ChartRepair {
     void place(const std::vector<int>& vertices, const PointMap& points);
 
     SlidingMap& map_;
+    AlongTarget& along_target_;
     NormalAgreement& agreement_;
     InverseMap inverse_;
-    LaidOut laid_out_;  ///< on the target
     StarKernels kernels_;
     FaceSets source_, target_;
-    FaceMemory reversed_;    ///< by laid_out_, which may look at thousands of faces
     FaceData<int> strikes_;  ///< attempts without gain
     Report report_;
 };

@@ -89,7 +89,7 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
     for (const int v : part_.vertex) present.push_back(goal_.on_part(map.point(v)));
     // Two starts: where the images are, and where Tutte has them, which the polygon's corners may fold.
     const TriangleMesh flat = circular_chart(part_.mesh, rim_);
-    const Points even = tutte_embedding(part_.mesh, rim_, corners_);
+    const Points even = even_embedding(part_.mesh, rim_, corners_);
     const ClosestPoint closest(chart_);
     for (const bool anew : {false, true}) {
         PointMap images = present;

@@ -10,13 +10,14 @@ namespace varimap {
 /// Remembers what was found of faces of the source for as long as their corners' images are where they were
 /// when it was found. For judgements that take long and depend on nothing else. Keeps a reference to the map.
 /// Threads may ask for different faces at once.
+template <class Answer>
 class FaceMemory {
   public:
     explicit FaceMemory(const SlidingMap& map) : map_(map), known_(map.source().face_count()) {}
 
-    /// judge(f), a bool; from memory where it can be.
+    /// judge(f); from memory where it can be.
     template <class Judge>
-    bool operator()(int f, const Judge& judge) {
+    const Answer& operator()(int f, const Judge& judge) {
         Known& known = known_[f];
         if (const std::uint64_t place = place_of(f); known.place != place) known = {place, judge(f)};
         return known.answer;
@@ -40,7 +41,7 @@ class FaceMemory {
 
     struct Known {
         std::uint64_t place = 0;
-        bool answer = false;
+        Answer answer{};
     };
     const SlidingMap& map_;
     FaceData<Known> known_;

@@ -6,18 +6,21 @@
 
 namespace varimap {
 
-double LaidOut::sense(const std::array<SurfacePoint, 3>& corners) const {
+Lie LaidOut::operator()(const std::array<SurfacePoint, 3>& corners) const {
     using Vec2 = LogMap::Vec2;
     std::array<std::pair<Vec2, Vec2>, 3> sides;  // from each corner to the next, and back
     for (std::size_t k = 0; k < 3; ++k) sides[k] = log_map_(corners[k], corners[(k + 1) % 3]);
+    Lie lie;
     double sum = 0, size = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec2 &ahead = sides[k].first, &back = sides[(k + 2) % 3].second;
         const double twice_area = cross(ahead, back);
         sum += twice_area;
         size += std::abs(twice_area);
+        lie.turns[k] = std::atan2(twice_area, ahead.dot(back));
     }
-    return sum / size;
+    lie.sense = sum / size;
+    return lie;
 }
 
 }  // namespace varimap

@@ -56,6 +56,7 @@ Star::Quadratic Star::quadratic(const Vec3& x, const Vec3& normal, const Tangent
         const Eigen::Vector2d q = frame.transpose() * gradient.q / rest.area;
         const Eigen::Vector2d D = frame.transpose() * gradient.D / (2 * rest.area);
         sum.value += rest.area * d.f;
+        sum.has_reversed = sum.has_reversed || image.D <= 0;
         sum.gradient += rest.area * (d.f_q * q + d.f_D * D);
         sum.hessian += rest.area * gradient_products(q, D, d.f_qD, d.f_DD);
         sum.hessian.diagonal().array() += d.f_q * (cj + ck);
@@ -126,7 +127,7 @@ void LocalRelaxation::shuffle(std::vector<int>& vertices) {
 bool LocalRelaxation::try_walk(int v, const SurfacePoint& from, const Vec3& step, double before,
                                const FoldEnergy& energy) {
     map_.place(v, map_.walk(from, step));
-    return star_.energy(map_.image(v), map_.normal(v), energy, before) < before;
+    return star_.energy(map_.image(v), map_.normal(v), energy, before) < before && guard_.allows();
 }
 
 void LocalRelaxation::newton_step(int v, const FoldEnergy& energy) {
@@ -137,6 +138,8 @@ void LocalRelaxation::newton_step(int v, const FoldEnergy& energy) {
     if (!(length > 1e-12)) return;
     if (length > limit) step *= limit / length;
     const SurfacePoint start = map_.point(v);
+    guard_.rest();
+    if (quadratic.has_reversed) guard_.watch(v);
     for (int i = 0; i <= backtracks; ++i, step /= 2)
         if (try_walk(v, start, step, quadratic.value, energy)) return;
     map_.place(v, start);
@@ -147,6 +150,7 @@ void LocalRelaxation::leap_to_mean(int v, const FoldEnergy& energy) {
     if (!star_.mean_of_others(mean)) return;
     const Vec3 step = mean - map_.image(v);
     const SurfacePoint start = map_.point(v);
+    guard_.watch(v);
     const double before =
         star_.energy(map_.image(v), map_.normal(v), energy, std::numeric_limits<double>::infinity());
     for (const double share : {1.0, 0.5, 0.25, 2.0})

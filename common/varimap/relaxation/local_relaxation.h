@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "varimap/relaxation/branch_points.h"
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -16,6 +17,7 @@ class Star {
         double value = 0;
         Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
         Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+        bool has_reversed = false;
     };
 
     void gather(const SlidingMap& map, int v);
@@ -39,10 +41,11 @@ class Star {
 
 /// Block-coordinate descent of the fold energy: vertices in random order (fixed seed), each by one Newton
 /// step in the tangent plane of its image with up to 7 backtracks, every trial a straightest walk judged by
-/// the true energy of the vertex's faces, which therefore never grows.
+/// the true energy of the vertex's faces, which therefore never grows. Where a face is reversed, a place
+/// that makes a branch point is refused.
 class LocalRelaxation {
   public:
-    LocalRelaxation(SlidingMap& map, std::uint32_t seed) : map_(map), state_(seed) {}
+    LocalRelaxation(SlidingMap& map, std::uint32_t seed) : map_(map), state_(seed), guard_(map) {}
 
     /// One visit of every vertex of `vertices` (none may be a landmark or without an image); reorders them.
     void sweep(std::vector<int>& vertices, const FoldEnergy& energy);
@@ -61,6 +64,7 @@ class LocalRelaxation {
     SlidingMap& map_;
     std::uint32_t state_;
     Star star_;  ///< of the vertex under visit
+    BranchGuard guard_;
 };
 
 }  // namespace varimap

@@ -30,41 +30,14 @@ const std::array<Vec3, 7> inner_points{Vec3(1, 1, 1) / 3,  Vec3(.7, .15, .15),  
 
 }  // namespace
 
-NormalAgreement::NormalAgreement(SlidingMap& map)
-    : map_(map), closest_(map.target()), target_faces_(vertex_faces(map.target())), disagreement_(map) {}
-
-bool NormalAgreement::lies_within_a_star(int f, const Vec3& normal) const {
-    const TriangleMesh& target = map_.target();
-    const auto c = map_.source().faces.row(f);
-    const auto holds = [&](int corner, int vertex) {
-        const auto face = target.faces.row(map_.point(c[corner]).face);
-        return face[0] == vertex || face[1] == vertex || face[2] == vertex;
-    };
-    for (int k = 0; k < 3; ++k) {
-        const int vertex = target.faces(map_.point(c[0]).face, k);
-        if (!holds(1, vertex) || !holds(2, vertex)) continue;
-        const auto star = target_faces_[vertex];
-        if (std::all_of(star.begin(), star.end(),
-                        [&](int g) { return normal.dot(face_normal(target, g)) > 0; }))
-            return true;
-    }
-    return false;
-}
-
-Vec3 NormalAgreement::chord_normal(int f) const {
-    const auto c = map_.source().faces.row(f);
-    return (map_.image(c[1]) - map_.image(c[0])).cross(map_.image(c[2]) - map_.image(c[0]));
-}
-
-bool NormalAgreement::lies_within_a_star(int f) const {
-    return lies_within_a_star(f, chord_normal(f));
-}
+NormalAgreement::NormalAgreement(SlidingMap& map, AlongTarget& along_target)
+    : map_(map), along_target_(along_target), closest_(map.target()), disagreement_(map) {}
 
 bool NormalAgreement::disagrees(int f) const {
     const auto c = map_.source().faces.row(f);
     const Vec3 &x = map_.image(c[0]), &y = map_.image(c[1]), &z = map_.image(c[2]);
-    const Vec3 normal = chord_normal(f);
-    if (lies_within_a_star(f, normal)) return false;
+    const Vec3 normal = map_.chord_normal(f);
+    if (along_target_.lies_within_a_star(f, normal)) return false;
     Vec3 below = Vec3::Zero();
     std::size_t left = inner_points.size();
     int face = map_.point(c[0]).face;
@@ -134,8 +107,13 @@ bool NormalAgreement::search(int v) {
             map_.place(v, map_.walk(start, step));
             if (const double c = cost(v, least); c < least) least = c, best = map_.point(v);
         }
+    map_.place(v, start);
+    if (!(least < before)) return false;
+    const auto faults = along_target_.faults_around(v);
     map_.place(v, best);
-    return least < before;
+    if (!along_target_.faults_around(v).more_than(faults)) return true;
+    map_.place(v, start);
+    return false;
 }
 
 std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const VertexData<bool>& fixed) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "varimap/core/indexed.h"
@@ -38,11 +39,25 @@ class SlidingMap {
     }
     /// Position in space of a vertex's image.
     const Vec3& image(int v) const { return image_[v]; }
-    /// Unit mean of the target's normals at a face's three images; zero where they cancel.
-    Vec3 mean_normal(int f) const { return sum_of_normals(f).normalized(); }
+    /// Sum of the target's normals at a face's three images.
+    Vec3 normal_sum(int f) const {
+        const auto corners = source_.faces.row(f);
+        return normal_[corners[0]] + normal_[corners[1]] + normal_[corners[2]];
+    }
+    /// From the image of corner k of a face to those of the next corner and of the one after.
+    std::pair<Vec3, Vec3> image_sides(int f, int k) const {
+        const auto corners = source_.faces.row(f);
+        const Vec3& x = image_[corners[k]];
+        return {image_[corners[(k + 1) % 3]] - x, image_[corners[(k + 2) % 3]] - x};
+    }
+    /// Normal of a face's straight image, of twice its area.
+    Vec3 chord_normal(int f) const {
+        const auto [a, b] = image_sides(f, 0);
+        return a.cross(b);
+    }
     ImageTriangle image_triangle(int f) const {
         const auto corners = source_.faces.row(f);
-        return {rest_[f], image_[corners[0]], image_[corners[1]], image_[corners[2]], sum_of_normals(f)};
+        return {rest_[f], image_[corners[0]], image_[corners[1]], image_[corners[2]], normal_sum(f)};
     }
     /// Of the target's face that holds the image.
     const TangentFrame& tangents(int v) const { return frames_[points_[v].face]; }
@@ -68,11 +83,6 @@ class SlidingMap {
     const Vec3& normal(int v) const { return normal_[v]; }
 
   private:
-    Vec3 sum_of_normals(int f) const {
-        const auto corners = source_.faces.row(f);
-        return normal_[corners[0]] + normal_[corners[1]] + normal_[corners[2]];
-    }
-
     TriangleMesh source_, target_, normals_;  ///< normals_: the target's, as a mesh to interpolate on
     FaceData<RestTriangle> rest_;
     Adjacency faces_of_vertex_;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "varimap/core/index_set.h"
 #include "varimap/core/plane.h"
 
 namespace varimap {
@@ -77,14 +76,12 @@ Vec3 in_space(const Vec2& seen, const TriangleMesh& mesh, int face) {
 
 }  // namespace
 
-double StarKernels::wrong(int f) const {
-    if (!map_.is_mapped(f)) return 0;
-    const auto c = map_.source().faces.row(f);
-    const double sense = laid_out_.sense({map_.point(c[0]), map_.point(c[1]), map_.point(c[2])});
+double StarKernels::wrong(int f) {
+    const double sense = along_target_.sense(f);
     return std::isnan(sense) ? 1 + enough : std::max(0.0, enough - sense);
 }
 
-double StarKernels::wrong_around(int v) const {
+double StarKernels::wrong_around(int v) {
     double sum = 0;
     for (const int f : map_.faces_of_vertex()[v]) sum += wrong(f);
     return sum;
@@ -111,10 +108,13 @@ bool StarKernels::move_to_centre(int v) {
     }
     const std::optional<Vec2> centre = deepest(planes);
     if (!centre) return false;
+    const int branch_points = along_target_.faults_around(v).branch_points;
     const Vec3 step = in_space(*centre, map_.target(), start.face);
     for (const double share : {1.0, 0.5, 0.25, 0.125}) {
         map_.place(v, map_.walk(start, share * step));
-        if (wrong_around(v) < before * (1 - 1e-6)) return true;
+        if (wrong_around(v) < before * (1 - 1e-6) &&
+            along_target_.faults_around(v).branch_points <= branch_points)
+            return true;
     }
     map_.place(v, kept);
     return false;
@@ -122,11 +122,7 @@ bool StarKernels::move_to_centre(int v) {
 
 void StarKernels::centre(std::vector<int> faces, const std::vector<int>& free) {
     for (int round = 0; round < most_rounds && !faces.empty(); ++round) {
-        std::vector<int> vertices;
-        for (const int f : std::exchange(faces, {}))
-            for (int k = 0; k < 3; ++k) vertices.push_back(map_.source().faces(f, k));
-        make_set(vertices);
-        for (const int v : vertices) {
+        for (const int v : vertices_of(map_.source(), std::exchange(faces, {}))) {
             if (!std::binary_search(free.begin(), free.end(), v) || !move_to_centre(v)) continue;
             const auto star = map_.faces_of_vertex()[v];
             faces.insert(faces.end(), star.begin(), star.end());

@@ -192,6 +192,9 @@ class Untangling {
     void end_relaxation(const Round& round) {
         if (relaxation_) report_.global_steps += relaxation_->steps();
         relaxation_.reset();
+        // Folds of a map that was carried over are left to the repair in charts, which makes fewer branch
+        // points of them.
+        if (options_.local_sweeps > 0 && options_.align_normals) return;
         report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(round.fold_visits)}(sliding_, held());
     }
 
@@ -260,18 +263,22 @@ class Untangling {
         return held;
     }
     void align_normals(const PointMap& back) {
-        NormalAgreement agreement(sliding_);
-        const std::vector<int> disagreeing = agreement.disagreeing_faces();
-        report_.disagreeing_before = int(disagreeing.size());
+        AlongTarget along_target(sliding_);
+        NormalAgreement agreement(sliding_, along_target);
+        std::vector<int> left = agreement.disagreeing_faces();
+        report_.disagreeing_before = int(left.size());
         const VertexData<bool> stays = held();
-        std::vector<int> left = agreement.improve(disagreeing, stays);
-        ChartRepair repair(sliding_, agreement, back);
+        ChartRepair repair(sliding_, along_target, agreement, back);
         const auto leave = [&](const std::vector<int>& touched) {
             left.insert(left.end(), touched.begin(), touched.end());
         };
         leave(repair(stays));
+        make_set(left);
+        left = agreement.improve(agreement.disagreeing_among(left), stays);
         // What is upright along the target may still be reversed by the normals at its corners.
         report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(last_fold_visits)}(sliding_, stays);
+        // What was no disc, or had no simple rim, may be one now.
+        leave(repair(stays));
         if (options_.centre_stars) leave(repair.centre_stars(stays));
         make_set(left);
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());

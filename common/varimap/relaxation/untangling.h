@@ -62,7 +62,8 @@ struct PinnedPair {
 ///     surroundings or the other direction's inverse have it;
 ///  3. the first step once more, with less regularisation;
 ///  4. the maps settled into each other's inverse and the area bound (area_bound.h);
-///  5. faces that cut through thin features turned the target's way (normal_agreement.h).
+///  5. what is reversed along the target mapped anew in charts (chart_repair.h), and faces that cut through
+///     thin features turned the target's way (normal_agreement.h).
 /// Parts that are mirrored in the end stay so: a map that is made flip-free there would be wrong all the
 /// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic: the
 /// two directions run side by side, each serial.

@@ -67,7 +67,7 @@ TEST(DiscBoundary, IsEmptyForWhatIsNoDisc) {
     EXPECT_THAT(disc_boundary(SubMesh(square, corner_to_corner).mesh), IsEmpty()) << "touches itself";
 }
 
-TEST(Tutte, IsPositiveOnTheCircle) {
+TEST(EvenEmbedding, IsPositiveOnTheCircle) {
     const TriangleMesh whole = shapes::ellipsoid(4, {1, 2, 0.2});
     const SubMesh cap(whole, faces_where(whole, [](const Vec3& p) { return p.y() > 0.4; }));
     const TriangleMesh chart = circular_chart(cap.mesh, disc_boundary(cap.mesh));
@@ -75,13 +75,28 @@ TEST(Tutte, IsPositiveOnTheCircle) {
     for (const int v : disc_boundary(cap.mesh)) EXPECT_NEAR(chart.vertex(v).norm(), 1, 1e-12);
 }
 
-TEST(Tutte, KeepsAPlaneDisc) {
+TEST(EvenEmbedding, KeepsAPlaneDisc) {
     // Mean-value coordinates have linear precision; made symmetric, on a grid of equal squares.
     const TriangleMesh square = shapes::square(6);
     const std::vector<int> boundary = disc_boundary(square);
     const Points rim = square.vertices(boundary, Eigen::all);
-    const Points embedded = tutte_embedding(square, boundary, rim);
+    const Points embedded = even_embedding(square, boundary, rim);
     EXPECT_LT((embedded - square.vertices).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(EvenEmbedding, LeavesRoomForTheEndOfALimb) {
+    const TriangleMesh whole = shapes::tube(60, 16, true);
+    const SubMesh limb(whole, faces_where(whole, [](const Vec3& p) { return p.x() > 0.5; }));
+    const TriangleMesh chart = circular_chart(limb.mesh, disc_boundary(limb.mesh));
+    double tip = 0, all = 0;
+    for (int f = 0; f < chart.face_count(); ++f) {
+        const double area = signed_area(chart, f);
+        EXPECT_GT(area, 0);
+        all += area;
+        if (limb.mesh.vertex(limb.mesh.faces(f, 0)).x() > 3.5) tip += area;
+    }
+    // As the mean-value weights alone have it: 4e-11.
+    EXPECT_GT(tip / all, 1e-4);
 }
 
 TEST(FaceSets, FillHolesUpToASize) {

@@ -11,7 +11,7 @@ namespace {
 TEST(FaceMemory, JudgesAFaceAgainOnlyWhereACornersImageMoved) {
     const TriangleMesh mesh = shapes::ellipsoid(2, {1, 1, 1});
     SlidingMap map(shapes::at_vertices(mesh), mesh, mesh);
-    FaceMemory memory(map);
+    FaceMemory<bool> memory(map);
     int judged = 0;
     const auto is_even = [&](int f) { return ++judged, f % 2 == 0; };
     for (int round = 0; round < 2; ++round)

@@ -47,7 +47,8 @@ TEST(NormalAgreement, FindsFacesThatCutThroughARim) {
     const TriangleMesh mesh = plate();
     const SlidingMap map(cut_through(mesh), mesh, mesh);
     SlidingMap copy = map;
-    const std::vector<int> found = NormalAgreement(copy).disagreeing_faces();
+    AlongTarget along_target(copy);
+    const std::vector<int> found = NormalAgreement(copy, along_target).disagreeing_faces();
     EXPECT_FALSE(found.empty());
     EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](int f) { return map.image_triangle(f).D > 0; }))
         << "none is upright by the normals at its corners";
@@ -58,7 +59,8 @@ TEST(NormalAgreement, FindsFacesThatCutThroughARim) {
 TEST(NormalAgreement, TurnsThem) {
     const TriangleMesh mesh = plate();
     SlidingMap map(cut_through(mesh), mesh, mesh);
-    NormalAgreement agreement(map);
+    AlongTarget along_target(map);
+    NormalAgreement agreement(map, along_target);
     const std::size_t before = agreement.disagreeing_faces().size();
     const std::vector<int> left = agreement.improve(agreement.disagreeing_faces(), none(mesh));
     EXPECT_EQ(left, agreement.disagreeing_faces());
@@ -69,7 +71,8 @@ TEST(NormalAgreement, TurnsThem) {
 TEST(NormalAgreement, HasNothingToDoOnAGoodMap) {
     for (const TriangleMesh& mesh : {plate(), shapes::torus(1, 0.4, 40, 16), shapes::tube(30, 16, true)}) {
         SlidingMap map(shapes::at_vertices(mesh), mesh, mesh);
-        NormalAgreement agreement(map);
+        AlongTarget along_target(map);
+        NormalAgreement agreement(map, along_target);
         EXPECT_TRUE(agreement.disagreeing_faces().empty());
     }
 }
@@ -80,7 +83,8 @@ TEST(NormalAgreement, DoesNotAddReversedImages) {
         SlidingMap map(shapes::noisy_identity(mesh, noise), mesh, mesh);
         const int before = reversed_images(map);
         EXPECT_GT(before, 0);
-        NormalAgreement agreement(map);
+        AlongTarget along_target(map);
+        NormalAgreement agreement(map, along_target);
         agreement.improve(agreement.disagreeing_faces(), none(mesh));
         EXPECT_LE(reversed_images(map), before);
     }
@@ -92,7 +96,8 @@ TEST(NormalAgreement, KeepsFixedVertices) {
     VertexData<bool> fixed = none(mesh);
     for (int v = 0; v < fixed.size(); v += 2) fixed[v] = 1;
     SlidingMap map(before, mesh, mesh);
-    NormalAgreement agreement(map);
+    AlongTarget along_target(map);
+    NormalAgreement agreement(map, along_target);
     const std::vector<int> disagreeing = agreement.disagreeing_faces();
     EXPECT_LT(agreement.improve(disagreeing, fixed).size(), disagreeing.size());
     for (int v = 0; v < fixed.size(); v += 2) {

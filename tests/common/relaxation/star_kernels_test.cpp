@@ -49,8 +49,8 @@ TEST_F(StarKernelsOfASphere, TakeAVertexBackIntoItsStar) {
         SlidingMap map(with_one_astray(astray, beyond_the_star_of(astray)), sphere_, sphere_);
         const PointMap before = map.points();
         ASSERT_FALSE(reversed(before).empty());
-        const LaidOut laid_out(map.target());
-        StarKernels(map, laid_out).centre(reversed(before), {astray});
+        AlongTarget along_target(map);
+        StarKernels(map, along_target).centre(reversed(before), {astray});
         EXPECT_TRUE(reversed(map.points()).empty());
         EXPECT_EQ(moved(before, map.points()), std::vector{astray});
         // On this even mesh the centre is near the place that the vertex had.
@@ -61,8 +61,8 @@ TEST_F(StarKernelsOfASphere, TakeAVertexBackIntoItsStar) {
 TEST_F(StarKernelsOfASphere, LeaveWhatMayNotMoveAndWhatIsUpright) {
     SlidingMap map(with_one_astray(100, beyond_the_star_of(100)), sphere_, sphere_);
     const PointMap before = map.points();
-    const LaidOut laid_out(map.target());
-    StarKernels kernels(map, laid_out);
+    AlongTarget along_target(map);
+    StarKernels kernels(map, along_target);
     kernels.centre(reversed(before), {});
     EXPECT_TRUE(moved(before, map.points()).empty());
     kernels.centre({0, 1, 2}, {0, 1, 2, 3, 4, 5});
@@ -75,8 +75,8 @@ TEST_F(StarKernelsOfASphere, StayAsTheyAreWhereANeighbourHasNoImage) {
     images[std::size_t(vertex_neighbours(sphere_)[astray][0])].face = -1;
     SlidingMap map(images, sphere_, sphere_);
     const PointMap before = map.points();
-    const LaidOut laid_out(map.target());
-    StarKernels(map, laid_out).centre(reversed(before), {astray});
+    AlongTarget along_target(map);
+    StarKernels(map, along_target).centre(reversed(before), {astray});
     EXPECT_TRUE(moved(before, map.points()).empty());
 }
 
@@ -84,8 +84,9 @@ TEST_F(StarKernelsOfASphere, AreCentredByTheRepairWhichSaysWhereItMovedSomething
     const int astray = 100, fixed = beyond_the_star_of(astray);
     SlidingMap map(with_one_astray(astray, fixed), sphere_, sphere_);
     const PointMap before = map.points();
-    NormalAgreement agreement(map);
-    ChartRepair repair(map, agreement, PointMap(before.size()));
+    AlongTarget along_target(map);
+    NormalAgreement agreement(map, along_target);
+    ChartRepair repair(map, along_target, agreement, PointMap(before.size()));
     VertexData<bool> stays(sphere_.vertex_count());
     stays[fixed] = true;
     const std::vector<int> touched = repair.centre_stars(stays);

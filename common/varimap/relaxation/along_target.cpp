@@ -1,0 +1,62 @@
+#include "varimap/relaxation/along_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace varimap {
+
+AlongTarget::AlongTarget(const SlidingMap& map)
+    : map_(map), target_faces_(vertex_faces(map.target())), laid_out_(map.target()), known_(map) {}
+
+double AlongTarget::winding_number(int v) {
+    double turns = 0;
+    for (const int f : map_.faces_of_vertex()[v]) turns += lie(f).turns[std::size_t(map_.corner_of(f, v))];
+    return turns / (2 * std::numbers::pi);
+}
+
+AlongTarget::Faults AlongTarget::faults_around(int v) {
+    Faults faults;
+    const auto star = map_.faces_of_vertex()[v];
+    for (const int f : star) faults.reversed += is_reversed(f);
+    for (const int u : vertices_of(map_.source(), star)) faults.branch_points += is_branch_point(u);
+    return faults;
+}
+
+bool AlongTarget::lies_within_a_star(int f, const Vec3& normal) const {
+    const TriangleMesh& target = map_.target();
+    const auto c = map_.source().faces.row(f);
+    const auto holds = [&](int corner, int vertex) {
+        const auto face = target.faces.row(map_.point(c[corner]).face);
+        return face[0] == vertex || face[1] == vertex || face[2] == vertex;
+    };
+    for (int k = 0; k < 3; ++k) {
+        const int vertex = target.faces(map_.point(c[0]).face, k);
+        if (!holds(1, vertex) || !holds(2, vertex)) continue;
+        const auto star = target_faces_[vertex];
+        if (std::all_of(star.begin(), star.end(),
+                        [&](int g) { return normal.dot(face_normal(target, g)) > 0; }))
+            return true;
+    }
+    return false;
+}
+
+const Lie& AlongTarget::lie(int f) {
+    return known_(f, [&](int g) { return look_at(g); });
+}
+
+Lie AlongTarget::look_at(int f) const {
+    if (!map_.is_mapped(f)) return {1, {0, 0, 0}};
+    if (!lies_within_a_star(f, map_.chord_normal(f))) {
+        const auto c = map_.source().faces.row(f);
+        return laid_out_({map_.point(c[0]), map_.point(c[1]), map_.point(c[2])});
+    }
+    Lie straight{1, {}};
+    for (int k = 0; k < 3; ++k) {
+        const auto [to_next, to_last] = map_.image_sides(f, k);
+        straight.turns[std::size_t(k)] = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+    }
+    return straight;
+}
+
+}  // namespace varimap

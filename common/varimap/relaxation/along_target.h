@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "varimap/mesh/topology.h"
+#include "varimap/relaxation/face_memory.h"
+#include "varimap/relaxation/laid_out.h"
+#include "varimap/relaxation/sliding_map.h"
+
+namespace varimap {
+
+/// How a map's faces lie along the target (laid_out.h), whatever their straight images cut through. Keeps in
+/// mind what it has seen for as long as the images stay where they are, since a face may lie over thousands.
+/// Keeps a reference. Threads may ask about different faces at once, but not about vertices.
+class AlongTarget {
+  public:
+    explicit AlongTarget(const SlidingMap& map);
+
+    /// 1 where a face is upright, -1 where it is reversed, between where it lies around a bend; NaN where it
+    /// is torn or has no area, 1 where it is not mapped.
+    double sense(int f) { return lie(f).sense; }
+    /// Or may be, for another judge.
+    bool is_reversed(int f) { return !(sense(f) > 0.05); }
+    /// How many times the images of the faces around a vertex go around its own: 1 where the map is one to
+    /// one, 2 at a branch point, where two sheets of the map hang together though no face need be reversed.
+    /// Less on a boundary, and NaN where a face is torn.
+    double winding_number(int v);
+    bool is_branch_point(int v) { return winding_number(v) > 1.5; }
+
+    struct Faults {
+        int reversed = 0, branch_points = 0;
+        bool more_than(const Faults& other) const {
+            return reversed > other.reversed || branch_points > other.branch_points;
+        }
+    };
+    /// Reversed faces around a vertex; branch points among it and its neighbours.
+    Faults faults_around(int v);
+
+    /// Whether the images of a face's corners lie around one vertex of the target with faces that the normal
+    /// of its straight image all agrees with: nothing is in doubt then.
+    bool lies_within_a_star(int f, const Vec3& normal) const;
+
+  private:
+    const Lie& lie(int f);
+    Lie look_at(int f) const;
+
+    const SlidingMap& map_;
+    Adjacency target_faces_;  ///< per vertex of the target
+    LaidOut laid_out_;
+    FaceMemory<Lie> known_;
+};
+
+}  // namespace varimap
