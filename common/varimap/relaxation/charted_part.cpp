@@ -4,6 +4,7 @@
 
 #include "varimap/core/plane.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/polygon_map.h"
 #include "varimap/relaxation/fold_removal.h"
 
 namespace varimap {
@@ -69,8 +70,7 @@ bool ChartedPart::has_simple_rim() const {
 }
 
 std::vector<int> ChartedPart::free_vertices(const VertexData<bool>& fixed) const {
-    VertexData<bool> on_rim(part_.mesh.vertex_count());
-    for (const int v : rim_) on_rim[v] = true;
+    const VertexData<bool> on_rim = rim_vertices();
     std::vector<int> free;
     for (int v = 0; v < part_.mesh.vertex_count(); ++v)
         if (const int u = part_.vertex[std::size_t(v)]; !on_rim[v] && !fixed[u]) free.push_back(u);
@@ -78,32 +78,47 @@ std::vector<int> ChartedPart::free_vertices(const VertexData<bool>& fixed) const
 }
 
 PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fixed) const {
-    VertexData<bool> held(part_.mesh.vertex_count(), true);
-    std::vector<int> free;
-    for (const int u : free_vertices(fixed)) {
-        const auto v = std::lower_bound(part_.vertex.begin(), part_.vertex.end(), u) - part_.vertex.begin();
-        free.push_back(int(v));
-        held[int(v)] = false;
-    }
+    const int n = part_.mesh.vertex_count();
+    const VertexData<bool> on_rim = rim_vertices();
+    VertexData<bool> held = on_rim;
     PointMap present;
-    for (const int v : part_.vertex) present.push_back(goal_.on_part(map.point(v)));
-    // Two starts: where the images are, and where Tutte has them, which the polygon's corners may fold.
+    std::vector<Pin> pins;
+    for (int v = 0; v < n; ++v) {
+        const int u = part_.vertex[std::size_t(v)];
+        present.push_back(goal_.on_part(map.point(u)));
+        if (on_rim[v] || !fixed[u]) continue;
+        if (present.back().face < 0) return {};
+        held[v] = true;
+        pins.push_back({v, position(chart_, present.back())});
+    }
+    // Two starts: where the images are, and a homeomorphism, which straight faces may fold.
     const TriangleMesh flat = circular_chart(part_.mesh, rim_);
-    const Points even = even_embedding(part_.mesh, rim_, corners_);
+    const Points positions = map_onto_polygon(flat, rim_, corners_, pins);
+    if (positions.rows() == 0) return {};
     const ClosestPoint closest(chart_);
     for (const bool anew : {false, true}) {
         PointMap images = present;
-        for (const int v : free)
-            if (SurfacePoint& image = images[std::size_t(v)]; anew || image.face < 0)
-                image = closest(even.row(v).transpose()).point;
+        for (int v = 0; v < n; ++v)
+            if (SurfacePoint& image = images[std::size_t(v)]; !held[v] && (anew || image.face < 0))
+                image = closest(positions.row(v).transpose()).point;
         SlidingMap in_chart(images, flat, chart_);
         FoldRemoval{anew ? 150 : 60, 1000, anew ? 4 : 2}(in_chart, held);
         if (!is_upright(in_chart)) continue;
-        for (int v = 0; v < part_.mesh.vertex_count(); ++v)
-            images[std::size_t(v)] = goal_.on_whole(in_chart.point(v));
-        if (clean(images)) return images;
+        if (PointMap whole = on_whole(in_chart); !whole.empty()) return whole;
     }
     return {};
+}
+
+VertexData<bool> ChartedPart::rim_vertices() const {
+    VertexData<bool> on_rim(part_.mesh.vertex_count(), false);
+    for (const int v : rim_) on_rim[v] = true;
+    return on_rim;
+}
+
+PointMap ChartedPart::on_whole(const SlidingMap& in_chart) const {
+    PointMap images;
+    for (const SurfacePoint& point : in_chart.points()) images.push_back(goal_.on_whole(point));
+    return clean(images) ? images : PointMap();
 }
 
 }  // namespace varimap

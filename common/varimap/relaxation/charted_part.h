@@ -31,6 +31,10 @@ class ChartedPart {
     PointMap unfolded(const SlidingMap& map, const VertexData<bool>& fixed) const;
 
   private:
+    VertexData<bool> rim_vertices() const;  ///< of part_.mesh
+    /// None where the walks in the chart made no sense.
+    PointMap on_whole(const SlidingMap& in_chart) const;
+
     SubMesh part_, goal_;
     std::vector<int> rim_;  ///< of part_.mesh
     TriangleMesh chart_;    ///< of goal_.mesh; empty if that is no disc
