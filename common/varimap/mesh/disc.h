@@ -30,7 +30,7 @@ std::vector<int> disc_boundary(const TriangleMesh& mesh);
 /// one per row. Positive throughout if these are the corners of a strictly convex polygon, counter-clockwise.
 /// The weights are the mean-value ones of Floater (2003), made symmetric, and then made smaller where areas
 /// have shrunk, and once more, so that areas become more even (Yoshizawa et al. 2004): with the first ones a
-/// limb shrinks by exp(-2 pi length / girth).
+/// limb shrinks by exp(-2 pi length / girth). Up to three times more where a part would still be a point.
 Points even_embedding(const TriangleMesh& disc, const std::vector<int>& boundary, const Points& rim);
 /// The same onto the unit circle, which is divided as the lengths along the boundary are.
 TriangleMesh circular_chart(const TriangleMesh& disc, const std::vector<int>& boundary);

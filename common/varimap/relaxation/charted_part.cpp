@@ -1,6 +1,6 @@
 #include "varimap/relaxation/charted_part.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "varimap/core/plane.h"
 #include "varimap/mesh/closest_point.h"
@@ -15,6 +15,15 @@ using Vec2 = Eigen::Vector2d;
 
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
     return cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;
+}
+
+double twice_area(const Points& polygon) {
+    double area = 0;
+    for (int i = 0; i < polygon.rows(); ++i) {
+        const int j = (i + 1) % int(polygon.rows());
+        area += cross(Vec2(polygon.row(i).leftCols<2>()), Vec2(polygon.row(j).leftCols<2>()));
+    }
+    return area;
 }
 
 bool is_upright(const SlidingMap& flat) {
@@ -57,12 +66,9 @@ ChartedPart::ChartedPart(const SlidingMap& map, SubMesh part, std::vector<int> r
 bool ChartedPart::has_simple_rim() const {
     const int n = int(corners_.rows());
     const auto at = [&](int i) { return Vec2(corners_.row(i % n).leftCols<2>().transpose()); };
-    double area = 0;
-    for (int i = 0; i < n; ++i) {
-        area += cross(at(i), at(i + 1));
+    for (int i = 0; i < n; ++i)
         if (at(i) == at(i + 1)) return false;
-    }
-    if (!(area > 0)) return false;
+    if (!(twice_area(corners_) > 0)) return false;
     for (int i = 0; i < n; ++i)
         for (int j = i + 2; j < n; ++j)
             if ((i > 0 || j < n - 1) && segments_meet(at(i), at(i + 1), at(j), at(j + 1))) return false;
@@ -95,13 +101,16 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
     const TriangleMesh flat = circular_chart(part_.mesh, rim_);
     const Points positions = map_onto_polygon(flat, rim_, corners_, pins);
     if (positions.rows() == 0) return {};
+    // As large as the polygon: faces much smaller than at rest would all count as collapsed.
+    TriangleMesh rest = flat;
+    rest.vertices *= std::sqrt(twice_area(corners_) / twice_area(flat.vertices(rim_, Eigen::all)));
     const ClosestPoint closest(chart_);
     for (const bool anew : {false, true}) {
         PointMap images = present;
         for (int v = 0; v < n; ++v)
             if (SurfacePoint& image = images[std::size_t(v)]; !held[v] && (anew || image.face < 0))
                 image = closest(positions.row(v).transpose()).point;
-        SlidingMap in_chart(images, flat, chart_);
+        SlidingMap in_chart(images, rest, chart_);
         FoldRemoval{anew ? 150 : 60, 1000, anew ? 4 : 2}(in_chart, held);
         if (!is_upright(in_chart)) continue;
         if (PointMap whole = on_whole(in_chart); !whole.empty()) return whole;

@@ -99,6 +99,16 @@ TEST(EvenEmbedding, LeavesRoomForTheEndOfALimb) {
     EXPECT_GT(tip / all, 1e-4);
 }
 
+TEST(EvenEmbedding, LeavesRoomForTheEndOfAVeryLongLimb) {
+    TriangleMesh whole = shapes::tube(200, 16, true);
+    whole.vertices.col(0) *= 6;
+    const SubMesh limb(whole, faces_where(whole, [](const Vec3& p) { return p.x() > 0.5; }));
+    const TriangleMesh chart = circular_chart(limb.mesh, disc_boundary(limb.mesh));
+    double least = 1;
+    for (int f = 0; f < chart.face_count(); ++f) least = std::min(least, signed_area(chart, f));
+    EXPECT_GT(least, 1e-18) << "two rounds leave 7e-35";
+}
+
 TEST(FaceSets, FillHolesUpToASize) {
     const TriangleMesh square = shapes::square(10);
     FaceSets sets(square);
