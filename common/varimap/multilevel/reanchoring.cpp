@@ -29,36 +29,23 @@ std::vector<int> all_samples(const LevelSide& side) {
     return all;
 }
 
-/// The samples with a finite distance, nearest first, as many as are wanted.
-std::vector<int> nearest_anchors(const std::vector<double>& distance) {
-    std::vector<int> anchors;
-    for (size_t s = 0; s < distance.size(); ++s)
-        if (std::isfinite(distance[s])) anchors.push_back(int(s));
-    std::stable_sort(anchors.begin(), anchors.end(), [&](int a, int b) { return distance[a] < distance[b]; });
-    if (int(anchors.size()) > wanted_anchors) anchors.resize(wanted_anchors);
-    return anchors;
-}
-
-/// Well-oriented samples around the part, nearest first.
+/// Well-oriented samples around the part, nearest first, as many as are wanted.
 std::vector<int> anchors_around(const ReversedPart& part, const GraphedSide& from,
                                 const Orientation& orientation) {
     const std::vector<int>& samples = from.level_side.level.samples;
-    // Distance from the part: grown from each of its samples, keeping the smallest.
-    std::vector<double> distance(samples.size(), std::numeric_limits<double>::infinity());
-    std::vector<char> inside(samples.size(), 0);
-    for (int k : part.samples) inside[k] = 1;
     const std::vector<int> sample_at = numbers_at_vertices(all_samples(from.level_side), from.level_side);
-    GeodesicBall ball(from.graph);
-    for (int k : part.samples) {
-        int found = 0;
-        ball.grow(samples[k], [&](int v, double d) {
-            const int s = sample_at[v];
-            if (s < 0 || inside[s] || orientation.determinant[s] < trusted_determinant) return true;
-            distance[s] = std::min(distance[s], d);
-            return ++found < wanted_anchors;
-        });
+    std::vector<char> inside(samples.size(), 0);
+    std::vector<int> sources, anchors;
+    for (const int k : part.samples) {
+        inside[k] = 1;
+        sources.push_back(samples[k]);
     }
-    return nearest_anchors(distance);
+    GeodesicBall(from.graph).grow(sources, [&](int v, double) {
+        const int s = sample_at[v];
+        if (s >= 0 && !inside[s] && orientation.determinant[s] >= trusted_determinant) anchors.push_back(s);
+        return int(anchors.size()) < wanted_anchors;
+    });
+    return anchors;
 }
 
 /// Distances from each of the vertices `sources` (rows) to all samples of a side (columns), up to a radius;
