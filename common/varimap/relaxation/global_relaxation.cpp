@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/triangle_system.h"
@@ -91,7 +93,10 @@ struct GlobalRelaxation::State {
     void walk(double share);
     void walk_with_care(const FoldEnergy& energy);
     std::vector<double> densities(const FoldEnergy& energy) const;
-    std::vector<char> corners_of_worse(const FoldEnergy& energy, const std::vector<double>& before) const;
+    double density(int i, const FoldEnergy& energy) const;
+    std::vector<int> around(const std::vector<int>& vertices) const;
+    std::vector<int> corners_of_worse(const FoldEnergy& energy, const std::vector<double>& before,
+                                      const std::vector<int>& candidates) const;
     PointMap best_images(const RobustEnergy& energy, double before, double promised, double& best);
     double total(const RobustEnergy& energy) const;
 };
@@ -207,23 +212,39 @@ void GlobalRelaxation::State::walk(double share) {
 }
 
 std::vector<double> GlobalRelaxation::State::densities(const FoldEnergy& energy) const {
-    std::vector<double> result;
-    result.reserve(faces.size());
-    for (const int f : faces)
-        result.push_back(density_with_area_weight(energy, map.rest(f), map.image_triangle(f)));
+    std::vector<double> result(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) result[i] = density(int(i), energy);
     return result;
 }
 
-/// Marks of the free vertices of faces that gained more than is tolerable.
-std::vector<char> GlobalRelaxation::State::corners_of_worse(const FoldEnergy& energy,
-                                                            const std::vector<double>& before) const {
-    std::vector<char> marks(free.size(), 0);
-    const std::vector<double> now = densities(energy);
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        if (now[i] > before[i] + tolerable)
+double GlobalRelaxation::State::density(int i, const FoldEnergy& energy) const {
+    const int f = faces[std::size_t(i)];
+    return density_with_area_weight(energy, map.rest(f), map.image_triangle(f));
+}
+
+/// The faces, by their places, of the free vertices at those places.
+std::vector<int> GlobalRelaxation::State::around(const std::vector<int>& vertices) const {
+    std::vector<int> places;
+    for (const int i : vertices)
+        for (const int f : map.faces_of_vertex()[free[std::size_t(i)]])
+            if (place_of[f] >= 0) places.push_back(place_of[f]);
+    make_set(places);
+    return places;
+}
+
+/// The free vertices, by their places, of those of `candidates` (places of faces) that gained more than is
+/// tolerable.
+std::vector<int> GlobalRelaxation::State::corners_of_worse(const FoldEnergy& energy,
+                                                           const std::vector<double>& before,
+                                                           const std::vector<int>& candidates) const {
+    std::vector<int> corners;
+    for (const int i : candidates)
+        if (density(i, energy) > before[std::size_t(i)] + tolerable)
             for (int k = 0; k < 3; ++k)
-                if (const int u = unknown[map.source().faces(faces[i], k)]; u >= 0) marks[std::size_t(u)] = 1;
-    return marks;
+                if (const int u = unknown[map.source().faces(faces[std::size_t(i)], k)]; u >= 0)
+                    corners.push_back(u);
+    make_set(corners);
+    return corners;
 }
 
 /// Moves all free vertices from the start by their steps, shorter ones where faces would get far worse, and
@@ -232,14 +253,17 @@ void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy) {
     const std::vector<double> before = densities(energy);
     std::vector<double> shares(free.size(), 1);
     walk(1);
+    std::vector<int> candidates(faces.size());
+    std::iota(candidates.begin(), candidates.end(), 0);
     for (int trial = 1; trial <= careful_trials; ++trial) {
-        const std::vector<char> worse = corners_of_worse(energy, before);
-        if (std::none_of(worse.begin(), worse.end(), [](char mark) { return mark; })) return;
-        for (std::size_t i = 0; i < free.size(); ++i) {
-            if (!worse[i]) continue;
+        const std::vector<int> worse = corners_of_worse(energy, before, candidates);
+        if (worse.empty()) return;
+        for (const int u : worse) {
+            const auto i = std::size_t(u);
             shares[i] = trial < careful_trials ? careful_share * shares[i] : 0;
             map.place(free[i], map.walk(start[i], shares[i] * steps[i]));
         }
+        candidates = around(worse);  // all others are as they were, and were not worse
     }
 }
 
