@@ -11,6 +11,7 @@
 #include "varimap/quality/quality.h"
 #include "varimap/relaxation/area_bound.h"
 #include "varimap/relaxation/chart_repair.h"
+#include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
@@ -38,8 +39,9 @@ constexpr std::array<Round, 2> rounds{
 constexpr Round settling{0.1, 1, 30, 2, 2};
 constexpr int settling_sweeps = 3;       ///< local ones in each of its steps where there are no global ones
 constexpr double last_fold_visits = 30;  ///< as in the first round
-constexpr int reconciliations = 2;       ///< swept: 1 to 3
-constexpr double large = 20'000;         ///< vertices from which on fewer global steps are taken
+/// Energy of a direction, times the other's, from which on all of it may be taken from the other.
+constexpr double much_worse = 1.2;
+constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
 /// Share of the energy that a step must win to be followed by another. Swept, same bytes: 1e-6 to 1e-4.
 constexpr double least_gain = 1e-5;
@@ -205,6 +207,16 @@ class Untangling {
     }
 
     const PointMap& points() const { return sliding_.points(); }
+    /// Of the mapped faces, per area.
+    double energy() const {
+        double sum = 0, area = 0;
+        for (int f = 0; f < source_.face_count(); ++f) {
+            if (!sliding_.is_mapped(f)) continue;
+            sum += face_energy(sliding_, f, RobustEnergy(judged_energy, options_.parts.rules.robustness));
+            area += sliding_.rest(f).area;
+        }
+        return area > 0 ? sum / area : 0;
+    }
     void reconcile(const PointMap& back, bool whole) {
         if (replacement_) replacement_->adopt_inverse(back, whole && double(pinned_.size()) <= large);
     }
@@ -340,10 +352,12 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     if (options.local_sweeps == 0) run(there, back, rounds[0]);
     with_each_other(there, back,
                     [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
-    for (int round = 0; round < reconciliations; ++round)
-        with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
-            map.reconcile(inverse, round == 0);
-        });
+    const double energy = there.energy(), energy_back = back.energy();
+    with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
+        const bool is_there = &map == &there;
+        const double own = is_there ? energy : energy_back, other = is_there ? energy_back : energy;
+        map.reconcile(inverse, own > much_worse * other);
+    });
     run(there, back, rounds[1]);
     if (options.settling_steps > 0) settle(there, back);
     UntanglingReports reports;
