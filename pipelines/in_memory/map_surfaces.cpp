@@ -47,16 +47,12 @@ std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, c
     ExploreParams params;
     params.only_if_needed = !options.explore;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
-    Candidates self_maps_A, self_maps_B;
-    if (options.landmarks.empty()) {
-        self_maps_A = find_self_maps({sketch_A, sketch_A, {}}, params);
-        self_maps_B = find_self_maps({sketch_B, sketch_B, {}}, params);
-    }
     const auto landmarks = to_mesh_vertices(given.vertices, sketch_A.surface, sketch_B.surface);
     const PointPairs points = landmark_points(given, sketch_A.surface, sketch_B.surface);
     const PairContext context =
         pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
-    return explore(context, params, self_maps_A, self_maps_B);
+    if (!options.landmarks.empty()) return explore(context, params);
+    return explore(context, params, [&] { return find_self_maps_of_both(context, params); });
 }
 
 /// The stages that solve for a plan.

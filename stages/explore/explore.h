@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "stages/explore/params.h"
 #include "varimap/results/candidates.h"
 
@@ -10,10 +12,16 @@ namespace varimap {
 /// of the surface with itself. Sketches are enough (varimap-coarsen to a thousand vertices).
 Candidates find_self_maps(const PairContext& surface, const ExploreParams& params);
 
-/// Maps worth continuing, the best first. What is found by exploration is composed with self-maps of both
-/// surfaces, so that a wrong map brings the right one with it; all are finished at the resolution of these
-/// surfaces (meant to be sketches), and compared as finished maps (candidate.h).
+struct SelfMaps {
+    Candidates A, B;  ///< of each surface onto itself
+};
+SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& params);
+
+/// Maps worth continuing, the best first. What exploration finds is composed with self-maps of both surfaces,
+/// so that a wrong map brings the right one with it, unless one is beyond doubt without that: `self_maps` is
+/// called where they are needed, and may be empty. All are finished at the resolution of these surfaces
+/// (meant to be sketches), and compared as finished maps (candidate.h).
 Candidates explore(const PairContext& context, const ExploreParams& params,
-                   const Candidates& self_maps_A = {}, const Candidates& self_maps_B = {});
+                   const std::function<SelfMaps()>& self_maps = {});
 
 }  // namespace varimap

@@ -133,16 +133,18 @@ bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context
 }  // namespace
 
 std::vector<FinishedMap> finish(const PairContext& context, const std::vector<VertexImages>& starts,
-                                const FinishingOptions& options) {
+                                const FinishingOptions& options, const std::vector<FinishedMap>& known) {
     JointDescent descent(context, options);
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
         FinishedMap map{one.start,
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy()};
-        const auto same = std::find_if(finished.begin(), finished.end(), [&](const FinishedMap& better) {
-            return are_the_same(better.maps, map.maps, context, options.distinct);
-        });
+        const auto is_same = [&](const FinishedMap& other) {
+            return are_the_same(other.maps, map.maps, context, options.distinct);
+        };
+        if (std::any_of(known.begin(), known.end(), is_same)) continue;
+        const auto same = std::find_if(finished.begin(), finished.end(), is_same);
         if (same == finished.end())
             finished.push_back(std::move(map));
         else

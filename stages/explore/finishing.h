@@ -34,13 +34,14 @@ struct FinishingOptions {
         untangling.replace_parts = false;
         untangling.align_normals = false;
         untangling.settling_steps = 0;
+        untangling.most_fold_visits = 10;  // wrong maps have folds that no number of visits removes
     }
 };
 
 /// Continues maps side by side through the diffusion and the Euclidean levels, and relaxes the best: only
-/// finished maps can be compared. The best by its energy comes first. Deterministic for any number of
-/// threads.
+/// finished maps can be compared. The best by its energy comes first. Those that become what is in `known`
+/// already are left out. Deterministic for any number of threads.
 std::vector<FinishedMap> finish(const PairContext& context, const std::vector<VertexImages>& starts,
-                                const FinishingOptions& options);
+                                const FinishingOptions& options, const std::vector<FinishedMap>& known = {});
 
 }  // namespace varimap

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "stages/explore/explore.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/stage/stage_main.h"
@@ -59,26 +61,33 @@ int main(int argc, char** argv) {
         stage.output(ArtifactType<Candidates>::kind, ArtifactType<Candidates>::schema, "candidates to write");
     const auto& landmark_files =
         stage.input_list_option("landmarks", "as for varimap-diffuse; may be too few to decide", 1, 2);
-    const auto& self_map_files = stage.input_list_option(
-        "self-maps", "self-maps of A and of B, found with --onto_itself true: maps are composed with them", 2,
-        2);
+    const auto& self_map_files =
+        stage.input_list_option("self-maps",
+                                "self-maps of A and of B, found with --onto_itself true: maps that are not "
+                                "beyond doubt are composed with "
+                                "them (default: they are looked for then, but with landmarks)",
+                                2, 2);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         require_surface(A.surface);
         require_surface(B.surface);
-        Candidates self_maps_A, self_maps_B;
-        if (!self_map_files.empty()) {
-            self_maps_A = read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input);
-            self_maps_B = read_self_maps(stage, inputs, "B", self_map_files[1], B.surface.input);
-        }
+        std::optional<SelfMaps> given;
+        if (!self_map_files.empty())
+            given = {read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input),
+                     read_self_maps(stage, inputs, "B", self_map_files[1], B.surface.input)};
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
         const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context =
             pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-        Candidates found = params.self_maps ? find_self_maps(context, params)
-                                            : explore(context, params, self_maps_A, self_maps_B);
+        std::function<SelfMaps()> self_maps;
+        if (given)
+            self_maps = [&] { return *given; };
+        else if (landmark_files.empty())
+            self_maps = [&] { return find_self_maps_of_both(context, params); };
+        Candidates found =
+            params.self_maps ? find_self_maps(context, params) : explore(context, params, self_maps);
         if (params.self_maps)
             report_self_maps(found.list);
         else if (landmarks_decide(found))

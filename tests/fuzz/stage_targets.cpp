@@ -170,7 +170,9 @@ void require_fit(const Artifacts& all) {
 void run_explore(const Artifacts& all, const std::string&) {
     require_fit(all);
     require_surfaces(all.candidates, all.A.surface.input, all.A.surface.input);
-    encode(explore(PairContext(all.A, all.B, {}), explore_params(), all.candidates));
+    encode(explore(PairContext(all.A, all.B, {}), explore_params(), [&] {
+        return SelfMaps{all.candidates, {}};
+    }));
 }
 
 void run_diffuse(const Artifacts& all, const std::string&) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double largest_part = 0.45;  ///< share of the area; more has no surroundings to continue from
 /// Area of the widened part / area of the strained one: where a limb is turned, the strain spreads along it.
-/// Widened by 10, too, 13 pairs end with the same errors and folds, for a fourth more time. By 2.5 alone a
+/// Widened by 10, too, 13 pairs end with the same errors and folds, for a fifth more time. By 2.5 alone a
 /// mirrored cap stays.
 constexpr std::array<double, 2> widenings{1.6, 4};
 /// Of the energy to beat: where no proposal comes as near, a part is not widened further. Measured on six
