@@ -14,6 +14,9 @@ namespace {
 // of 1.3 does as well there, but does not get to tight bounds; one of 2, from 1, costs accuracy (0.0370
 // instead of 0.0359 on the last).
 constexpr double first_weight = 0.3, growth = 1.5, most_weight = 100;
+/// Of tight bounds: with a bound of 1.25 a gorilla and a man keep it on 94 and 92% of the surface instead of
+/// 94 and 88% (and on 72 and 64% where it is not kept from the start).
+constexpr double first_tight_weight = 3;
 /// Exponent of the bound that is aimed at: what follows, another mesh or the removal of folds, moves ratios.
 constexpr double margin = 0.9;
 /// Of those aimed at: areas that are kept exactly leave no room to move.
@@ -22,7 +25,10 @@ constexpr double least_bound = 1.02;
 }  // namespace
 
 AreaBound::AreaBound(SlidingMap& map, double bound, VertexData<bool> exempt)
-    : map_(map), bound_(std::max(least_bound, std::pow(bound, margin))), exempt_(std::move(exempt)) {}
+    : map_(map),
+      bound_(std::max(least_bound, std::pow(bound, margin))),
+      first_weight_(is_tight(bound) ? first_tight_weight : first_weight),
+      exempt_(std::move(exempt)) {}
 
 AreaBound::~AreaBound() {
     for (int f = 0; f < map_.source().face_count(); ++f) map_.set_area_weight(f, 0);
@@ -48,7 +54,7 @@ std::vector<int> AreaBound::press() {
     make_set(faces);
     for (const int f : faces) {
         if (!map_.is_mapped(f) || !(map_.image_triangle(f).D > 0)) continue;
-        map_.set_area_weight(f, std::clamp(growth * map_.rest(f).area_weight, first_weight, most_weight));
+        map_.set_area_weight(f, std::clamp(growth * map_.rest(f).area_weight, first_weight_, most_weight));
         for (int k = 0; k < 3; ++k) corners.push_back(map_.source().faces(f, k));
     }
     make_set(corners);

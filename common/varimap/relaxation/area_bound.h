@@ -13,6 +13,10 @@ namespace varimap {
 /// falls back; repairs that follow had better be without them.
 class AreaBound {
   public:
+    /// Of such a bound maps relax so far out that there is no way back in the end: it is kept from the start,
+    /// and with more weight.
+    static bool is_tight(double bound) { return bound < 1.5; }
+
     /// Keeps a reference to the map. `exempt`: vertices that need not keep it, as landmarks, whose images are
     /// fixed.
     AreaBound(SlidingMap& map, double bound, VertexData<bool> exempt);
@@ -28,7 +32,7 @@ class AreaBound {
     bool is_kept(int v) const;
 
     SlidingMap& map_;
-    double bound_;
+    double bound_, first_weight_;
     VertexData<bool> exempt_;
 };
 

@@ -17,9 +17,9 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double least_share = 1.0 / 64;  ///< of a step; swept: 0.002 to 1/16
+constexpr double next_share = 0.4;        ///< of the one before
 /// Of one vertex, in units of sqrt(area). Swept: from 0.02; at 0.2 a branch point is left.
 constexpr double longest_step = 0.05;
-constexpr double half_step = 0.75;  ///< share of a Newton step's fall that half of it has
 /// Energy, per area, that a face may gain in a step that is walked with care. 0.3 and 3 did about the same.
 constexpr double tolerable = 1;
 constexpr int careful_trials = 5;
@@ -91,13 +91,13 @@ struct GlobalRelaxation::State {
     void place(const PointMap& images);
     void set_steps(const Eigen::VectorXd& direction);
     void walk(double share);
-    void walk_with_care(const FoldEnergy& energy);
+    void walk_with_care(const FoldEnergy& energy, const std::vector<double>& before, double share);
     std::vector<double> densities(const FoldEnergy& energy) const;
     double density(int i, const FoldEnergy& energy) const;
     std::vector<int> around(const std::vector<int>& vertices) const;
     std::vector<int> corners_of_worse(const FoldEnergy& energy, const std::vector<double>& before,
                                       const std::vector<int>& candidates) const;
-    PointMap best_images(const RobustEnergy& energy, double before, double promised, double& best);
+    double descend(const RobustEnergy& energy, double before);
     double total(const RobustEnergy& energy) const;
 };
 
@@ -247,12 +247,13 @@ std::vector<int> GlobalRelaxation::State::corners_of_worse(const FoldEnergy& ene
     return corners;
 }
 
-/// Moves all free vertices from the start by their steps, shorter ones where faces would get far worse, and
-/// none where that does not help: a few corners that turn over do not hold up all others.
-void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy) {
-    const std::vector<double> before = densities(energy);
-    std::vector<double> shares(free.size(), 1);
-    walk(1);
+/// Moves all free vertices from the start by that share of their steps, shorter ones where faces would get
+/// far worse than `before`, and none where that does not help: a few corners that turn over do not hold up
+/// all others.
+void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy, const std::vector<double>& before,
+                                             double share) {
+    std::vector<double> shares(free.size(), share);
+    walk(share);
     std::vector<int> candidates(faces.size());
     std::iota(candidates.begin(), candidates.end(), 0);
     for (int trial = 1; trial <= careful_trials; ++trial) {
@@ -267,29 +268,16 @@ void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy) {
     }
 }
 
-/// Images after the step, walked with care; where that does not lower the energy, after the best share of it
-/// for all, the start where none is better than `before`. Curved targets make full steps overshoot: the share
-/// is halved for as long as that helps, unless one wins what half of the step could, of the `promised` fall.
-PointMap GlobalRelaxation::State::best_images(const RobustEnergy& energy, double before, double promised,
-                                              double& best) {
-    best = before;
-    PointMap result = start;
-    walk_with_care(energy.energy);
-    if (const double after = total(energy); after < before) {
-        best = after;
-        return images();
+/// Leaves the images after the largest share of the step that lowers the energy, walked with care; as they
+/// were where none does. Curved targets make full steps overshoot. Returns the energy.
+double GlobalRelaxation::State::descend(const RobustEnergy& energy, double before) {
+    const std::vector<double> densities_before = densities(energy.energy);
+    for (double share = 1; share >= least_share; share *= next_share) {
+        walk_with_care(energy.energy, densities_before, share);
+        if (const double after = total(energy); after < before) return after;
     }
-    for (double share = 1; share >= least_share; share /= 2) {
-        walk(share);
-        const double after = total(energy);
-        if (after >= best && best < before) break;
-        if (after < best) {
-            best = after;
-            result = images();
-        }
-        if (before - best >= half_step * promised) break;
-    }
-    return result;
+    place(start);
+    return before;
 }
 
 GlobalRelaxation::GlobalRelaxation(SlidingMap& map, const VertexData<bool>& fixed,
@@ -309,10 +297,8 @@ double GlobalRelaxation::step(const RobustEnergy& energy) {
     const Eigen::VectorXd direction = -s.system->solve(s.gradient);
     if (!direction.allFinite()) return 0;
     s.set_steps(direction);
-    const double before = s.total(energy), promised = -s.gradient.dot(direction) / 2;
-    double best;
-    s.place(s.best_images(energy, before, promised, best));
-    return before > 0 ? 1 - best / before : 0;
+    const double before = s.total(energy), after = s.descend(energy, before);
+    return before > 0 ? 1 - after / before : 0;
 }
 
 }  // namespace varimap

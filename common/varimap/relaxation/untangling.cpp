@@ -163,19 +163,21 @@ class Untangling {
         fixed_ = stay(sliding_, pinned_, options_.gate, report_);
         sweep(round);
         relaxation_ = relaxation(round, options_.global_steps);
+        if (options_.area_bound > 0 && AreaBound::is_tight(options_.area_bound)) keep_bound();
     }
     bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
     void relax(const PointMap& back) {
-        if (!is_relaxed()) relaxation_->step(back);
+        if (is_relaxed()) return;
+        if (bound_) bound_->press();
+        relaxation_->step(back);
     }
     /// The last round begins with `start_settling` instead, and takes steps of `settle`.
     void start_settling() {
         relaxation_ = relaxation(settling, options_.settling_steps);
-        if (options_.area_bound > 0)
-            bound_ = std::make_unique<AreaBound>(sliding_, options_.area_bound, exempt());
+        if (options_.area_bound > 0 && !bound_) keep_bound();
     }
     bool is_settled() const {
-        return settling_steps_ >= options_.settling_steps || (relaxation_ ? relaxation_->done() : !bound_);
+        return settling_steps_ >= most_settling_steps() || (relaxation_ ? relaxation_->done() : !bound_);
     }
     void settle(const PointMap& back) {
         if (is_settled()) return;
@@ -201,6 +203,7 @@ class Untangling {
     }
 
     void replace_parts(const PointMap& back) {
+        bound_.reset();
         if (!options_.replace_parts) return;
         replacement_ = std::make_unique<PartReplacement>(sliding_, pinned_, options_.parts, landmarks_);
         replacement_->continue_surroundings(back);
@@ -245,6 +248,10 @@ class Untangling {
         if (options_.global_steps == 0 || steps == 0) return nullptr;
         return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, steps,
                                             options_);
+    }
+    void keep_bound() { bound_ = std::make_unique<AreaBound>(sliding_, options_.area_bound, exempt()); }
+    int most_settling_steps() const {
+        return (bound_ && AreaBound::is_tight(options_.area_bound) ? 2 : 1) * options_.settling_steps;
     }
     double fold_visits(double of_round) const { return std::min(of_round, options_.most_fold_visits); }
     void sweep(const Round& round) {
