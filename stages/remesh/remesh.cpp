@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/polygon_cutting.h"
 
 namespace varimap {
 
@@ -47,7 +48,7 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
 
 PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup& polygons,
                                     const PointMap& map, const Surface& source, const Surface& target) {
-    if (fanned(polygons) != mesh_of_file(source).faces)
+    if (triangulated(polygons) != mesh_of_file(source).faces)
         throw InputError("the polygons are not those of the mesh that the surface was made from");
     PolygonSoup result;
     for (const auto vertex : moved.vertices.rowwise()) result.points.push_back(vertex.transpose());
@@ -60,17 +61,20 @@ PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup
         result.end_polygon();
         return true;
     };
-    std::size_t first = 0;
+    const auto triangles = triangle_corners(polygons);
+    std::size_t first = 0, triangle = 0;
     for (const std::size_t end : polygons.ends) {
-        const auto corner = [&](std::size_t c) { return polygons.corners[c]; };
         corners.assign(polygons.corners.begin() + std::ptrdiff_t(first),
                        polygons.corners.begin() + std::ptrdiff_t(end));
+        const std::size_t triangles_end = triangle + (end - first) - 2;
         if (!add())
-            for (std::size_t c = first + 1; c + 1 < end; ++c) {
-                corners = {corner(first), corner(c), corner(c + 1)};
+            for (std::size_t t = triangle; t < triangles_end; ++t) {
+                corners.clear();
+                for (const std::size_t c : triangles[t]) corners.push_back(polygons.corners[c]);
                 add();
             }
         first = end;
+        triangle = triangles_end;
     }
     return result;
 }

@@ -212,6 +212,7 @@ TEST(CrossRemesh, LeavesOutTrianglesOfPolygonsWithoutImages) {
     A.input.faces = Faces{{0, 1, 2}, {0, 2, 3}, {1, 4, 2}};
     B.input = A.input;
     PolygonSoup polygons;
+    for (const auto vertex : A.input.vertices.rowwise()) polygons.points.push_back(vertex.transpose());
     polygons.corners = {0, 1, 2, 3, 1, 4, 2};
     polygons.ends = {4, 7};
     PointMap map(5, SurfacePoint{0, Vec3::UnitX()});

@@ -21,7 +21,7 @@ namespace varimap {
 /// `mesh`, and a face may lie off its input face by that little. Of varimap-coarsen, `mesh` has some of those
 /// vertices (coarsening.h), and its faces lie near the input.
 struct Surface : Domain {
-    TriangleMesh input;  ///< the input in its own coordinates, polygons fanned, vertex order kept; repaired
+    TriangleMesh input;  ///< the input in its own coordinates, polygons cut, vertex order kept; repaired
     FileLink link;       ///< from `input`, not mirrored, to the file it was read from
     PointMap on_mesh;    ///< per input vertex: where it lies on mesh, one to one; nowhere without a face
     std::vector<int> input_face;  ///< per face of mesh: the input face it lies in; none where mesh is coarser

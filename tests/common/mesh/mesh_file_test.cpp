@@ -74,6 +74,53 @@ void expect_equal(const TriangleMesh& a, const TriangleMesh& b) {
     EXPECT_TRUE(a.faces == b.faces);
 }
 
+/// A square with a corner pushed in (v4), named from each corner in turn: fans from two of them fold.
+TEST_F(MeshFile, CutsConcavePolygonsWithoutFolds) {
+    const std::string points = "v 0 0 3\nv 1 0 3\nv 1 1 3\nv .5 .9 3\nv 0 1 3\nv .6 .5 3\n";
+    const std::vector<int> corners{1, 2, 3, 4, 5};
+    for (std::size_t first = 0; first < corners.size(); ++first) {
+        std::string face = "f";
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            face += fmt::format(" {}", corners[(first + k) % corners.size()]);
+        const TriangleMesh mesh = read("a.obj", points + face + "\nf 1 2 6\n");
+        ASSERT_EQ(mesh.face_count(), 4);
+        double area = 0;
+        for (int f = 0; f < 3; ++f) {
+            EXPECT_GT(face_normal(mesh, f).z(), 0) << face;
+            area += face_normal(mesh, f).norm() / 2;
+        }
+        EXPECT_NEAR(area, .95, 1e-12);
+        EXPECT_EQ(mesh.faces.row(3), Eigen::RowVector3i(0, 1, 5));
+    }
+}
+
+/// A comb of many teeth, which no corner sees whole.
+TEST_F(MeshFile, CutsEarsOfCombs) {
+    constexpr int teeth = 50;
+    std::string text = fmt::format("v 0 -1 0\nv {} -1 0\n", teeth), face = "f 1 2";
+    for (int k = 2 * teeth; k >= 0; --k) {
+        text += fmt::format("v {} {} 0\n", k / 2., k % 2);
+        face += fmt::format(" {}", 2 * teeth - k + 3);
+    }
+    const TriangleMesh mesh = read("a.obj", text + face + "\n");
+    double area = 0;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        EXPECT_GT(face_normal(mesh, f).z(), 0);
+        area += face_normal(mesh, f).norm() / 2;
+    }
+    EXPECT_NEAR(area, 1.5 * teeth, 1e-9);
+}
+
+/// What crosses itself, has no area or corners that are not numbers is fanned.
+TEST_F(MeshFile, FansWhatHasNoInside) {
+    for (const char* const points :
+         {"v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\n",
+          "v 0 0 0\nv nan 1 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 0 0\nv 0 0 0\nv 1 0 0\n"}) {
+        const TriangleMesh mesh = read("a.obj", std::string(points) + "f 1 2 3 4\n");
+        EXPECT_EQ(mesh.faces, (Faces{{0, 1, 2}, {0, 2, 3}})) << points;
+    }
+}
+
 const char* const square_obj = "v 0.1 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
 TriangleMesh square_mesh() {

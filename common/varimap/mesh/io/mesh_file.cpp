@@ -10,6 +10,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/mesh/io/ply_columns.h"
+#include "varimap/mesh/io/polygon_cutting.h"
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -40,20 +41,13 @@ void require_valid(const PolygonSoup& soup, const std::string& path) {
                                 path, f, soup.points.size()));
 }
 
-TriangleMesh fan(const PolygonSoup& soup) {
+TriangleMesh triangles_of(const PolygonSoup& soup) {
     TriangleMesh mesh;
     mesh.space = soup.space;
     mesh.vertices.resize(soup.points.size(), 3);
     for (std::size_t v = 0; v < soup.points.size(); ++v) mesh.vertices.row(v) = soup.points[v].transpose();
-    mesh.faces = fanned(soup);
+    mesh.faces = triangulated(soup);
     return mesh;
-}
-
-PolygonSoup polygons_from(std::string_view bytes, const std::string& path) {
-    if (bytes.empty()) throw InputError(path + ": the file is empty");
-    PolygonSoup soup = parse(without_byte_order_mark(bytes, path), path);
-    require_valid(soup, path);
-    return soup;
 }
 
 std::string bytes_of(const std::string& path) {
@@ -68,16 +62,20 @@ Space stated_space(std::string_view comments) {
     return comments.find("SPACE=RAS") != comments.npos ? Space::ras : Space::unstated;
 }
 
-Faces fanned(const PolygonSoup& soup) {
-    Faces faces(Eigen::Index(soup.corners.size() - 2 * soup.ends.size()), 3);
-    Eigen::Index face = 0;
-    std::size_t first = 0;
-    for (const std::size_t end : soup.ends) {
-        for (std::size_t c = first + 1; c + 1 < end; ++c)
-            faces.row(face++) << int(soup.corners[first]), int(soup.corners[c]), int(soup.corners[c + 1]);
-        first = end;
-    }
+Faces triangulated(const PolygonSoup& soup) {
+    const auto triangles = triangle_corners(soup);
+    Faces faces(Eigen::Index(triangles.size()), 3);
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            faces(Eigen::Index(f), Eigen::Index(k)) = int(soup.corners[triangles[f][k]]);
     return faces;
+}
+
+PolygonSoup parse_polygons(std::string_view bytes, const std::string& path) {
+    if (bytes.empty()) throw InputError(path + ": the file is empty");
+    PolygonSoup soup = parse(without_byte_order_mark(bytes, path), path);
+    require_valid(soup, path);
+    return soup;
 }
 
 TriangleMesh read_mesh(const std::string& path) {
@@ -85,11 +83,11 @@ TriangleMesh read_mesh(const std::string& path) {
 }
 
 TriangleMesh parse_mesh(std::string_view bytes, const std::string& path) {
-    return fan(polygons_from(bytes, path));
+    return triangles_of(parse_polygons(bytes, path));
 }
 
 PolygonSoup read_polygons(const std::string& path) {
-    return polygons_from(bytes_of(path), path);
+    return parse_polygons(bytes_of(path), path);
 }
 
 std::string to_ply(const TriangleMesh& mesh, PlyFormat format) {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/polygon_cutting.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
@@ -47,16 +48,32 @@ double texture_coordinate(const TextScanner& scanner, std::size_t i, const char*
     return number;
 }
 
-/// Fans the polygon from its first corner, as read_mesh does.
-void add_face(const TextScanner& scanner, int material, ObjModel& model, std::vector<int>& corners) {
+/// What the polygons of an OBJ file say beside their vertices.
+struct PolygonUv {
+    std::vector<int> uv;             ///< of all corners, one polygon after the other; -1: none
+    std::vector<std::size_t> sizes;  ///< per polygon
+};
+
+void add_face(const TextScanner& scanner, int material, ObjModel& model, PolygonUv& polygons) {
     const auto& words = scanner.words();
-    std::vector<int> uv;
+    const std::size_t size = words.size() - 1;
     for (std::size_t i = 1; i < words.size(); ++i)
-        uv.push_back(corner_uv(scanner, words[i], model.uv.size()));
-    for (std::size_t i = 1; i + 1 < uv.size(); ++i) {
-        corners.insert(corners.end(), {uv[0], uv[i], uv[i + 1]});
-        model.material.push_back(material);
-    }
+        polygons.uv.push_back(corner_uv(scanner, words[i], model.uv.size()));
+    polygons.sizes.push_back(size);
+    if (size > 2) model.material.insert(model.material.end(), size - 2, material);
+}
+
+/// Per triangle, as read_mesh cuts polygons.
+Faces uv_of_triangles(const PolygonUv& polygons, std::string_view bytes, const std::string& path) {
+    const auto is_triangle = [](std::size_t size) { return size == 3; };
+    if (std::all_of(polygons.sizes.begin(), polygons.sizes.end(), is_triangle))
+        return Faces::Map(polygons.uv.data(), Eigen::Index(polygons.sizes.size()), 3);
+    const auto triangles = triangle_corners(parse_polygons(bytes, path));
+    Faces uv(Eigen::Index(triangles.size()), 3);
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            uv(Eigen::Index(f), Eigen::Index(k)) = polygons.uv[triangles[f][k]];
+    return uv;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -101,7 +118,7 @@ std::vector<int> order_of_faces(const std::vector<int>& material) {
 
 ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
     ObjModel model;
-    std::vector<int> corners;
+    PolygonUv polygons;
     int material = -1;
     TextScanner scanner(without_byte_order_mark(bytes, path), path);
     while (scanner.next_line()) {
@@ -110,13 +127,13 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
             model.uv.emplace_back(texture_coordinate(scanner, 1, "u"),
                                   scanner.words().size() > 2 ? texture_coordinate(scanner, 2, "v") : 0);
         else if (word == "f")
-            add_face(scanner, material, model, corners);
+            add_face(scanner, material, model, polygons);
         else if (word == "usemtl")
             material = number_of(rest_of_line(scanner), model.materials);
         else if (word == "mtllib")
             number_of(rest_of_line(scanner), model.libraries);
     }
-    model.uv_of = Eigen::Map<const Faces>(corners.data(), Eigen::Index(corners.size() / 3), 3);
+    model.uv_of = uv_of_triangles(polygons, bytes, path);
     return model;
 }
 

@@ -21,8 +21,10 @@ struct PolygonSoup {
 
 /// The polygons of a mesh file, of which read_mesh (mesh_file.h) makes triangles; refused as there.
 PolygonSoup read_polygons(const std::string& path);
-/// The corners of the triangles that read_mesh makes of them.
-Faces fanned(const PolygonSoup& soup);
+/// The same from the bytes of such a file; `path` tells the format, and is named in messages.
+PolygonSoup parse_polygons(std::string_view bytes, const std::string& path);
+/// The corners of the triangles that read_mesh makes of them (polygon_cutting.h).
+Faces triangulated(const PolygonSoup& soup);
 /// PLY with polygons, its numbers as those of to_ply (mesh_file.h).
 std::string to_ply(const PolygonSoup& soup, PlyFormat format);
 
