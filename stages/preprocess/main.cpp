@@ -29,6 +29,7 @@ void record(Stage& stage, const RepairCounts& counts) {
     number("turned_faces", counts.turned);
     number("cut_edges", counts.cut_edges);
     number("split_vertices", counts.split_vertices);
+    number("closed_slits", counts.closed_slits);
     number("filled_holes", counts.filled_holes);
     number("filling_faces", counts.filling_faces);
     number("unfilled_holes", counts.unfilled_holes);

@@ -177,7 +177,9 @@ double target_edge_length(const PreprocessParams& params, int used_vertices) {
 }
 
 RepairedMesh prepared(const TriangleMesh& file, const PreprocessParams& params, const std::string& path) {
-    RepairedMesh mesh = holes_filled(repaired(file, params.repair, path), longest_hole(params.fill_holes));
+    RepairedMesh mesh = repaired(file, params.repair, path);
+    if (welds(params.repair)) mesh = slits_closed(std::move(mesh));
+    mesh = holes_filled(std::move(mesh), longest_hole(params.fill_holes));
     const double longest = longest_handle(params.cut_handles, mesh.mesh);
     return bridged(handles_cut(std::move(mesh), longest));
 }

@@ -41,6 +41,7 @@ class Thinning {
   private:
     void thin_group(const int* begin, const int* end);
     void drop_fins();
+    bool is_fin(const std::vector<int>& part, const Edges& edges) const;
 
     const TriangleMesh& mesh_;
     std::vector<Key> keys_;
@@ -58,19 +59,28 @@ void Thinning::thin_group(const int* begin, const int* end) {
     }
 }
 
+bool Thinning::is_fin(const std::vector<int>& part, const Edges& edges) const {
+    bool attached = false;
+    for (const int f : part)
+        for (int side = 3 * f; side < 3 * f + 3; ++side) {
+            const auto around = edges.sides[edges.of_side[std::size_t(side)]];
+            const auto others = std::count_if(around.begin(), around.end(), [&](int other) {
+                return keep_[std::size_t(other / 3)] && !back_to_back_[std::size_t(other / 3)];
+            });
+            if (others == 1) return false;
+            attached = attached || others > 1;
+        }
+    return attached;
+}
+
 void Thinning::drop_fins() {
     const Edges edges = find_edges(mesh_);
     const double limit = largest_fin * surface_area(mesh_);
     for (const std::vector<int>& part : face_components(edges, back_to_back_)) {
-        bool attached = false;
         double area = 0;
-        for (const int f : part) {
+        for (const int f : part)
             if (keep_[std::size_t(f)]) area += face_normal(mesh_, f).norm() / 2;
-            for (int side = 3 * f; side < 3 * f + 3; ++side)
-                for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
-                    attached = attached || !back_to_back_[std::size_t(other / 3)];
-        }
-        if (!attached || area > limit) continue;
+        if (area > limit || !is_fin(part, edges)) continue;
         for (const int f : part) keep_[std::size_t(f)] = 0;
     }
 }

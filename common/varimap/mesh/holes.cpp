@@ -18,6 +18,9 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double thin = 0.02;
 /// Loops of so many edges are triangulated at once.
 constexpr std::size_t at_once = 200;
+/// What closes a slit has no larger share of the square of the loop's length: it is 2500 times longer than
+/// wide.
+constexpr double area_of_slits = 1e-4;
 
 using Loop = BoundaryLoop;
 using Triangle = std::array<int, 3>;
@@ -47,8 +50,9 @@ std::vector<Loop> boundary_loops(const TriangleMesh& mesh) {
 /// What it costs to close a loop of one mesh.
 class HoleFilling {
   public:
-    HoleFilling(const TriangleMesh& mesh, const Adjacency& neighbours, double total_area)
-        : mesh_(mesh), neighbours_(neighbours), total_area_(total_area) {}
+    /// `price`: of a thin face, an area.
+    HoleFilling(const TriangleMesh& mesh, const Adjacency& neighbours, double price)
+        : mesh_(mesh), neighbours_(neighbours), price_(price) {}
 
     /// Empty where it cannot be closed.
     std::vector<Triangle> fill(Loop loop) {
@@ -72,7 +76,7 @@ class HoleFilling {
     double cost(int a, int b, int c) const {
         const TriangleMesh face{mesh_.vertices(std::array{a, b, c}, Eigen::all), Faces{{0, 1, 2}}};
         const double t = thinness(face, 0);
-        return face_normal(face, 0).norm() / 2 + (t < thin ? total_area_ * (2 - t) : 0);
+        return face_normal(face, 0).norm() / 2 + (t < thin ? price_ * (2 - t) : 0);
     }
     bool cut_ear(Loop& loop);
     bool triangulate(const Loop& loop);
@@ -80,7 +84,7 @@ class HoleFilling {
 
     const TriangleMesh& mesh_;
     const Adjacency& neighbours_;
-    double total_area_;
+    double price_;
     std::vector<Triangle> faces_;
 };
 
@@ -141,6 +145,12 @@ void add(const std::vector<Triangle>& triangles, RepairedMesh& repaired) {
     repaired.link.turned.resize(std::size_t(faces.rows()), 0);
 }
 
+void close(const std::vector<Triangle>& triangles, RepairedMesh& repaired) {
+    if (triangles.empty()) return;
+    if (repaired.link.is_identity()) repaired.link = link_to_itself(repaired.mesh);
+    add(triangles, repaired);
+}
+
 }  // namespace
 
 int longest_hole(const std::string& words) {
@@ -153,6 +163,52 @@ int longest_hole(const std::string& words) {
         throw UsageError("--fill-holes " + words +
                          ": give the number of edges of the longest hole, at least 3, or all, or none");
     return edges;
+}
+
+namespace {
+
+double length_of(const TriangleMesh& mesh, const Loop& loop) {
+    double length = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        length += (mesh.vertex(loop[(i + 1) % loop.size()]) - mesh.vertex(loop[i])).norm();
+    return length;
+}
+
+/// No surface that the loop bounds has less.
+double least_area(const TriangleMesh& mesh, const Loop& loop) {
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+        area += (mesh.vertex(loop[i]) - mesh.vertex(loop[0]))
+                    .cross(mesh.vertex(loop[i + 1]) - mesh.vertex(loop[0]));
+    return area.norm() / 2;
+}
+
+double area_of(const TriangleMesh& mesh, const std::vector<Triangle>& faces) {
+    double area = 0;
+    for (const auto& [a, b, c] : faces)
+        area += (mesh.vertex(b) - mesh.vertex(a)).cross(mesh.vertex(c) - mesh.vertex(a)).norm() / 2;
+    return area;
+}
+
+}  // namespace
+
+RepairedMesh slits_closed(RepairedMesh repaired) {
+    const TriangleMesh& mesh = repaired.mesh;
+    const std::vector<Loop> loops = boundary_loops(mesh);
+    if (loops.empty()) return repaired;
+    const Adjacency neighbours = vertex_neighbours(mesh);
+    HoleFilling filling(mesh, neighbours, 0);  // all of its faces are thin
+    std::vector<Triangle> added;
+    for (const Loop& loop : loops) {
+        const double length = length_of(mesh, loop), most = area_of_slits * length * length;
+        if (loop.size() > at_once || least_area(mesh, loop) > most) continue;
+        const std::vector<Triangle> faces = filling.fill(loop);
+        if (faces.empty() || area_of(mesh, faces) > most) continue;
+        added.insert(added.end(), faces.begin(), faces.end());
+        ++repaired.counts.closed_slits;
+    }
+    close(added, repaired);
+    return repaired;
 }
 
 RepairedMesh holes_filled(RepairedMesh repaired, int edges) {
@@ -179,9 +235,7 @@ std::vector<char> close_loops(RepairedMesh& repaired, const std::vector<Loop>& l
         added.insert(added.end(), faces.begin(), faces.end());
         closed.push_back(!faces.empty());
     }
-    if (added.empty()) return closed;
-    if (repaired.link.is_identity()) repaired.link = link_to_itself(repaired.mesh);
-    add(added, repaired);
+    close(added, repaired);
     return closed;
 }
 

@@ -19,6 +19,11 @@ int longest_hole(const std::string& words);
 /// m edges.
 RepairedMesh holes_filled(RepairedMesh mesh, int edges);
 
+/// Closes in the same way the loops that are slits: those which faces of hardly any area close. Such are left
+/// by a vertex that lies on an edge of other faces (a T-junction), and where the two sides of a seam have
+/// other vertices. Loops of at most 200 edges.
+RepairedMesh slits_closed(RepairedMesh mesh);
+
 /// A boundary loop: its vertices, in the order in which faces that close it name them.
 using BoundaryLoop = std::vector<int>;
 

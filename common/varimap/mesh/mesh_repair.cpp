@@ -51,7 +51,7 @@ bool needs_repair(const TriangleMesh& file, const RepairOptions& options) {
     } catch (const InputError&) {
         return true;
     }
-    const std::vector<int> welded = weld_boundaries(file, tolerance(file, options));
+    const std::vector<int> welded = welded_vertices(file, tolerance(file, options));
     for (int v = 0; v < file.vertex_count(); ++v)
         if (welded[std::size_t(v)] != v) return true;
     return !file.vertices.allFinite();
@@ -154,7 +154,7 @@ void Repair::drop_duplicates() {
 
 void Repair::weld() {
     const TriangleMesh mesh = current();
-    welded_ = weld_boundaries(mesh, tolerance(mesh, options_));
+    welded_ = welded_vertices(mesh, tolerance(mesh, options_));
     for (int v = 0; v < int(welded_.size()); ++v) counts_.welded += welded_[std::size_t(v)] != v;
     faces_ = faces_.unaryExpr([&](int v) { return welded_[std::size_t(v)]; }).eval();
 }
@@ -282,6 +282,10 @@ RepairedMesh repaired(const TriangleMesh& file, const RepairOptions& options, co
     return Repair(file, options, path).run();
 }
 
+bool welds(const RepairOptions& options) {
+    return actions_from(options.repair).weld;
+}
+
 std::string in_words(const RepairCounts& counts) {
     std::string text;
     const auto add = [&](int count, const char* one, const char* several) {
@@ -298,6 +302,7 @@ std::string in_words(const RepairCounts& counts) {
     add(counts.cut_edges, "edge cut", "edges cut");
     add(counts.split_vertices, "vertex split", "vertices split");
     add(counts.dropped_components, "component left out", "components left out");
+    add(counts.closed_slits, "slit closed", "slits closed");
     add(counts.filled_holes, "hole filled", "holes filled");
     add(counts.unfilled_holes, "hole left open, which cannot be filled without new vertices",
         "holes left open, which cannot be filled without new vertices");

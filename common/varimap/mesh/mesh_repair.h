@@ -28,11 +28,10 @@ struct RepairOptions {
         list.add("repair", repair,
                  "what is repaired: all, none, or some of weld,faces,sheets,components; the rest is refused",
                  {});
-        list.add(
-            "weld_tolerance", weld_tolerance,
-            "boundary vertices as near as this to each other are one; units of sqrt(area); 0: in the same "
-            "place",
-            0, 0.1);
+        list.add("weld_tolerance", weld_tolerance,
+                 "boundary vertices as near as this to each other are one; units of sqrt(area); 0: a "
+                 "hundredth of the boundary edges there",
+                 0, 0.1);
         list.add("components", components,
                  "which components are mapped: the largest, or all that are large enough");
         list.add("least_component", least_component,
@@ -51,6 +50,7 @@ struct RepairCounts {
     int split_vertices = 0;      ///< vertices that were given to several sheets
     int dropped_components = 0;  ///< components left out
     double dropped_area = 0;     ///< their share of the area
+    int closed_slits = 0;        ///< boundary loops without area closed (holes.h)
     int filled_holes = 0;        ///< boundary loops closed (holes.h)
     int filling_faces = 0;       ///< with so many faces
     int unfilled_holes = 0;      ///< loops that should have been, but could not
@@ -72,9 +72,9 @@ struct RepairedMesh {
 };
 
 /// Makes the mesh of a file oriented and manifold, perhaps of several components. By `options.repair`:
-///   weld        boundary vertices in the same place, within the tolerance, become one: seams of
-///               textures, the separate triangles of some STL files. Vertices inside a surface
-///               stay apart
+///   weld        boundary vertices in the same place, or nearly (weld.h), become one: seams of textures,
+///               separate triangles; and components that lie on others one with these. Other vertices inside
+///               a surface stay apart
 ///   faces       faces with a corner that is not finite, that name a vertex twice, or that lie on another one
 ///               are dropped. Of two back to back, both, where they are a fin on a surface; else one
 ///   sheets      at edges of three or more faces sheets are separated: where as many faces run one way as the
@@ -87,6 +87,9 @@ struct RepairedMesh {
 /// require_manifold (io/mesh_file.h), by an InputError that names `path` and the first place. Throws
 /// InputError where no surface is left, UsageError for unknown words.
 RepairedMesh repaired(const TriangleMesh& file, const RepairOptions& options, const std::string& path);
+
+/// Whether the options ask for welding.
+bool welds(const RepairOptions& options);
 
 /// The file as it was read.
 inline const TriangleMesh& file_of(const RepairedMesh& repaired) {

@@ -11,14 +11,19 @@
 namespace varimap {
 namespace {
 
+constexpr double least_height = 1e-9;  ///< by the length of the face's other side
+
 /// A face at an edge, by its side there.
 struct Flank {
     int side;
     bool forward;  ///< it runs from the edge's lower vertex to its higher one
     double angle;  ///< about the edge, counter-clockwise seen from the higher vertex
+    bool flat;     ///< without height over the edge: the angle means nothing
 };
 
+/// Of flat ones 0: others belong together before them.
 double turn_between(const Flank& a, const Flank& b) {
+    if (a.flat || b.flat) return 0;
     const double turn = std::abs(a.angle - b.angle);
     return std::min(turn, 2 * std::numbers::pi - turn);
 }
@@ -76,9 +81,10 @@ std::vector<Flank> SheetFinder::flanks(int edge) const {
     std::vector<Flank> result;
     for (const int side : edges_.sides[edge]) {
         const Vec3 across = mesh_.vertex(start(next(next(side)))) - origin;
-        const double angle = std::atan2(across.dot(y), across.dot(x));
+        const double up = across.dot(y), out = across.dot(x), angle = std::atan2(up, out);
+        const bool flat = std::hypot(up, out) <= least_height * across.norm();
         // About an edge without length there are no angles.
-        result.push_back({side, start(side) == low, std::isfinite(angle) ? angle : 0});
+        result.push_back({side, start(side) == low, std::isfinite(angle) ? angle : 0, flat});
     }
     std::sort(result.begin(), result.end(), [](const Flank& a, const Flank& b) {
         return a.angle != b.angle ? a.angle < b.angle : a.side < b.side;

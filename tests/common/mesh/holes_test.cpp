@@ -52,6 +52,49 @@ TEST(Holes, CloseWithTheLeastAreaAndKeepWhatIsThere) {
     EXPECT_EQ(result.link.fate[0], VertexFate::kept);
 }
 
+/// The faces marked have a vertex more, in the middle of their first edge, which the faces beside them lack.
+TriangleMesh with_t_junctions(const TriangleMesh& mesh, const std::vector<int>& marked) {
+    TriangleMesh result = mesh;
+    for (const int f : marked) {
+        const int a = mesh.faces(f, 0), b = mesh.faces(f, 1), c = mesh.faces(f, 2);
+        const int middle = result.vertex_count(), half = result.face_count();
+        result.vertices.conservativeResize(middle + 1, 3);
+        result.vertices.row(middle) = (mesh.vertices.row(a) + mesh.vertices.row(b)) / 2;
+        result.faces.conservativeResize(half + 1, 3);
+        result.faces.row(f) << a, middle, c;
+        result.faces.row(half) << middle, b, c;
+    }
+    return result;
+}
+
+/// One by one, and where slits run into each other.
+TEST(Holes, SlitsOfTJunctionsAreClosed) {
+    const TriangleMesh whole = shapes::ellipsoid(3);
+    std::vector<int> all_faces;
+    for (int f = 0; f < whole.face_count(); ++f) all_faces.push_back(f);
+    for (const auto& marked : {std::vector{0, 300, 600}, std::vector{0, 1, 2, 3, 40, 41}}) {
+        const TriangleMesh file = with_t_junctions(whole, marked);
+        const RepairedMesh torn = repaired(file, {}, "m.off");
+        ASSERT_GT(summarise_topology(torn.mesh).boundary_loops, 0);
+        const RepairedMesh closed = slits_closed(torn);
+        require_manifold(closed.mesh, "closed");
+        EXPECT_TRUE(is_closed(closed.mesh));
+        EXPECT_EQ(closed.counts.closed_slits, summarise_topology(torn.mesh).boundary_loops);
+        EXPECT_NEAR(surface_area(closed.mesh), surface_area(torn.mesh), 1e-12);
+        for (int f = 0; f < file.face_count(); ++f) EXPECT_EQ(closed.link.face[std::size_t(f)], f);
+    }
+}
+
+TEST(Holes, OtherHolesAreNoSlits) {
+    const TriangleMesh pierced_ball = pierced(shapes::ellipsoid(3), {20});
+    for (const TriangleMesh& mesh : {pierced_ball, shapes::square(3), shapes::tube(5, 6, false)}) {
+        const RepairedMesh same = slits_closed({mesh, {}, {}});
+        EXPECT_EQ(same.counts.closed_slits, 0);
+        EXPECT_EQ(same.mesh.faces, mesh.faces);
+        EXPECT_TRUE(same.link.is_identity());
+    }
+}
+
 TEST(Holes, LongerOnesStayOpen) {
     const TriangleMesh whole = shapes::ellipsoid(3);
     const int valence = int(vertex_neighbours(whole)[200].size());

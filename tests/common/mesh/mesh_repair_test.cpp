@@ -92,13 +92,54 @@ TEST(MeshRepair, WeldsATriangleThatIsThereTwice) {
     EXPECT_EQ(whole.counts.dropped_components, 0);
 }
 
+/// Each vertex moved by up to `most`.
+TriangleMesh shaken(TriangleMesh mesh, double most) {
+    for (int v = 0; v < mesh.vertex_count(); ++v) mesh.vertices(v, v % 3) += most * (v % 7) / 6;
+    return mesh;
+}
+
+TEST(MeshRepair, WeldsWhatIsNearInTheSizeOfTheEdgesThere) {
+    const TriangleMesh separate = soup(shapes::ellipsoid(1));
+    for (const double scale : {1e-6, 1., 1e9}) {
+        TriangleMesh file = shaken(separate, 1e-4);
+        file.vertices *= scale;
+        EXPECT_TRUE(is_closed(repaired(file).mesh)) << scale;
+    }
+    // Small edges are not mistaken for gaps beside large ones.
+    TriangleMesh fine = shapes::square(40), coarse = shapes::square(2);
+    fine.vertices *= 1e-4;
+    fine.vertices.rowwise() += Vec3(5, 0, 0).transpose();
+    const RepairedMesh both = repaired(together(coarse, fine), {.least_component = 0});
+    EXPECT_EQ(both.counts.welded, 0);
+}
+
 TEST(MeshRepair, WeldsWithinATolerance) {
-    TriangleMesh file = soup(shapes::ellipsoid(1));
-    for (int v = 0; v < file.vertex_count(); ++v) file.vertices(v, v % 3) += 1e-5 * (v % 7);
+    const TriangleMesh file = shaken(soup(shapes::ellipsoid(1)), 0.03);
     EXPECT_FALSE(is_closed(repaired(file).mesh));
     RepairOptions options;
-    options.weld_tolerance = 1e-3;
+    options.weld_tolerance = 0.03;
     EXPECT_TRUE(is_closed(repaired(file, options).mesh));
+}
+
+/// What was given both sides, or is there twice, with vertices of its own.
+TEST(MeshRepair, WeldsCopiesOfAComponent) {
+    const TriangleMesh ball = shapes::ellipsoid(2), sheet = shapes::square(3);
+    for (const TriangleMesh& mesh : {ball, sheet, soup(ball)})
+        for (const bool back : {false, true}) {
+            TriangleMesh copy = mesh;
+            if (back) copy.faces.col(1).swap(copy.faces.col(2));
+            const RepairedMesh once = repaired(together(mesh, copy));
+            EXPECT_EQ(once.mesh.faces, repaired(mesh).mesh.faces);
+            EXPECT_EQ(once.counts.duplicates, mesh.face_count());
+            for (int v = 0; v < mesh.vertex_count(); ++v)
+                EXPECT_EQ(once.link.vertex[std::size_t(v)],
+                          once.link.vertex[std::size_t(v + mesh.vertex_count())]);
+            expect_faces_of_file(once);
+        }
+    // Two balls that share a part of their faces' places are two.
+    TriangleMesh other = ball;
+    other.vertices.row(0) *= 1.1;
+    EXPECT_EQ(repaired(together(ball, other)).counts.welded, 0);
 }
 
 TEST(MeshRepair, DropsFacesWithCornersThatAreNotNumbers) {
@@ -149,6 +190,12 @@ TEST(MeshRepair, RemovesFinsAndKeepsOneSideOfTwo) {
     EXPECT_TRUE(is_closed(shaved.mesh));
     EXPECT_EQ(shaved.counts.duplicates, 2);
     EXPECT_EQ(shaved.link.fate[std::size_t(tip)], VertexFate::faces_dropped);
+
+    // A face of the surface that is there once more, the other way round, is no fin.
+    TriangleMesh doubled = shapes::ellipsoid(3);
+    for (int f = 0; f < shapes::ellipsoid(3).face_count(); f += 7)
+        add_face(doubled, doubled.faces(f, 1), doubled.faces(f, 0), doubled.faces(f, 2));
+    EXPECT_TRUE(is_closed(repaired(doubled).mesh));
 
     TriangleMesh twice = shapes::square(3);
     const TriangleMesh once = twice;
