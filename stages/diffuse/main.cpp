@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
         const auto initial_map =
             read_initial_map(stage, initial_map_in, params.map_base, A.surface, B.surface);
         warn_of_part(A.surface, B.surface);
+        warn_of_genus(A.surface, B.surface);
         warn_of_inside_out(A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);

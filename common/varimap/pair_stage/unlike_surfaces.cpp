@@ -1,5 +1,6 @@
 #include "varimap/pair_stage/unlike_surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "varimap/core/log.h"
@@ -9,10 +10,14 @@ namespace varimap {
 
 namespace {
 
-/// In units of sqrt(area). A person cut at the waist has .9, a head .8; holes of scans have less than .2.
-constexpr double long_loop = 0.4;
+/// In units of sqrt(area). A person cut at the waist has .9, a head .8, a leg or an arm .3; holes of scans
+/// mostly less than .2.
+constexpr double long_loop = 0.25;
 /// Of that loop: where the other's longest is no longer, it has no such opening.
 constexpr double much_shorter = 0.5;
+
+/// More are noise, as preprocessing takes it, and some of it is left there.
+constexpr int most_handles = 20;
 
 double opening(const Surface& surface) {
     return longest_boundary(surface.input) / std::sqrt(surface_area(surface.input));
@@ -34,6 +39,16 @@ void warn_of_part(const Surface& A, const Surface& B) {
     const double a = opening(A), b = opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");
+}
+
+void warn_of_genus(const Surface& A, const Surface& B) {
+    if (!A.is_surface() || !B.is_surface()) return;
+    const int a = summarise_topology(A.mesh).genus, b = summarise_topology(B.mesh).genus;
+    if (a == b || std::max(a, b) > most_handles) return;
+    warn(
+        "the source has genus {}, the target {}: every map between them folds or leaves something out; "
+        "handles and tunnels that are noise are cut by --cut-handles LENGTH",
+        a, b);
 }
 
 void warn_of_inside_out(const Surface& A, const Surface& B) {

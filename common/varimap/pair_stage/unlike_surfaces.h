@@ -9,6 +9,10 @@ namespace varimap {
 /// it.
 void warn_of_part(const Surface& A, const Surface& B);
 
+/// Warns where the surfaces differ in genus: no map between them is one to one. Beyond 20 handles it is
+/// noise.
+void warn_of_genus(const Surface& A, const Surface& B);
+
 /// Warns where of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored:
 /// all maps that keep the orientation are then those of a mirror image.
 void warn_of_inside_out(const Surface& A, const Surface& B);

@@ -17,10 +17,48 @@ Surface ball(bool inside_out, bool mirrored) {
     return preprocess(mesh, params);
 }
 
-std::size_t warnings_of(const Surface& A, const Surface& B) {
+template <class Warner>
+std::size_t warnings_of(const Surface& A, const Surface& B, Warner warner) {
     const std::size_t before = logged_warnings().size();
-    warn_of_inside_out(A, B);
+    warner(A, B);
     return logged_warnings().size() - before;
+}
+
+std::size_t warnings_of(const Surface& A, const Surface& B) {
+    return warnings_of(A, B, warn_of_inside_out);
+}
+
+/// The unit ball below a height.
+Surface ball_cut_at(double height) {
+    const TriangleMesh ball = shapes::ellipsoid(4);
+    std::vector<int> left;
+    for (int f = 0; f < ball.face_count(); ++f)
+        if (ball.vertices(ball.faces.row(f), 2).maxCoeff() < height) left.push_back(f);
+    return preprocess(TriangleMesh{ball.vertices, ball.faces(left, Eigen::all)}, {});
+}
+
+/// Without half of it or a small part, but not where both are open, nor for a hole.
+TEST(UnlikeSurfaces, PartsAreSaid) {
+    const Surface whole = ball(false, false), half = ball_cut_at(0), nearly = ball_cut_at(.97),
+                  holed = ball_cut_at(.997);
+    for (const Surface& part : {half, nearly}) {
+        ASSERT_EQ(warnings_of(part, whole, warn_of_part), 1u);
+        EXPECT_NE(logged_warnings().back().find("the source looks like a part"), std::string::npos);
+        ASSERT_EQ(warnings_of(whole, part, warn_of_part), 1u);
+        EXPECT_NE(logged_warnings().back().find("the target looks like a part"), std::string::npos);
+        EXPECT_EQ(warnings_of(part, part, warn_of_part), 0u);
+    }
+    EXPECT_EQ(warnings_of(holed, whole, warn_of_part), 0u);
+    EXPECT_EQ(warnings_of(whole, whole, warn_of_part), 0u);
+}
+
+TEST(UnlikeSurfaces, OtherGenusIsSaid) {
+    const Surface sphere = ball(false, false), torus = preprocess(shapes::torus(1, .4, 24, 12), {}),
+                  tube = preprocess(shapes::tube(8, 8, false), {});
+    EXPECT_EQ(warnings_of(sphere, tube, warn_of_genus), 0u);
+    EXPECT_EQ(warnings_of(torus, torus, warn_of_genus), 0u);
+    ASSERT_EQ(warnings_of(torus, sphere, warn_of_genus), 1u);
+    EXPECT_NE(logged_warnings().back().find("the source has genus 1, the target 0"), std::string::npos);
 }
 
 TEST(UnlikeSurfaces, OneInsideOutIsSaid) {
