@@ -1,23 +1,57 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "stages/import/isolated.h"
 #include "stages/import/scene.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/log.h"
+#include "varimap/core/printable.h"
+#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {
 
 using namespace varimap;
+namespace fs = std::filesystem;
 
 /// Files of that size take a tenth of it.
 Limits limits_for(const std::string& path) {
-    const double megabytes = double(std::filesystem::file_size(path)) / 1e6;
+    const double megabytes = double(fs::file_size(path)) / 1e6;
     return {60 + 2 * megabytes, 2 + .1 * megabytes};
+}
+
+// What the process that reads a scene hands on: names and sizes in a line each, before the bytes.
+
+std::string packed(const ImportedScene& scene, const std::string& name) {
+    std::string text = fmt::format("{}\n", scene.missing_images.size());
+    for (const std::string& image : scene.missing_images) text += printable(image) + "\n";
+    for (const auto& [file, bytes] : to_files(scene, name))
+        text += fmt::format("{}\n{}\n", file, bytes.size()) + bytes;
+    return text;
+}
+
+struct Unpacked {
+    std::vector<std::string> missing_images;
+    SceneFiles files;
+};
+
+Unpacked unpacked(std::string_view text) {
+    const auto line = [&] { return std::string(split_off_line(text)); };
+    Unpacked result;
+    for (int left = std::stoi(line()); left > 0; --left) result.missing_images.push_back(line());
+    while (!text.empty()) {
+        std::string name = line();
+        const std::size_t size = std::stoull(line());
+        result.files.emplace_back(std::move(name), text.substr(0, size));
+        text.remove_prefix(size);
+    }
+    return result;
 }
 
 bool holds(const std::string& path, const std::string& bytes) {
     std::error_code failure;
-    return std::filesystem::is_regular_file(path, failure) && read_file(path) == bytes;
+    return fs::is_regular_file(path, failure) && read_file(path) == bytes;
 }
 
 }  // namespace
@@ -30,8 +64,17 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         if (!is_importable(in))
             throw InputError(in + ": the name's ending is that of no format that can be read");
-        const std::string obj = run_isolated([&] { return to_obj(read_scene(in)); }, limits_for(in), in);
+        const fs::path path(out);
+        const std::string text =
+            run_isolated([&] { return packed(read_scene(in), printable(path.stem().string())); }, limits_for(in), in);
+        auto [missing, files] = unpacked(text);
+        for (const std::string& image : missing)
+            warn("{}: the image {} of a material is not there", in, image);
         stage.record_file("scene", in);
-        if (!holds(out, obj)) stage.write_file(out, obj);
+        files[0].first = path.filename().string();
+        for (const auto& [name, bytes] : files) {
+            const std::string file = (path.parent_path() / name).string();
+            if (!holds(file, bytes)) stage.write_file(file, bytes);
+        }
     });
 }

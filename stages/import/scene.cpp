@@ -10,10 +10,12 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "stages/import/source_meshes.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/obj_model.h"
 
 namespace varimap {
 namespace {
@@ -40,6 +42,7 @@ std::vector<PolygonSoup> source_meshes(const std::string& ending, const std::str
 struct Object {
     PolygonSoup soup;
     std::vector<Eigen::Vector2d> uv;  ///< per corner, or none
+    std::vector<unsigned> material;   ///< per polygon: assimp's
 };
 
 Vec3 to_vec3(const aiVector3D& v) {
@@ -96,6 +99,7 @@ Object object_of(const aiScene& scene, const aiNode& node) {
                                            double(mesh.mTextureCoords[0][v].y));
             }
             object.soup.end_polygon();
+            object.material.push_back(mesh.mMaterialIndex);
         }
     }
     if (!has_uv) object.uv.clear();
@@ -180,21 +184,120 @@ bool take_from(const std::vector<PolygonSoup>& meshes, Object& object) {
     for (const PolygonSoup& mesh : meshes) {
         const std::vector<std::size_t> place = polygons_in(mesh, object.soup);
         if (place.empty()) continue;
+        std::vector<unsigned> material(place.size());
+        for (std::size_t p = 0; p < place.size(); ++p) material[place[p]] = object.material[p];
         std::vector<Eigen::Vector2d> uv(object.uv.empty() ? 0 : mesh.corners.size());
         for (std::size_t p = 0; p < place.size() && !uv.empty(); ++p)
             std::copy(object.uv.begin() + std::ptrdiff_t(polygon_begin(object.soup, p)),
                       object.uv.begin() + std::ptrdiff_t(object.soup.ends[p]),
                       uv.begin() + std::ptrdiff_t(polygon_begin(mesh, place[p])));
-        object = {mesh, std::move(uv)};
+        object = {mesh, std::move(uv), std::move(material)};
         return true;
     }
     return false;
 }
 
+/// An image's first bytes tell its format; else a word of the file, if it can end a name.
+std::string image_ending(const std::string& bytes, std::string_view word) {
+    const std::string type = media_type(bytes);
+    if (!type.empty()) return type == "image/png" ? ".png" : ".jpg";
+    const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    });
+    return is_plain ? fmt::format(".{}", word) : ".image";
+}
+
+/// Where an image is that a scene names, perhaps as it was called on the machine that wrote it; or "".
+std::string find_image(const std::string& scene_path, std::string name) {
+    namespace fs = std::filesystem;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const fs::path folder = fs::path(scene_path).parent_path();
+    std::error_code failure;
+    for (const fs::path& path : {folder / name, folder / fs::path(name).filename()})
+        if (fs::is_regular_file(path, failure)) return path.string();
+    return "";
+}
+
+/// The materials of a scene that its polygons have, numbered as they first appear.
+class MaterialReader {
+  public:
+    MaterialReader(const aiScene& scene, const std::string& path, ImportedScene& result)
+        : scene_(scene), path_(path), result_(result) {}
+
+    /// -1 for assimp's own, which stands for none.
+    int number_of(unsigned index) {
+        const auto [entry, added] = numbers_.try_emplace(index, -1);
+        if (!added || index >= scene_.mNumMaterials) return entry->second;
+        const aiMaterial& material = *scene_.mMaterials[index];
+        aiString name;
+        material.Get(AI_MATKEY_NAME, name);
+        if (std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME) return -1;
+        entry->second = int(result_.materials.size());
+        result_.materials.push_back({own_name(name.C_Str()), colour_of(material), image_of(material)});
+        return entry->second;
+    }
+
+  private:
+    std::string own_name(std::string name) {
+        // OBJ files know neither blanks at the ends of names nor empty ones; # begins a comment there.
+        for (char& c : name)
+            if (static_cast<unsigned char>(c) < ' ' || c == '#' || c == '\\') c = ' ';
+        name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
+        name.erase(name.find_last_not_of(' ') + 1);
+        if (name.empty()) name = "material";
+        const std::string stem = name;
+        for (int number = 2; !names_.insert(name).second;) name = fmt::format("{}.{}", stem, number++);
+        return name;
+    }
+    static Vec3 colour_of(const aiMaterial& material) {
+        aiColor3D colour(1, 1, 1);
+        material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+        return {double(colour.r), double(colour.g), double(colour.b)};
+    }
+    int image_of(const aiMaterial& material) {
+        aiString name;
+        if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&
+            material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS)
+            return -1;
+        const auto [entry, added] = images_.try_emplace(name.C_Str(), -1);
+        if (!added) return entry->second;
+        SceneImage image = read_image(name.C_Str());
+        if (image.bytes.empty()) {
+            result_.missing_images.emplace_back(name.C_Str());
+            return -1;
+        }
+        entry->second = int(result_.images.size());
+        result_.images.push_back(std::move(image));
+        return entry->second;
+    }
+    SceneImage read_image(const char* name) const {
+        if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name)) {
+            if (embedded->mHeight > 0) return {};  // pixels, of formats that nobody writes any more
+            std::string bytes(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth);
+            return {image_ending(bytes, embedded->achFormatHint), std::move(bytes)};
+        }
+        const std::string file = find_image(path_, name);
+        if (file.empty()) return {};
+        std::string bytes = read_file(file), ending = ending_of(file);
+        return {image_ending(bytes, std::string_view(ending).substr(std::min<std::size_t>(1, ending.size()))),
+                std::move(bytes)};
+    }
+
+    const aiScene& scene_;
+    const std::string& path_;
+    ImportedScene& result_;
+    std::map<unsigned, int> numbers_;
+    std::map<std::string, int> images_;
+    std::set<std::string> names_;
+};
+
 class SceneReader {
   public:
     SceneReader(const aiScene& scene, const std::string& path)
-        : scene_(scene), ending_(ending_of(path)), meshes_(source_meshes(ending_, path)) {}
+        : scene_(scene),
+          ending_(ending_of(path)),
+          meshes_(source_meshes(ending_, path)),
+          materials_(scene, path, result_) {}
 
     ImportedScene read() {
         add(*scene_.mRootNode, Affine::Identity());
@@ -228,12 +331,13 @@ class SceneReader {
         for (std::size_t p = 0; p < object.soup.ends.size(); ++p) {
             const std::size_t begin = polygon_begin(object.soup, p), end = object.soup.ends[p];
             for (std::size_t k = begin; k < end; ++k) {
-                // The first corner stays the first: polygons are fanned from there.
+                // The first corner stays the first: polygons are cut from there.
                 const std::size_t at = mirrors && k > begin ? begin + (end - k) : k;
                 soup.corners.push_back(first + object.soup.corners[at]);
                 if (has_uv_) result_.uv.push_back(object.uv[at]);
             }
             soup.end_polygon();
+            result_.material.push_back(materials_.number_of(object.material[p]));
         }
     }
 
@@ -241,6 +345,7 @@ class SceneReader {
     std::string ending_;
     std::vector<PolygonSoup> meshes_;
     ImportedScene result_;
+    MaterialReader materials_;
     bool has_uv_ = true;
 };
 
@@ -266,22 +371,56 @@ ImportedScene read_scene(const std::string& path) {
     return result;
 }
 
-std::string to_obj(const ImportedScene& scene) {
+namespace {
+
+std::string image_name(const ImportedScene& scene, int image, const std::string& name) {
+    return fmt::format("{}.{}{}", name, image, scene.images[std::size_t(image)].ending);
+}
+
+std::string to_mtl(const ImportedScene& scene, const std::string& name) {
+    std::string text;
+    for (const SceneMaterial& material : scene.materials) {
+        text += fmt::format("newmtl {}\nKd {} {} {}\n", material.name, material.colour[0], material.colour[1],
+                            material.colour[2]);
+        if (material.image >= 0) text += fmt::format("map_Kd {}\n", image_name(scene, material.image, name));
+    }
+    return text;
+}
+
+/// Polygons without a material go to one of their own: behind a `usemtl` every polygon has one.
+std::string to_obj(const ImportedScene& scene, const std::string& name) {
     const PolygonSoup& soup = scene.soup;
     fmt::memory_buffer text;
     const auto out = std::back_inserter(text);
+    if (!scene.materials.empty()) fmt::format_to(out, "mtllib {}.mtl\n", name);
     for (const Vec3& x : soup.points) fmt::format_to(out, "v {} {} {}\n", x[0], x[1], x[2]);
     for (const auto& uv : scene.uv) fmt::format_to(out, "vt {} {}\n", uv[0], uv[1]);
     std::size_t corner = 0;
-    for (const std::size_t end : soup.ends) {
+    int material = -1;
+    for (std::size_t p = 0; p < soup.ends.size(); ++p) {
+        const int now = scene.material[p];
+        if (now != material)
+            fmt::format_to(out, "usemtl {}\n", now < 0 ? "" : scene.materials[std::size_t(now)].name);
+        material = now;
         fmt::format_to(out, "f");
-        for (; corner < end; ++corner) {
+        for (; corner < soup.ends[p]; ++corner) {
             fmt::format_to(out, " {}", soup.corners[corner] + 1);
             if (!scene.uv.empty()) fmt::format_to(out, "/{}", corner + 1);
         }
         fmt::format_to(out, "\n");
     }
     return fmt::to_string(text);
+}
+
+}  // namespace
+
+SceneFiles to_files(const ImportedScene& scene, const std::string& name) {
+    SceneFiles files{{name + ".obj", to_obj(scene, name)}};
+    if (scene.materials.empty()) return files;
+    files.emplace_back(name + ".mtl", to_mtl(scene, name));
+    for (int image = 0; image < int(scene.images.size()); ++image)
+        files.emplace_back(image_name(scene, image, name), scene.images[std::size_t(image)].bytes);
+    return files;
 }
 
 }  // namespace varimap

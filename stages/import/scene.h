@@ -2,16 +2,34 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "varimap/mesh/io/polygon_soup.h"
 
 namespace varimap {
 
+/// A material as far as OBJ files tell it.
+struct SceneMaterial {
+    std::string name;
+    Vec3 colour = Vec3::Ones();  ///< diffuse
+    int image = -1;              ///< of the scene's images; -1: none
+};
+
+/// An image that the file holds or names.
+struct SceneImage {
+    std::string ending;  ///< ".png"
+    std::string bytes;
+};
+
 /// What a file of a scene shows: the polygons of all its objects, each where its node puts it.
 struct ImportedScene {
     PolygonSoup soup;
-    std::vector<Eigen::Vector2d> uv;  ///< per entry of soup.corners, v upwards; empty: the file has none
+    std::vector<Eigen::Vector2d> uv;       ///< per entry of soup.corners, v upwards; empty: the file has none
+    std::vector<int> material;             ///< per polygon: of `materials`; -1: none
+    std::vector<SceneMaterial> materials;  ///< with names of their own
+    std::vector<SceneImage> images;
+    std::vector<std::string> missing_images;  ///< as the file names them
     int objects = 0;
 };
 
@@ -19,12 +37,17 @@ struct ImportedScene {
 /// them. Their vertices have the file's order and number: glTF and 3MF number those that they draw, FBX and
 /// COLLADA have points besides, which many corners share (source_meshes.h). Of formats that tell neither,
 /// corners of an object in the same place are one vertex, numbered as they first appear. Polygons stay
-/// polygons; points and lines are left out; nodes that mirror turn polygons, so that outside stays outside.
-/// Bones and animations are not looked at. Throws InputError that names `path`.
+/// polygons, with their materials' names, colours and base textures; points and lines are left out; nodes
+/// that mirror turn polygons, so that outside stays outside. Bones and animations are not looked at. Throws
+/// InputError that names `path`.
 ImportedScene read_scene(const std::string& path);
 
-/// OBJ with `v`, `vt` and `f`; coordinates are written so that they read back exactly.
-std::string to_obj(const ImportedScene& scene);
+/// A scene as files beside each other, of which the first is the OBJ.
+using SceneFiles = std::vector<std::pair<std::string, std::string>>;  ///< name, bytes
+
+/// NAME.obj with `v`, `vt` and `f`, whose coordinates read back exactly; and, where the scene has materials,
+/// NAME.mtl and its images NAME.0.png, ...
+SceneFiles to_files(const ImportedScene& scene, const std::string& name);
 
 /// Whether assimp reads files of that name's ending.
 bool is_importable(const std::string& path);

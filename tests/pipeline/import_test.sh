@@ -71,6 +71,13 @@ expect_ran "import*2"
 "$varimap" view out >out.txt 2>log || [[ $(<log) == *npm* || $(<log) == *viewer* ]] || fail "view"
 "$varimap" transfer out --mesh out/artifacts/a.obj >out.txt 2>log || fail "transfer"
 [[ -s out/transfer/source_on_target.obj ]] || fail "transfer wrote nothing"
+# The scene itself serves, too: the OBJ stands for it.
+for option in "--mesh a.dae" "--mesh=./a.dae"; do
+    rm -r out/transfer
+    # shellcheck disable=SC2086
+    "$varimap" transfer out $option >out.txt 2>log || fail "transfer $option: $(tail -n 1 log)"
+    [[ -s out/transfer/source_on_target.obj ]] || fail "transfer $option wrote nothing"
+done
 figure c.off 6 .8
 fbx c.off >"b b.FBX"
 map a.dae "b b.FBX" -o out

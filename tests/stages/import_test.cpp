@@ -15,6 +15,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/io/obj_model.h"
 
 namespace varimap {
 namespace {
@@ -27,6 +28,7 @@ using scenes::raw;
 using scenes::text_fbx;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using namespace std::string_literals;
 
 ImportedScene import(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
     const std::string path = folder / name;
@@ -69,11 +71,18 @@ TEST(Import, FbxAsTextToo) {
     expect_the_file(import(folder, "a.fbx", text_fbx()), polygons);
 }
 
+std::string glb_file(std::string json, const std::string& data) {
+    json.append((4 - json.size() % 4) % 4, ' ');
+    return std::string("glTF") + raw(std::uint32_t(2)) +
+           raw(std::uint32_t(12 + 16 + json.size() + data.size())) + raw(std::uint32_t(json.size())) +
+           "JSON" + json + raw(std::uint32_t(data.size())) + std::string("BIN\0", 4) + data;
+}
+
 /// Two primitives with one accessor of positions, below two nodes of which the second mirrors.
 std::string glb() {
     const std::vector<float> place{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     const std::vector<std::uint32_t> corners{0, 2, 1, 0, 1, 3};
-    std::string json =
+    const std::string json =
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
 "nodes":[{"children":[1,2],"translation":[0,0,5]},{"mesh":0},{"mesh":0,"scale":[-2,1,1]}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1},{"attributes":{"POSITION":0},"indices":2}]}],
@@ -82,11 +91,62 @@ std::string glb() {
 {"bufferView":1,"byteOffset":12,"componentType":5125,"count":3,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
 "buffers":[{"byteLength":72}]})";
-    json.append((4 - json.size() % 4) % 4, ' ');
-    const std::string data = raw(place) + raw(corners);
-    return std::string("glTF") + raw(std::uint32_t(2)) +
-           raw(std::uint32_t(12 + 16 + json.size() + data.size())) + raw(std::uint32_t(json.size())) +
-           "JSON" + json + raw(std::uint32_t(data.size())) + std::string("BIN\0", 4) + data;
+    return glb_file(json, raw(place) + raw(corners));
+}
+
+/// Three triangles: with a material that has an image inside the file, with one that names an image that is
+/// not there, and without any.
+std::string painted_glb(const std::string& image) {
+    const std::vector<float> place{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, uv{0, 0, 1, 0, 0, 1, 1, 1};
+    const std::vector<std::uint32_t> corners{0, 2, 1, 0, 1, 3, 1, 2, 3};
+    const std::string data = raw(place) + raw(uv) + raw(corners) + image;
+    std::string primitives, accessors;
+    for (const int k : {0, 1, 2}) {
+        primitives += fmt::format(R"({}{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":{}{}}})",
+                                  k > 0 ? "," : "", k + 2, k < 2 ? fmt::format(R"(,"material":{})", k) : "");
+        accessors += fmt::format(
+            R"(,{{"bufferView":2,"byteOffset":{},"componentType":5125,"count":3,"type":"SCALAR"}})", 12 * k);
+    }
+    const std::string json = fmt::format(
+        R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+"meshes":[{{"primitives":[{}]}}],
+"materials":[{{"name":"skin","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}},
+{{"name":"skin","pbrMetallicRoughness":{{"baseColorFactor":[1,0.5,0,1],"baseColorTexture":{{"index":1}}}}}}],
+"textures":[{{"source":0}},{{"source":1}}],
+"images":[{{"bufferView":3,"mimeType":"image/png"}},{{"uri":"gone.png"}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}},
+{{"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"}}{}],
+"bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":32}},
+{{"buffer":0,"byteOffset":80,"byteLength":36}},{{"buffer":0,"byteOffset":116,"byteLength":{}}}],
+"buffers":[{{"byteLength":{}}}]}})",
+        primitives, accessors, image.size(), data.size());
+    return glb_file(json, data);
+}
+
+TEST(Import, MaterialsAndImagesBecomeFilesBesideTheObj) {
+    const TemporaryFolder folder;
+    const std::string image = "\x89PNG\r\n not really.";
+    const ImportedScene scene = import(folder, "a.glb", painted_glb(image));
+    EXPECT_THAT(scene.missing_images, ElementsAre("gone.png"));
+    const SceneFiles files = to_files(scene, "b");
+    ASSERT_EQ(files.size(), 3u);
+    EXPECT_EQ(files[1].first, "b.mtl");
+    EXPECT_EQ(files[2], std::pair("b.0.png"s, image));
+    for (const auto& [name, bytes] : files) write_file_atomically(folder / name, bytes);
+    const std::string path = folder / "b.obj";
+    const ObjModel model = parse_obj_model(files[0].second, path);
+    EXPECT_TRUE(model.has_uv());
+    EXPECT_THAT(model.material, ElementsAre(0, 1, 2));
+    const Materials materials = read_materials(model, path);
+    EXPECT_THAT(materials.images, ElementsAre(std::pair("b.0.png"s, folder / "b.0.png")));
+    const Material *skin = materials.find(model.materials[0]), *other = materials.find(model.materials[1]);
+    ASSERT_TRUE(skin != nullptr && other != nullptr && skin != other);  // though the file calls both the same
+    EXPECT_EQ(skin->texture, folder / "b.0.png");
+    EXPECT_EQ(other->texture, "");
+    EXPECT_EQ(other->colour, Vec3(1, .5, 0));
+    const Material* none = materials.find(model.materials[2]);  // assimp's own for what has none
+    ASSERT_NE(none, nullptr);
+    EXPECT_EQ(none->texture, "");
 }
 
 TEST(Import, GltfNodesPlaceTheirMeshes) {
@@ -103,7 +163,9 @@ TEST(Import, GltfNodesPlaceTheirMeshes) {
 TEST(Import, ObjReadsBackTheSame) {
     const TemporaryFolder folder;
     const ImportedScene scene = import(folder, "a.fbx", binary_fbx(true));
-    const TriangleMesh mesh = parse_mesh(to_obj(scene), "a.obj");
+    const SceneFiles files = to_files(scene, "a");
+    EXPECT_EQ(files[0].first, "a.obj");
+    const TriangleMesh mesh = parse_mesh(files[0].second, "a.obj");
     ASSERT_EQ(mesh.vertex_count(), 7);
     for (int v = 0; v < 7; ++v) EXPECT_EQ(mesh.vertex(v), scene.soup.points[std::size_t(v)]);
     EXPECT_EQ(mesh.face_count(), 5);
