@@ -96,7 +96,7 @@ class Reader {
 
 std::vector<double> probabilities(const std::vector<Candidate>& candidates) {
     // Scores mislead now and then, by much: a share of the probability is the same for all.
-    constexpr double scale = .03, misled = .3;  // chosen on generated families
+    constexpr double scale = .06, misled = .3;  // chosen on generated families
     std::vector<double> result;
     double sum = 0, count = 0;
     for (const Candidate& candidate : candidates) {

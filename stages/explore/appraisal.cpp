@@ -6,14 +6,10 @@
 #include "stages/explore/pool.h"
 #include "varimap/core/rotation.h"
 #include "varimap/quality/quality.h"
-#include "varimap/relaxation/relief_agreement.h"
 
 namespace varimap {
 
 namespace {
-
-/// Units of sqrt(area): of bumps that tell a chest from a back, a knee from a hock.
-constexpr double relief_scales[] = {0.02, 0.04};
 
 /// Degrees of the rotation R that minimises sum m |R (x - mean x) - (y - mean y)|^2 (Kabsch).
 double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) {
@@ -24,41 +20,10 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
     return Eigen::AngleAxisd(nearest_rotation(products)).angle() * 180 / M_PI;
 }
 
-double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& mass) {
-    const Eigen::ArrayXd x = a.array() - mass.dot(a), y = b.array() - mass.dot(b);
-    const double product = (mass.array() * x * y).sum();
-    const double scale = std::sqrt((mass.array() * x * x).sum() * (mass.array() * y * y).sum());
-    return scale > 0 ? product / scale : 0;
-}
-
-/// Values of the target's vertices at the images.
-Eigen::VectorXd pulled_back(const Eigen::VectorXd& values, const TriangleMesh& target, const PointMap& map) {
-    Eigen::VectorXd result(map.size());
-    for (std::size_t v = 0; v < map.size(); ++v) {
-        result[Eigen::Index(v)] = 0;
-        for (int k = 0; k < 3; ++k)
-            result[Eigen::Index(v)] += map[v].barycentric[k] * values[target.faces(map[v].face, k)];
-    }
-    return result;
-}
-
 }  // namespace
 
-Appraisal::Appraisal(const PairContext& context) : context_(context) {
-    for (const double scale : relief_scales) {
-        relief_A_.push_back(relief(context.A().surface.mesh, scale));
-        relief_B_.push_back(relief(context.B().surface.mesh, scale));
-    }
-}
-
-double Appraisal::relief_agreement(const MapPair& maps) const {
-    const Surface &A = context_.A().surface, &B = context_.B().surface;
-    double sum = 0;
-    for (std::size_t k = 0; k < relief_A_.size(); ++k)
-        sum += correlation(relief_A_[k], pulled_back(relief_B_[k], B.mesh, maps.A_to_B), A.mass) +
-               correlation(relief_B_[k], pulled_back(relief_A_[k], A.mesh, maps.B_to_A), B.mass);
-    return sum / (2 * double(relief_A_.size()));
-}
+Appraisal::Appraisal(const PairContext& context)
+    : context_(context), agreement_(context.A().surface.mesh, context.B().surface.mesh) {}
 
 void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
@@ -66,7 +31,8 @@ void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
                      back = measure_distortion(map.maps.B_to_A, B, A);
     candidate.energy = map.energy;
     candidate.dirichlet = std::sqrt(there.dirichlet_energy * back.dirichlet_energy);
-    candidate.relief = relief_agreement(map.maps);
+    candidate.relief = agreement_.relief(map.maps);
+    candidate.bending = agreement_.bending(map.maps);
     candidate.reversed_mass = (there.flipped_area_percent + back.flipped_area_percent) / 200;
     candidate.score = score_of(candidate);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "stages/explore/finishing.h"
+#include "stages/explore/shape_agreement.h"
 #include "varimap/results/candidate.h"
 
 namespace varimap {
@@ -17,10 +18,8 @@ class Appraisal {
     void compare(const FinishedMap& best, const FinishedMap& other, Candidate& candidate) const;
 
   private:
-    double relief_agreement(const MapPair& maps) const;
-
     const PairContext& context_;
-    std::vector<Eigen::VectorXd> relief_A_, relief_B_;  ///< per scale
+    ShapeAgreement agreement_;
 };
 
 }  // namespace varimap

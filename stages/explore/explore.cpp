@@ -123,7 +123,7 @@ std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::v
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
     // Where landmarks lead is given up for what is clearly better only. Chosen by hand on half of the known
     // pairs.
-    constexpr double preference = 0.05;
+    constexpr double preference = 0.1;
     const auto rank = [](const Candidate& c) {
         return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0));
     };

@@ -109,13 +109,13 @@ std::string trace_csv(const Trace& trace) {
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
     std::string text =
-        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,score,reversed_mass,moved_mass,"
-        "turn\n";
+        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,bending,score,reversed_mass,"
+        "moved_mass,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text +=
-            fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A, c.self_map_B,
-                        c.energy, c.dirichlet, c.relief, c.score, c.reversed_mass, c.moved_mass, c.turn);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A,
+                            c.self_map_B, c.energy, c.dirichlet, c.relief, c.bending, c.score,
+                            c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;
 }

@@ -112,6 +112,7 @@ Json to_json(const std::vector<Candidate>& candidates, int continued, double fin
                         {"energy", c.energy},
                         {"dirichlet_energy", c.dirichlet},
                         {"relief_agreement", c.relief},
+                        {"bending_agreement", c.bending},
                         {"score", c.score},
                         {"reversed_percent", 100 * c.reversed_mass},
                         {"moved_percent", 100 * c.moved_mass},
@@ -123,6 +124,7 @@ Json to_json(const std::vector<Candidate>& candidates, int continued, double fin
             {"margin", confidence.margin},
             {"probability", confidence.probability},
             {"doubt", doubt(candidates, of_first)},
+            {"decided_by", decided_by(candidates)},
             {"candidates", list}};
 }
 

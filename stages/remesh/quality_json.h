@@ -20,10 +20,11 @@ namespace varimap {
 ///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted
 ///                     (definitions: landmark_check.h)
 ///   exploration       where it chose the map: which candidate was continued, confident, margin, probability,
-///                     doubt in words, and the candidates: origin, energy, dirichlet_energy,
-///                     relief_agreement, score, reversed_percent, moved_percent, turn_degrees, mirrored
-///                     (definitions: candidate.h). Where the first was continued, probability, confident and
-///                     doubt are those of the finished map; confident_when_found: before it was finished
+///                     doubt and decided_by in words, and the candidates: origin, energy, dirichlet_energy,
+///                     relief_agreement, bending_agreement, score, reversed_percent, moved_percent,
+///                     turn_degrees, mirrored (definitions: candidate.h). Where the first was continued,
+///                     probability, confident and doubt are those of the finished map; confident_when_found:
+///                     before it was finished
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
 ///       within_area_bound, conformal_distortion {as area_ratio}, dirichlet_energy, coverage, and

@@ -163,6 +163,7 @@ TEST(Finishing, IsBestForTheRightMap) {
     appraisal.measure(finished.front(), best);
     EXPECT_LT(best.reversed_mass, .01);
     EXPECT_GT(best.relief, .8);
+    EXPECT_GT(best.bending, .8);
     if (finished.size() > 1) {
         appraisal.measure(finished.back(), other);
         EXPECT_GT(other.score, best.score);
@@ -346,6 +347,52 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     Candidate mirrored = best;
     mirrored.reversed_mass = 1;
     EXPECT_EQ(confidence_of({mirrored}).probability, 0);
+}
+
+TEST(Confidence, SaysWhichCueDecided) {
+    const Candidate best{.energy = .005, .bending = .8, .score = -7.3},
+        rival{.energy = .00495, .bending = .7, .score = -7.06, .moved_mass = .9};
+    EXPECT_EQ(decided_by({best, rival}), "bending, against energy");
+    Candidate nearer = best;  // the best rival counts, not the first in the list
+    nearer.moved_mass = .5;
+    nearer.bending = .8001;
+    nearer.score = -7.1;
+    nearer.energy = .006;
+    EXPECT_EQ(decided_by({best, rival, nearer}), "energy");
+    nearer.moved_mass = .01;  // the same map
+    EXPECT_EQ(decided_by({best, nearer}), "");
+    Candidate reversing = rival;
+    reversing.energy = best.energy;
+    reversing.reversed_mass = .2;
+    EXPECT_EQ(decided_by({best, reversing}), "bending and reversed area");
+    reversing = best;
+    reversing.moved_mass = .9;
+    EXPECT_EQ(decided_by({best, reversing}), "no cue by much");
+}
+
+/// Points of the mesh nearest to the vertices, moved.
+PointMap nearest_points(const TriangleMesh& mesh, const Eigen::Matrix3d& moved) {
+    const PointMap at = points_at_vertices(mesh);
+    PointMap map;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        map.push_back(at[std::size_t(shapes::nearest_vertex(mesh, moved * mesh.vertex(v)))]);
+    return map;
+}
+
+TEST(ShapeAgreement, SeesInWhichDirectionSurfacesBend) {
+    // A bar, flat above and below. Turned by a quarter about its axis it has flat places on bent ones; turned
+    // by a half, like ones on like ones.
+    TriangleMesh mesh = shapes::ellipsoid(3, {1, .5, .2});
+    mesh.vertices /= std::sqrt(surface_area(mesh));
+    const ShapeAgreement agreement(mesh, mesh);
+    const auto turned = [&](double degrees) {
+        const Eigen::Matrix3d turn =
+            Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitX()).toRotationMatrix();
+        return agreement.bending({nearest_points(mesh, turn), nearest_points(mesh, turn.transpose())});
+    };
+    EXPECT_NEAR(turned(0), 1, 1e-9);
+    EXPECT_GT(turned(180), .9);
+    EXPECT_LT(turned(90), .5);
 }
 
 TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {

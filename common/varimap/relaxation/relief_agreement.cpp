@@ -23,16 +23,9 @@ constexpr double least_scale = 0.02;
 /// more); with 2 and 4, they rise by up to 17% between poses.
 constexpr std::array<double, 2> scales{0.6, 1};
 
-Eigen::VectorXd normalised(Eigen::VectorXd values) {
-    values.array() -= upper_median(values);
-    const double deviation = 1.5 * upper_median(values.cwiseAbs());
-    if (!(deviation > 0)) return Eigen::VectorXd::Zero(values.size());
-    return bound * (values / (bound * deviation)).array().tanh();
-}
-
 }  // namespace
 
-Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
+Points smoothed(const TriangleMesh& mesh, double scale) {
     // Unused vertices have no mass, which would leave the matrix singular.
     const Eigen::VectorXd mass = voronoi_masses(mesh).cwiseMax(1e-15);
     Eigen::SparseMatrix<double> diffusion(mass.size(), mass.size());
@@ -40,8 +33,19 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
     diffusion = mass.asDiagonal() * diffusion;
     diffusion += scale * scale * cotangent_laplacian(mesh);
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(diffusion);
-    const Points smooth = solver.solve(mass.asDiagonal() * mesh.vertices);
-    return normalised((mesh.vertices - smooth).cwiseProduct(vertex_normals(mesh)).rowwise().sum());
+    return solver.solve(mass.asDiagonal() * mesh.vertices);
+}
+
+Eigen::VectorXd bounded_deviations(Eigen::VectorXd values) {
+    values.array() -= upper_median(values);
+    const double deviation = 1.5 * upper_median(values.cwiseAbs());
+    if (!(deviation > 0)) return Eigen::VectorXd::Zero(values.size());
+    return bound * (values / (bound * deviation)).array().tanh();
+}
+
+Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
+    const Points height = mesh.vertices - smoothed(mesh, scale);
+    return bounded_deviations(height.cwiseProduct(vertex_normals(mesh)).rowwise().sum());
 }
 
 ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight)

@@ -7,8 +7,15 @@
 
 namespace varimap {
 
+namespace {
+
+/// How much log energy a correlation of 1 is worth.
+constexpr double bending_worth = 2.5;
+
+}  // namespace
+
 double score_of(const Candidate& candidate) {
-    return std::log(candidate.energy) + std::log(candidate.dirichlet) / 2 - candidate.relief +
+    return std::log(candidate.energy) - bending_worth * candidate.bending +
            reversed_worth * candidate.reversed_mass;
 }
 
@@ -24,7 +31,7 @@ namespace {
 /// How probable it is that a rival is the right map rather than the best one: as much as not where both are
 /// as good, three quarters with a few rivals; less for one that differs on a limb alone.
 double doubt_by(const Candidate& rival, const Candidate& best) {
-    constexpr double even = 0.75, scale = 0.03, whole = 0.25;
+    constexpr double even = 0.75, scale = 0.06, whole = 0.25;
     return even * std::exp(-std::max(0.0, rival.score - best.score) / scale) *
            std::min(1.0, rival.moved_mass / whole);
 }
@@ -39,6 +46,12 @@ double plausibility_when_finished(double dirichlet) {
     return least + (1 - least) / (1 + std::pow(std::max(1.0, dirichlet) / even, 1 / scale));
 }
 
+/// Whether it is another answer than the first.
+bool is_rival(const Candidate& candidate) {
+    constexpr double detail = 0.05;  // what differs on less, a foot or an ear, is no other map
+    return !is_mirrored(candidate) && candidate.moved_mass > detail;
+}
+
 }  // namespace
 
 double plausibility(const Candidate& candidate) {
@@ -49,13 +62,12 @@ double plausibility(const Candidate& candidate) {
 
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished) {
     constexpr double sure = 0.9;
-    constexpr double detail = 0.05;  // what differs on less, a foot or an ear, is no other map
     if (candidates.empty()) return {};
     const Candidate& best = candidates.front();
     double margin = 1, doubt = 0;
     for (size_t k = 1; k < candidates.size(); ++k) {
         const Candidate& rival = candidates[k];
-        if (is_mirrored(rival) || rival.moved_mass <= detail) continue;
+        if (!is_rival(rival)) continue;
         margin = std::min(margin, rival.score - best.score);
         doubt = std::max(doubt, doubt_by(rival, best));
     }
@@ -65,7 +77,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished) {
-    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.07;
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.12;
     const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
     const Candidate& best = candidates.front();
@@ -79,6 +91,31 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<double
         add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
     if (best.relief < unlike) add(fmt::format("relief agrees by {:.2f} only", best.relief));
     return why.empty() ? "no one cue decides" : why;
+}
+
+std::string decided_by(const std::vector<Candidate>& candidates) {
+    const Candidate *best = nullptr, *rival = nullptr;
+    for (const Candidate& candidate : candidates) {
+        if (!best)
+            best = &candidate;
+        else if (is_rival(candidate) && (!rival || candidate.score < rival->score))
+            rival = &candidate;
+    }
+    if (!rival) return "";
+    const struct {
+        const char* name;
+        double gain;  // of score, of the best map over its rival
+    } cues[] = {{"energy", std::log(rival->energy / best->energy)},
+                {"bending", bending_worth * (best->bending - rival->bending)},
+                {"reversed area", reversed_worth * (rival->reversed_mass - best->reversed_mass)}};
+    constexpr double little = 0.005;
+    std::string with, against;
+    for (const auto& [name, gain] : cues) {
+        std::string& side = gain > 0 ? with : against;
+        if (std::abs(gain) > little) side += (side.empty() ? "" : " and ") + std::string(name);
+    }
+    if (with.empty()) return "no cue by much";
+    return with + (against.empty() ? "" : ", against " + against);
 }
 
 std::string relation(const Candidate& candidate) {
