@@ -23,7 +23,7 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
 }  // namespace
 
 Appraisal::Appraisal(const PairContext& context)
-    : context_(context), agreement_(context.A().surface.mesh, context.B().surface.mesh) {}
+    : context_(context), agreement_(context.A().surface, context.B().surface) {}
 
 void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;

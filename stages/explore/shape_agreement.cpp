@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "varimap/mesh/mass.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/relief_agreement.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -43,13 +43,14 @@ double normal_curvature(const Points& points, const Points& normals, int from, i
 
 }  // namespace
 
-ShapeAgreement::Side::Side(const TriangleMesh& mesh)
-    : mesh(mesh), mass(voronoi_masses(mesh)), smooth{smoothed(mesh, bending_scale), mesh.faces} {
-    normals = vertex_normals(smooth);
-    for (const double scale : relief_scales) relief.push_back(varimap::relief(mesh, scale));
+ShapeAgreement::Side::Side(const Domain& surface)
+    : mesh(surface.mesh), mass(surface.mass), smooth{smoothed(mesh, bending_scale), mesh.faces} {
+    const double outward = looks_inward(surface) ? -1 : 1;
+    normals = outward * vertex_normals(smooth);
+    for (const double scale : relief_scales) relief.push_back(outward * varimap::relief(mesh, scale));
 }
 
-ShapeAgreement::ShapeAgreement(const TriangleMesh& A, const TriangleMesh& B) : A_(A), B_(B) {}
+ShapeAgreement::ShapeAgreement(const Domain& A, const Domain& B) : A_(A), B_(B) {}
 
 double ShapeAgreement::relief(const MapPair& maps) const {
     return (relief(maps.A_to_B, A_, B_) + relief(maps.B_to_A, B_, A_)) / 2;

@@ -2,17 +2,17 @@
 
 #include <vector>
 
-#include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh/domain.h"
 #include "varimap/relaxation/untangling.h"
 
 namespace varimap {
 
 /// How well maps between two surfaces of unit area bring like places together, by cues that do not go into
-/// the maps' energies. Each is a correlation over the source, 1 at best, mean of both directions. Keeps
-/// references to the meshes.
+/// the maps' energies. Each is a correlation over the source, 1 at best, mean of both directions; the
+/// surfaces may be of opposite handedness. Keeps references to the meshes.
 class ShapeAgreement {
   public:
-    ShapeAgreement(const TriangleMesh& A, const TriangleMesh& B);
+    ShapeAgreement(const Domain& A, const Domain& B);
 
     /// Of relief (relief_agreement.h), mean of two scales.
     double relief(const MapPair& maps) const;
@@ -25,11 +25,11 @@ class ShapeAgreement {
     struct Side {
         const TriangleMesh& mesh;
         Eigen::VectorXd mass;
-        std::vector<Eigen::VectorXd> relief;  ///< per scale
+        std::vector<Eigen::VectorXd> relief;  ///< per scale; outward
         TriangleMesh smooth;
-        Points normals;  ///< of `smooth`
+        Points normals;  ///< of `smooth`, outward
 
-        explicit Side(const TriangleMesh& mesh);
+        explicit Side(const Domain& surface);
     };
     static double relief(const PointMap& map, const Side& source, const Side& target);
     static double bending(const PointMap& map, const Side& source, const Side& target);

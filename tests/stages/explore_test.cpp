@@ -15,6 +15,7 @@
 #include "stages/explore/pool.h"
 #include "stages/explore/starts.h"
 #include "stages/explore/tips.h"
+#include "varimap/mesh/mass.h"
 
 namespace varimap {
 namespace {
@@ -384,15 +385,21 @@ TEST(ShapeAgreement, SeesInWhichDirectionSurfacesBend) {
     // by a half, like ones on like ones.
     TriangleMesh mesh = shapes::ellipsoid(3, {1, .5, .2});
     mesh.vertices /= std::sqrt(surface_area(mesh));
-    const ShapeAgreement agreement(mesh, mesh);
-    const auto turned = [&](double degrees) {
+    Domain surface;
+    surface.mesh = mesh;
+    surface.mass = voronoi_masses(mesh);
+    Domain reversed = surface;  // as one of the other handedness is
+    reversed.mesh.faces.col(1).swap(reversed.mesh.faces.col(2));
+    const auto bending = [&](const Domain& target, double degrees) {
         const Eigen::Matrix3d turn =
             Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitX()).toRotationMatrix();
-        return agreement.bending({nearest_points(mesh, turn), nearest_points(mesh, turn.transpose())});
+        return ShapeAgreement(surface, target)
+            .bending({nearest_points(target.mesh, turn), nearest_points(mesh, turn.transpose())});
     };
-    EXPECT_NEAR(turned(0), 1, 1e-9);
-    EXPECT_GT(turned(180), .9);
-    EXPECT_LT(turned(90), .5);
+    EXPECT_NEAR(bending(surface, 0), 1, 1e-9);
+    EXPECT_GT(bending(surface, 180), .9);
+    EXPECT_LT(bending(surface, 90), .5);
+    EXPECT_NEAR(bending(reversed, 0), 1, 1e-9);
 }
 
 TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {

@@ -13,13 +13,6 @@ namespace varimap {
 
 namespace {
 
-/// Closed surfaces enclose a positive volume if their faces look outward; the orientation of others is that
-/// of the file.
-bool looks_inward(const Domain& surface) {
-    if (!is_closed(surface.mesh)) return surface.mirrored;
-    return signed_volume(surface.mesh) < 0;
-}
-
 Points outward_normals(const Domain& surface) {
     const Points normals = vertex_normals(surface.mesh);
     return looks_inward(surface) ? Points(-normals) : normals;
@@ -66,6 +59,11 @@ double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, 
 }
 
 }  // namespace
+
+bool looks_inward(const Domain& surface) {
+    if (!is_closed(surface.mesh)) return surface.mirrored;
+    return signed_volume(surface.mesh) < 0;
+}
 
 Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time) {
     const RowMatrix phi = diffusion_embedding(basis, time);  // exp(-lambda t / 2) phi
