@@ -11,6 +11,7 @@
 #include "fixtures/sphere_pair.h"
 #include "stages/remesh/quality_json.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 
 namespace varimap {
 namespace {
@@ -156,6 +157,19 @@ TEST_F(Remesh, CollapsedMapsHaveFiniteQuality) {
     const Json numbers = quality();
     expect_finite_numbers(numbers, "");
     EXPECT_GT(numbers["source_to_target"]["flipped_area_percent"], 90);
+}
+
+/// A ball drawn out to a spindle: nothing is reversed or left out.
+TEST_F(Remesh, StrainedMapsAreSaid) {
+    const auto is_said = [&] {
+        const std::size_t before = logged_warnings().size();
+        quality();
+        return logged_warnings().size() > before &&
+               logged_warnings()[before].find("the map is strained") != std::string::npos;
+    };
+    EXPECT_FALSE(is_said());
+    pair_.B.input.vertices.col(2) *= 8;
+    EXPECT_TRUE(is_said());
 }
 
 TEST_F(Remesh, ServesMirroredSurfaces) {
