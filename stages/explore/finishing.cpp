@@ -11,6 +11,7 @@
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -151,9 +152,11 @@ std::vector<FinishedMap> finish(const PairContext& context, const std::vector<Ve
             same->start = std::min(same->start, map.start);
     }
     log("finished {} of {} maps", finished.size(), starts.size());
+    UntanglingOptions untangling = options.untangling;
+    untangling.opposed = looks_inward(context.A().surface) != looks_inward(context.B().surface);
     parallel_for_each_index(finished.size(), std::size_t(1), [&](std::size_t n) {
         untangle(finished[n].maps, context.A().surface.mesh, context.B().surface.mesh, pinned(context),
-                 options.untangling);
+                 untangling);
     });
     return finished;
 }

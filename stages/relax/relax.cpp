@@ -9,6 +9,7 @@
 #include "stages/relax/prolongation.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -134,6 +135,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
                  double area_bound, const RelaxParams& params) {
     MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
     UntanglingOptions options = params.untangling;
+    options.opposed = looks_inward(A) != looks_inward(B);
     if (params.keep_area_bound) options.area_bound = area_bound;
     const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;

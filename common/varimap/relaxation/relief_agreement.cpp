@@ -48,12 +48,13 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
     return bounded_deviations(height.cwiseProduct(vertex_normals(mesh)).rowwise().sum());
 }
 
-ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight)
+ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight, bool opposed)
     : map_(map), weight_(weight * voronoi_masses(map.source())) {
     const double unit =
         std::max({least_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
     for (const double scale : scales)
-        channels_.push_back({relief(map.source(), scale * unit), relief(map.target(), scale * unit)});
+        channels_.push_back(
+            {(opposed ? -1 : 1) * relief(map.source(), scale * unit), relief(map.target(), scale * unit)});
 }
 
 double ReliefAgreement::residual(const Channel& channel, int v) const {

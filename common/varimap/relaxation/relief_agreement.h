@@ -31,8 +31,9 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 /// longer. Coarser ones follow the pose.
 class ReliefAgreement {
   public:
-    /// Keeps a reference to the map.
-    ReliefAgreement(const SlidingMap& map, double weight);
+    /// Keeps a reference to the map. `opposed`: the faces of one mesh alone look inward, so that its bumps
+    /// are hollows.
+    ReliefAgreement(const SlidingMap& map, double weight, bool opposed = false);
 
     struct Quadratic {
         Eigen::Vector2d gradient;

@@ -155,7 +155,7 @@ class Untangling {
         report_.flipped_area_percent_before = report_.flipped_area_percent_after =
             before_.flipped_area_percent;
         if (options.relief_weight > 0 && options.global_steps > 0)
-            relief_ = std::make_unique<ReliefAgreement>(sliding_, options.relief_weight);
+            relief_ = std::make_unique<ReliefAgreement>(sliding_, options.relief_weight, options.opposed);
     }
 
     /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.

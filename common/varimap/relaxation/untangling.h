@@ -25,6 +25,8 @@ struct UntanglingOptions {
     /// Excess energy at which a face counts half in global steps; 0: all count fully.
     double robustness = 0.3;
     double relief_weight = 2;  ///< of relief against the fold energy in global steps (relief_agreement.h)
+    /// The surfaces are of opposite handedness: faces of one of them look inward.
+    bool opposed = false;
     /// Of each direction's attraction to the other's inverse (soft_constraints.h) in the last global steps.
     double inverse_weight = 1000;
     /// Over the whole map, before folds are removed: for a map that was relaxed at a lower resolution. With

@@ -39,6 +39,21 @@ TEST(Relief, IsHighOnBumpsAndLowInDents) {
     EXPECT_GT(a.dot(b) / (a.norm() * b.norm()), 0.9);
 }
 
+TEST(ReliefAgreement, KnowsSurfacesOfOppositeHandedness) {
+    const TriangleMesh outward = bumpy_sphere();
+    TriangleMesh inward = outward;
+    inward.faces.col(1).swap(inward.faces.col(2));
+    SlidingMap map(shapes::at_vertices(outward), inward, outward);
+    const auto total = [&](bool opposed) {
+        const ReliefAgreement agreement(map, 1, opposed);
+        double sum = 0;
+        for (int v = 0; v < outward.vertex_count(); ++v) sum += agreement.value(v);
+        return sum;
+    };
+    EXPECT_GT(total(false), 0.01);
+    EXPECT_LT(total(true), 1e-4 * total(false));  // the upper median of an even number is turned, too
+}
+
 TEST(ReliefAgreement, HasTheDerivativesOfItsValue) {
     const TriangleMesh mesh = bumpy_sphere();
     SlidingMap map(shapes::turned_identity(mesh, 0.1), mesh, mesh);
