@@ -65,8 +65,8 @@ int main(int argc, char** argv) {
         if (!is_importable(in))
             throw InputError(in + ": the name's ending is that of no format that can be read");
         const fs::path path(out);
-        const std::string text =
-            run_isolated([&] { return packed(read_scene(in), printable(path.stem().string())); }, limits_for(in), in);
+        const std::string text = run_isolated(
+            [&] { return packed(read_scene(in), printable(path.stem().string())); }, limits_for(in), in);
         auto [missing, files] = unpacked(text);
         for (const std::string& image : missing)
             warn("{}: the image {} of a material is not there", in, image);
