@@ -151,22 +151,6 @@ void close(const std::vector<Triangle>& triangles, RepairedMesh& repaired) {
     add(triangles, repaired);
 }
 
-}  // namespace
-
-int longest_hole(const std::string& words) {
-    if (words == "none" || words == "0") return 0;
-    if (words == "all") return std::numeric_limits<int>::max();
-    int edges = 0;
-    const char* end = words.data() + words.size();
-    const auto [stop, error] = std::from_chars(words.data(), end, edges);
-    if (error != std::errc() || stop != end || edges < 3)
-        throw UsageError("--fill-holes " + words +
-                         ": give the number of edges of the longest hole, at least 3, or all, or none");
-    return edges;
-}
-
-namespace {
-
 double length_of(const TriangleMesh& mesh, const Loop& loop) {
     double length = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)
@@ -191,6 +175,18 @@ double area_of(const TriangleMesh& mesh, const std::vector<Triangle>& faces) {
 }
 
 }  // namespace
+
+int longest_hole(const std::string& words) {
+    if (words == "none" || words == "0") return 0;
+    if (words == "all") return std::numeric_limits<int>::max();
+    int edges = 0;
+    const char* end = words.data() + words.size();
+    const auto [stop, error] = std::from_chars(words.data(), end, edges);
+    if (error != std::errc() || stop != end || edges < 3)
+        throw UsageError("--fill-holes " + words +
+                         ": give the number of edges of the longest hole, at least 3, or all, or none");
+    return edges;
+}
 
 RepairedMesh slits_closed(RepairedMesh repaired) {
     const TriangleMesh& mesh = repaired.mesh;

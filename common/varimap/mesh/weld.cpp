@@ -52,7 +52,7 @@ class Welding {
   private:
     std::vector<int> places() const;
     void join_copies();
-    void join_same_places();
+    bool join_same_places();
     void join_near(double tolerance);
     TriangleMesh joined();
     std::vector<double> shortest_boundary_edges();
@@ -137,12 +137,14 @@ std::vector<double> Welding::shortest_boundary_edges() {
     return shortest;
 }
 
-void Welding::join_same_places() {
+/// False where there is no boundary.
+bool Welding::join_same_places() {
     std::map<Place, int> first;
     const std::vector<double> shortest = shortest_boundary_edges();
     for (int v = 0; v < mesh_.vertex_count(); ++v)
         if (shortest[std::size_t(v)] > 0)
             sets_.join(first.emplace(place_of(mesh_.vertex(v)), v).first->second, v);
+    return !first.empty();
 }
 
 /// Those that reach farther first: the cells of each level then hold vertices that reach about as far as they
@@ -178,8 +180,7 @@ void Welding::join_near(double tolerance) {
 
 std::vector<int> Welding::run(double tolerance) {
     join_copies();
-    join_same_places();
-    join_near(tolerance);
+    if (join_same_places()) join_near(tolerance);
     std::vector<int> result;
     for (int v = 0; v < mesh_.vertex_count(); ++v) result.push_back(sets_.lowest(v));
     return result;

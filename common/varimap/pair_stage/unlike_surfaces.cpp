@@ -5,6 +5,7 @@
 
 #include "varimap/core/log.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -54,7 +55,7 @@ void warn_of_genus(const Surface& A, const Surface& B) {
 void warn_of_inside_out(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return;
     if (!is_closed(A.mesh) || !is_closed(B.mesh)) return;
-    const bool A_is = signed_volume(A.mesh) < 0, B_is = signed_volume(B.mesh) < 0;
+    const bool A_is = looks_inward(A), B_is = looks_inward(B);
     if (A_is != B_is)
         warn(
             "the {} is inside out: its faces look inward, so that it counts as a mirror image; reverse its "

@@ -220,6 +220,9 @@ class Untangling {
         }
         return area > 0 ? sum / area : 0;
     }
+    bool is_much_worse_than(const Untangling& other) const {
+        return options_.replace_parts && energy() > much_worse * other.energy();
+    }
     void reconcile(const PointMap& back, bool whole) {
         if (replacement_) replacement_->adopt_inverse(back, whole && double(pinned_.size()) <= large);
     }
@@ -359,11 +362,9 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     if (options.local_sweeps == 0) run(there, back, rounds[0]);
     with_each_other(there, back,
                     [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
-    const double energy = there.energy(), energy_back = back.energy();
+    const bool whole_there = there.is_much_worse_than(back), whole_back = back.is_much_worse_than(there);
     with_each_other(there, back, [&](Untangling& map, const PointMap& inverse) {
-        const bool is_there = &map == &there;
-        const double own = is_there ? energy : energy_back, other = is_there ? energy_back : energy;
-        map.reconcile(inverse, own > much_worse * other);
+        map.reconcile(inverse, &map == &there ? whole_there : whole_back);
     });
     run(there, back, rounds[1]);
     if (options.settling_steps > 0) settle(there, back);
