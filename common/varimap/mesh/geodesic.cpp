@@ -162,7 +162,7 @@ double Geodesic::State::straightened(const Scratch& s, const Vec3& a, const Vec3
     }
     std::reverse(strip.faces.begin(), strip.faces.end());
     std::reverse(strip.edges.begin(), strip.edges.end());
-    return std::max(straighten(mesh, edges, strip, a, b), (b - a).norm());
+    return std::max(straighten(mesh, edges, strip, a, b).length, (b - a).norm());
 }
 
 Geodesic::Geodesic(const TriangleMesh& mesh, int points_per_edge)

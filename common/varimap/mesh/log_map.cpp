@@ -65,7 +65,8 @@ int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point) {
     return point.face >= 0 && point.barycentric.maxCoeff(&k) > 1 - 1e-9 ? mesh.faces(point.face, k) : -1;
 }
 
-LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3& to) const {
+LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3& to,
+                                      double length) const {
     // The path leaves the star through the face from which on its edges are others.
     std::ptrdiff_t skipped = 0;
     while (skipped < std::ptrdiff_t(strip.edges.size()) &&
@@ -79,13 +80,11 @@ LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, co
     for (const int f : around) {
         const int k = corner_of(mesh_, f, vertex);
         if (f == face) {
-            const Vec3 away = heading(mesh_, edges_, outside, mesh_.vertex(vertex), to);
+            const Vec3 away = straight_path(mesh_, edges_, outside, mesh_.vertex(vertex), to).goal_from_start;
             at = total + angle(mesh_.vertex(mesh_.faces(f, (k + 1) % 3)) - mesh_.vertex(vertex), away);
         }
         total += corner_angle(mesh_, f, k);
     }
-    TriangleStrip whole = strip;
-    const double length = straighten(mesh_, edges_, whole, mesh_.vertex(vertex), to);
     const bool is_inside =
         edges_
             .sides[edges_.of_side[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))]]
@@ -94,12 +93,10 @@ LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, co
     return {length * std::cos(at), length * std::sin(at)};
 }
 
-LogMap::Vec2 LogMap::seen(const SurfacePoint& from, const TriangleStrip& strip, const Vec3& to) const {
-    if (const int vertex = vertex_at(mesh_, from); vertex >= 0) return seen_from_vertex(vertex, strip, to);
-    const Vec3 away = heading(mesh_, edges_, strip, position(mesh_, from), to);
-    const Vec3 p = mesh_.vertex(mesh_.faces(from.face, 0));
-    const Vec3 edge = mesh_.vertex(mesh_.faces(from.face, 1)) - p;
-    const Vec3 normal = edge.cross(mesh_.vertex(mesh_.faces(from.face, 2)) - p);
+LogMap::Vec2 LogMap::in_plane_of(int face, const Vec3& away) const {
+    const Vec3 p = mesh_.vertex(mesh_.faces(face, 0));
+    const Vec3 edge = mesh_.vertex(mesh_.faces(face, 1)) - p;
+    const Vec3 normal = edge.cross(mesh_.vertex(mesh_.faces(face, 2)) - p);
     return {away.dot(edge.stableNormalized()),
             away.dot(normal.stableNormalized().cross(edge.stableNormalized()))};
 }
@@ -108,8 +105,12 @@ std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, 
     TriangleStrip strip = find_strip(mesh_, edges_, a.face, b.face, farthest_, detour);
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
     const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
-    straighten(mesh_, edges_, strip, start, goal);
-    return {seen(a, strip, goal), seen(b, reversed(strip), start)};
+    const StraightPath path = straighten(mesh_, edges_, strip, start, goal);
+    const int at_a = vertex_at(mesh_, a), at_b = vertex_at(mesh_, b);
+    return {at_a < 0 ? in_plane_of(a.face, path.goal_from_start)
+                     : seen_from_vertex(at_a, strip, goal, path.length),
+            at_b < 0 ? in_plane_of(b.face, path.start_from_goal)
+                     : seen_from_vertex(at_b, reversed(strip), start, path.length)};
 }
 
 }  // namespace varimap

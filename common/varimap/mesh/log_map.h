@@ -23,8 +23,9 @@ class LogMap {
     std::pair<Vec2, Vec2> operator()(const SurfacePoint& a, const SurfacePoint& b) const;
 
   private:
-    Vec2 seen(const SurfacePoint& from, const struct TriangleStrip& strip, const Vec3& to) const;
-    Vec2 seen_from_vertex(int vertex, const struct TriangleStrip& strip, const Vec3& to) const;
+    Vec2 in_plane_of(int face, const Vec3& away) const;
+    /// `length` of the path through the strip from the vertex.
+    Vec2 seen_from_vertex(int vertex, const struct TriangleStrip& strip, const Vec3& to, double length) const;
 
     const TriangleMesh& mesh_;
     Edges edges_;

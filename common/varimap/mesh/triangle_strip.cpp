@@ -175,10 +175,10 @@ TriangleStrip strip_to(ReachedFaces& reached, int last) {
 
 /// A way through a face that was reached, and what it is at least as long as. The shortest comes first, among
 /// equals that through the lowest face.
-struct Way {
+struct OpenWay {
     double length;
     int face, number;
-    bool operator<(const Way& other) const {
+    bool operator<(const OpenWay& other) const {
         return length != other.length ? length > other.length : face > other.face;
     }
 };
@@ -192,13 +192,13 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
         for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]])
             if (beyond / 3 == to) return {{from, to}, {edges.of_side[std::size_t(side)]}};
     thread_local ReachedFaces reached;
-    thread_local std::vector<Way> open;  // a heap
+    thread_local std::vector<OpenWay> open;  // a heap
     reached.clear();
     open.clear();
     const Vec3 goal = centroid(mesh, to), start = centroid(mesh, from);
     const double longest =
         detour * ((start - goal).norm() + std::max(longest_edge(mesh, from), longest_edge(mesh, to)));
-    const auto open_way = [](const Way& way) {
+    const auto open_way = [](const OpenWay& way) {
         open.push_back(way);
         std::push_heap(open.begin(), open.end());
     };
@@ -236,27 +236,6 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from,
     return {};
 }
 
-Vec3 heading(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip, const Vec3& start,
-             const Vec3& goal) {
-    if (strip.edges.empty()) return goal - start;
-    const Unfolded flat = unfold(mesh, edges, strip, start, goal);
-    const FunnelPath path = funnel(flat.start, flat.portals, flat.goal);
-    Vec2 towards = flat.goal - flat.start;
-    for (const auto& [portal, is_left] : path.bends) {
-        const Portal& ends = flat.portals[std::size_t(portal)];
-        towards = (is_left ? ends.first : ends.second) - flat.start;
-        if (towards.squaredNorm() > 0) break;
-    }
-    // The plane's axes in space: along the first edge, and from the first face across it.
-    const auto [l, r] = edges.vertices[std::size_t(strip.edges.front())];
-    const Vec3 along = (mesh.vertex(r) - mesh.vertex(l)).normalized();
-    int apex = mesh.faces(strip.faces.front(), 0);
-    for (int k = 1; apex == l || apex == r; ++k) apex = mesh.faces(strip.faces.front(), k);
-    const Vec3 back = mesh.vertex(apex) - mesh.vertex(l);
-    const Vec3 across = -(back - along.dot(back) * along).normalized();
-    return (towards.x() * along + towards.y() * across).normalized() * path.length;
-}
-
 FunnelPath funnel(const Vec2& start, const std::vector<Portal>& portals, const Vec2& goal) {
     const int n = int(portals.size());
     FunnelPath path;
@@ -291,28 +270,90 @@ FunnelPath funnel(const Vec2& start, const std::vector<Portal>& portals, const V
     return path;
 }
 
-double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
-                  const Vec3& goal) {
-    const auto measure = [&](const TriangleStrip& s, Unfolded& flat) {
-        if (s.edges.empty()) return FunnelPath{(goal - start).norm(), {}};
-        flat = unfold(mesh, edges, s, start, goal);
-        return funnel(flat.start, flat.portals, flat.goal);
-    };
-    Unfolded flat, other_flat;
-    FunnelPath path = measure(strip, flat);
-    for (size_t i = 0; i < path.bends.size(); ++i) {
-        const auto [portal, is_left] = path.bends[i];
-        const int vertex = is_left ? flat.ends[portal].first : flat.ends[portal].second;
-        auto other = pass_other_side(edges, strip, vertex, portal);
-        if (!other) continue;
-        FunnelPath other_path = measure(*other, other_flat);
-        if (!(other_path.length < path.length * (1 - 1e-12))) continue;
-        strip = std::move(*other);
-        std::swap(flat, other_flat);
-        path = std::move(other_path);
-        i = size_t(-1);  // start over: the bends are others now
+namespace {
+
+/// A strip in the plane and the shortest path through it. Of one face: no portals.
+struct Way {
+    Unfolded flat;
+    FunnelPath path;
+};
+
+Way shortest_way(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip, const Vec3& start,
+                 const Vec3& goal) {
+    if (strip.edges.empty()) return {{}, {(goal - start).norm(), {}}};
+    Way way{unfold(mesh, edges, strip, start, goal), {}};
+    way.path = funnel(way.flat.start, way.flat.portals, way.flat.goal);
+    return way;
+}
+
+/// From the first of some points to the next that is elsewhere.
+template <class Iterator>
+Vec2 first_step(Iterator begin, Iterator end) {
+    const auto next = std::find_if(begin, end, [&](const Vec2& point) { return point != *begin; });
+    return next == end ? Vec2(0, 0) : Vec2(*next - *begin);
+}
+
+/// A direction of the plane as one in space, in the plane of a face beside a portal, whose ends there are l
+/// and r and whose third corner is `apex`; `side` 1: the face lies ahead of the portal, -1: behind.
+Vec3 in_space(const Vec2& direction, const Portal& portal, const Vec3& l, const Vec3& r, const Vec3& apex,
+              double side) {
+    const Vec2 u = (portal.second - portal.first).normalized();
+    const Vec3 along = (r - l).normalized(), away = apex - l;
+    const Vec3 ahead = side * (away - along.dot(away) * along).normalized();
+    return u.dot(direction) * along + cross(u, direction) * ahead;
+}
+
+/// The corner of a face that is neither of two.
+int third_corner(const TriangleMesh& mesh, int f, int a, int b) {
+    int k = 0;
+    while (mesh.faces(f, k) == a || mesh.faces(f, k) == b) ++k;
+    return mesh.faces(f, k);
+}
+
+StraightPath ends_of(const Way& way, const TriangleMesh& mesh, const TriangleStrip& strip, const Vec3& start,
+                     const Vec3& goal) {
+    if (strip.edges.empty()) return {way.path.length, goal - start, start - goal};
+    const Unfolded& flat = way.flat;
+    std::vector<Vec2> corners{flat.start};
+    for (const auto& [portal, is_left] : way.path.bends) {
+        const Portal& ends = flat.portals[std::size_t(portal)];
+        corners.push_back(is_left ? ends.first : ends.second);
     }
-    return path.length;
+    corners.push_back(flat.goal);
+    const auto at = [&](const Vec2& direction, std::size_t portal, int face, double side) -> Vec3 {
+        const auto [l, r] = flat.ends[portal];
+        const int apex = third_corner(mesh, face, l, r);
+        return in_space(direction, flat.portals[portal], mesh.vertex(l), mesh.vertex(r), mesh.vertex(apex),
+                        side)
+                   .normalized() *
+               way.path.length;
+    };
+    return {way.path.length, at(first_step(corners.begin(), corners.end()), 0, strip.faces.front(), -1),
+            at(first_step(corners.rbegin(), corners.rend()), flat.portals.size() - 1, strip.faces.back(), 1)};
+}
+
+}  // namespace
+
+StraightPath straight_path(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip,
+                           const Vec3& start, const Vec3& goal) {
+    return ends_of(shortest_way(mesh, edges, strip, start, goal), mesh, strip, start, goal);
+}
+
+StraightPath straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
+                        const Vec3& goal) {
+    Way way = shortest_way(mesh, edges, strip, start, goal);
+    for (std::size_t i = 0; i < way.path.bends.size(); ++i) {
+        const auto [portal, is_left] = way.path.bends[i];
+        const auto& [left, right] = way.flat.ends[std::size_t(portal)];
+        auto other = pass_other_side(edges, strip, is_left ? left : right, portal);
+        if (!other) continue;
+        Way other_way = shortest_way(mesh, edges, *other, start, goal);
+        if (!(other_way.path.length < way.path.length * (1 - 1e-12))) continue;
+        strip = std::move(*other);
+        way = std::move(other_way);
+        i = std::size_t(-1);  // start over: the bends are others now
+    }
+    return ends_of(way, mesh, strip, start, goal);
 }
 
 }  // namespace varimap

@@ -14,13 +14,24 @@ struct TriangleStrip {
     std::vector<int> faces, edges;
 };
 
-/// Length of the shortest path from `start` to `goal` on the surface, near the strip. The strip is unfolded
+/// A path along a surface, by its ends: where each lies as seen from the other, as the direction in which the
+/// path leaves, in the plane of the end's face, times the path's length.
+struct StraightPath {
+    double length = 0;
+    Vec3 goal_from_start, start_from_goal;
+};
+
+/// The shortest path from `start` to `goal` on the surface, near the strip. The strip is unfolded
 /// into the plane, where the funnel algorithm finds its shortest path; where that bends at a vertex, the
 /// strip is led past the vertex's other side if this shortens the path, until nothing does: the path is then
 /// locally shortest. `strip` becomes the strip that holds it. `start` lies in its first face, `goal` in its
 /// last.
-double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
-                  const Vec3& goal);
+StraightPath straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
+                        const Vec3& goal);
+
+/// The shortest path within the strip.
+StraightPath straight_path(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip,
+                           const Vec3& start, const Vec3& goal);
 
 /// The strip of least length by the faces' centres, from one face to another (A*). Empty if they are not
 /// connected, if more than `most` faces have to be looked at, or if the way is longer than `detour` times the
@@ -28,11 +39,6 @@ double straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& s
 /// it.
 TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most,
                          double detour = std::numeric_limits<double>::infinity());
-
-/// The direction in which the shortest path through the strip leaves `start`, in the plane of the first face,
-/// times the path's length: where `goal` lies as seen from `start` along the surface.
-Vec3 heading(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip, const Vec3& start,
-             const Vec3& goal);
 
 /// A segment of the plane, its ends to the left and to the right of the way that crosses it.
 using Portal = std::pair<Eigen::Vector2d, Eigen::Vector2d>;

@@ -7,7 +7,12 @@
 namespace varimap {
 
 AlongTarget::AlongTarget(const SlidingMap& map)
-    : map_(map), target_faces_(vertex_faces(map.target())), laid_out_(map.target()), known_(map) {}
+    : map_(map),
+      target_faces_(vertex_faces(map.target())),
+      log_map_(map.target(), farthest),
+      edges_(find_edges(map.source())),
+      known_edges_(map, edges_.size()),
+      known_faces_(map) {}
 
 double AlongTarget::winding_number(int v) {
     double turns = 0;
@@ -42,15 +47,21 @@ bool AlongTarget::lies_within_a_star(int f, const Vec3& normal) const {
 }
 
 const Lie& AlongTarget::lie(int f) {
-    return known_(f, [&](int g) { return look_at(g); });
+    return known_faces_(f, [&](int g) { return look_at(g); });
 }
 
-Lie AlongTarget::look_at(int f) const {
+SeenSide AlongTarget::side(int f, int k) {
+    const int e = edges_.of_side[std::size_t(3 * f + k)];
+    const std::array<int, 2>& ends = edges_.vertices[std::size_t(e)];
+    const std::scoped_lock lock(edge_lock_[std::size_t(e) % locks]);
+    SeenSide seen = known_edges_(e, ends, [&] { return log_map_(map_.point(ends[0]), map_.point(ends[1])); });
+    if (map_.source().faces(f, k) != ends[0]) std::swap(seen.first, seen.second);
+    return seen;
+}
+
+Lie AlongTarget::look_at(int f) {
     if (!map_.is_mapped(f)) return {1, {0, 0, 0}};
-    if (!lies_within_a_star(f, map_.chord_normal(f))) {
-        const auto c = map_.source().faces.row(f);
-        return laid_out_({map_.point(c[0]), map_.point(c[1]), map_.point(c[2])});
-    }
+    if (!lies_within_a_star(f, map_.chord_normal(f))) return laid_out({side(f, 0), side(f, 1), side(f, 2)});
     Lie straight{1, {}};
     for (int k = 0; k < 3; ++k) {
         const auto [to_next, to_last] = map_.image_sides(f, k);

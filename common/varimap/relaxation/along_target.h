@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
+#include <mutex>
 #include <vector>
 
 #include "varimap/mesh/topology.h"
-#include "varimap/relaxation/face_memory.h"
+#include "varimap/relaxation/image_memory.h"
 #include "varimap/relaxation/laid_out.h"
 #include "varimap/relaxation/sliding_map.h"
 
@@ -41,13 +43,23 @@ class AlongTarget {
     bool lies_within_a_star(int f, const Vec3& normal) const;
 
   private:
+    /// Faces looked at for the path between two corners. Those of torn triangles are looked for in vain again
+    /// and again.
+    static constexpr int farthest = 2000;
+    static constexpr std::size_t locks = 256;
+
     const Lie& lie(int f);
-    Lie look_at(int f) const;
+    Lie look_at(int f);
+    /// From corner k of a face to the next.
+    SeenSide side(int f, int k);
 
     const SlidingMap& map_;
     Adjacency target_faces_;  ///< per vertex of the target
-    LaidOut laid_out_;
-    FaceMemory<Lie> known_;
+    LogMap log_map_;
+    Edges edges_;  ///< of the source
+    ImageMemory<SeenSide, 2> known_edges_;
+    std::array<std::mutex, locks> edge_lock_;  ///< each for many edges: faces side by side ask for the same
+    FaceMemory<Lie> known_faces_;
 };
 
 }  // namespace varimap

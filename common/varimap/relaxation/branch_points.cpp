@@ -39,7 +39,21 @@ std::vector<int> branch_points(const SlidingMap& map, const std::vector<int>& ve
 
 void BranchGuard::watch(int v) {
     watched_ = vertices_of(map_.source(), map_.faces_of_vertex()[v]);
-    most_ = count();
+    vertex_ = v;
+    start_ = map_.point(v);
+    most_.reset();
+}
+
+bool BranchGuard::allows() {
+    const std::size_t now = count();
+    if (now == 0) return true;  // as nearly always
+    if (!most_) {
+        const SurfacePoint present = map_.point(vertex_);
+        map_.place(vertex_, start_);
+        most_ = count();
+        map_.place(vertex_, present);
+    }
+    return now <= *most_;
 }
 
 }  // namespace varimap

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "varimap/relaxation/sliding_map.h"
@@ -19,21 +21,23 @@ std::vector<int> branch_points(const SlidingMap& map, const std::vector<int>& ve
 /// while a face turns upright can wind its star, or a neighbour's, around twice, and no sliding undoes that.
 class BranchGuard {
   public:
-    explicit BranchGuard(const SlidingMap& map) : map_(map) {}
+    explicit BranchGuard(SlidingMap& map) : map_(map) {}
 
     /// What is asked from now on is about this vertex, and compared with where it is.
     void watch(int v);
     /// Nothing is compared from now on.
     void rest() { watched_.clear(); }
-    /// Whether there are no more branch points around the vertex than there were.
-    bool allows() const { return count() <= most_; }
+    /// Whether there are no more branch points around the vertex, where it is, than there were.
+    bool allows();
 
   private:
     std::size_t count() const { return branch_points(map_, watched_).size(); }
 
-    const SlidingMap& map_;
+    SlidingMap& map_;
     std::vector<int> watched_;  ///< the vertex and its neighbours
-    std::size_t most_ = 0;
+    int vertex_ = -1;
+    SurfacePoint start_;               ///< where it was
+    std::optional<std::size_t> most_;  ///< branch points then, once that was asked
 };
 
 }  // namespace varimap

@@ -6,10 +6,8 @@
 
 namespace varimap {
 
-Lie LaidOut::operator()(const std::array<SurfacePoint, 3>& corners) const {
+Lie laid_out(const std::array<SeenSide, 3>& sides) {
     using Vec2 = LogMap::Vec2;
-    std::array<std::pair<Vec2, Vec2>, 3> sides;  // from each corner to the next, and back
-    for (std::size_t k = 0; k < 3; ++k) sides[k] = log_map_(corners[k], corners[(k + 1) % 3]);
     Lie lie;
     double sum = 0, size = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -17,19 +17,11 @@ struct Lie {
     std::array<double, 3> turns;
 };
 
-/// Triangles of surface points as they lie along the surface, whatever a straight triangle between them would
-/// cut through: their sides are shortest paths. Keeps a reference to the mesh. Thread-safe.
-class LaidOut {
-  public:
-    explicit LaidOut(const TriangleMesh& mesh) : log_map_(mesh, farthest) {}
+/// The other end of a side as seen from the one along the surface, and the one from the other (log_map.h).
+using SeenSide = std::pair<LogMap::Vec2, LogMap::Vec2>;
 
-    Lie operator()(const std::array<SurfacePoint, 3>& corners) const;
-
-  private:
-    /// Faces looked at for the path between two corners. Those of torn triangles are looked for in vain again
-    /// and again.
-    static constexpr int farthest = 2000;
-    LogMap log_map_;
-};
+/// A triangle of surface points as it lies along the surface, whatever a straight triangle between them would
+/// cut through: its sides, from each corner to the next, are shortest paths.
+Lie laid_out(const std::array<SeenSide, 3>& sides);
 
 }  // namespace varimap

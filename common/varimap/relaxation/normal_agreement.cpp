@@ -70,43 +70,66 @@ std::vector<int> NormalAgreement::disagreeing_faces() {
     return disagreeing_among(all);
 }
 
-double NormalAgreement::cost(int v, double limit) const {
-    const auto faces = map_.faces_of_vertex()[v];
+double NormalAgreement::strain(int v) const {
     double sum = 0;
-    for (const int f : faces) {
+    for (const int f : map_.faces_of_vertex()[v]) {
         if (!map_.is_mapped(f)) continue;
         sum += face_energy(map_, f, energy);
         if (map_.image_triangle(f).D <= FoldRemoval::flat_limit) sum += reversal;
     }
-    for (const int f : faces) {
-        if (sum >= limit) break;  // what follows asks for many closest points
-        if (map_.is_mapped(f) && disagrees(f)) sum += map_.rest(f).area * disagreement;
-    }
     return sum;
 }
 
-bool NormalAgreement::search(int v) {
-    double mean_edge = 0;
+double NormalAgreement::with_disagreement(double cost, int v, double limit) const {
+    for (const int f : map_.faces_of_vertex()[v]) {
+        if (cost >= limit) break;  // what follows asks for many closest points
+        if (map_.is_mapped(f) && disagrees(f)) cost += map_.rest(f).area * disagreement;
+    }
+    return cost;
+}
+
+double NormalAgreement::mean_edge(int v) const {
+    double sum = 0;
     int count = 0;
     for (const int f : map_.faces_of_vertex()[v])
         for (int k = 0; k < 3; ++k)
             if (const int u = map_.source().faces(f, k); u != v && map_.has_image(u))
-                mean_edge += (map_.image(u) - map_.image(v)).norm(), ++count;
-    if (count == 0) return false;
-    mean_edge /= count;
+                sum += (map_.image(u) - map_.image(v)).norm(), ++count;
+    return count == 0 ? 0 : sum / count;
+}
+
+std::vector<NormalAgreement::Place> NormalAgreement::places_around(int v, double size) {
     const SurfacePoint start = map_.point(v);
     const auto frame = map_.tangents(v);
-    SurfacePoint best = start;
-    const double before = cost(v, std::numeric_limits<double>::infinity());
-    double least = before;
+    std::vector<Place> places;
     for (const double radius : radii)
         for (int i = 0; i < directions; ++i) {
             const double angle = 2 * std::numbers::pi * i / directions;
             const Vec3 step =
-                radius * mean_edge * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
+                radius * size * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
             map_.place(v, map_.walk(start, step));
-            if (const double c = cost(v, least); c < least) least = c, best = map_.point(v);
+            places.push_back({strain(v), map_.point(v)});
         }
+    map_.place(v, start);
+    // Of the least strained first, what the others disagree about is never asked.
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.strain < b.strain; });
+    return places;
+}
+
+bool NormalAgreement::search(int v) {
+    const double size = mean_edge(v);
+    if (size == 0) return false;
+    const SurfacePoint start = map_.point(v);
+    SurfacePoint best = start;
+    const double before = with_disagreement(strain(v), v, std::numeric_limits<double>::infinity());
+    double least = before;
+    for (const Place& place : places_around(v, size)) {
+        if (place.strain >= least) break;
+        map_.place(v, place.point);
+        if (const double c = with_disagreement(place.strain, v, least); c < least)
+            least = c, best = place.point;
+    }
     map_.place(v, start);
     if (!(least < before)) return false;
     const auto faults = along_target_.faults_around(v);

@@ -4,7 +4,7 @@
 
 #include "varimap/mesh/closest_point.h"
 #include "varimap/relaxation/along_target.h"
-#include "varimap/relaxation/face_memory.h"
+#include "varimap/relaxation/image_memory.h"
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -29,8 +29,20 @@ class NormalAgreement {
 
   private:
     bool disagrees(int f) const;
-    /// Of the faces around a vertex; some number above `limit` if that is exceeded.
-    double cost(int v, double limit) const;
+    /// A place for a vertex, and how strained and reversed the faces around it are there.
+    struct Place {
+        double strain;
+        SurfacePoint point;
+    };
+
+    /// Of the faces around a vertex.
+    double strain(int v) const;
+    /// `cost`, and what those of them cost that disagree; some number above `limit` if that is exceeded.
+    double with_disagreement(double cost, int v, double limit) const;
+    /// Of the images of the edges at a vertex; 0 where it has none.
+    double mean_edge(int v) const;
+    /// Where to look for a better place, the least strained first.
+    std::vector<Place> places_around(int v, double size);
     bool search(int v);
 
     SlidingMap& map_;

@@ -11,39 +11,44 @@
 namespace varimap {
 namespace {
 
-Vec3 heading_between(const TriangleMesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
+StraightPath path_between(const TriangleMesh& mesh, const SurfacePoint& a, const SurfacePoint& b) {
     const Edges edges = find_edges(mesh);
     TriangleStrip strip = find_strip(mesh, edges, a.face, b.face, mesh.face_count());
     EXPECT_EQ(strip.faces.front(), a.face);
     EXPECT_EQ(strip.faces.back(), b.face);
     EXPECT_EQ(strip.edges.size() + 1, strip.faces.size());
     const Vec3 start = position(mesh, a), goal = position(mesh, b);
-    straighten(mesh, edges, strip, start, goal);
-    return heading(mesh, edges, strip, start, goal);
+    const StraightPath path = straighten(mesh, edges, strip, start, goal);
+    EXPECT_EQ(straight_path(mesh, edges, strip, start, goal).length, path.length);
+    return path;
 }
 
-TEST(Heading, IsTheDifferenceInThePlane) {
+TEST(StraightPath, IsTheDifferenceInThePlane) {
     const TriangleMesh square = shapes::square(7);
     for (const int f : {0, 10, 55})
         for (const int g : {3, 10, 12, 97}) {
             const SurfacePoint a{f, {0.5, 0.2, 0.3}}, b{g, {0.1, 0.3, 0.6}};
-            EXPECT_LT((heading_between(square, a, b) - (position(square, b) - position(square, a))).norm(),
-                      1e-12);
+            const Vec3 difference = position(square, b) - position(square, a);
+            const StraightPath path = path_between(square, a, b);
+            EXPECT_LT((path.goal_from_start - difference).norm(), 1e-12);
+            EXPECT_LT((path.start_from_goal + difference).norm(), 1e-12);
         }
 }
 
-TEST(Heading, LeavesAlongGreatCircles) {
+TEST(StraightPath, FollowsGreatCircles) {
     const TriangleMesh sphere = shapes::ellipsoid(4);
-    const PointMap at = shapes::at_vertices(sphere);
     const SurfacePoint from{700, {0.3, 0.3, 0.4}};
     const Vec3 p = position(sphere, from).normalized();
-    for (int v = 0; v < sphere.vertex_count(); v += 37) {
-        const double angle = std::acos(std::clamp(p.dot(sphere.vertex(v)), -1., 1.));
+    for (int f = 0; f < sphere.face_count(); f += 67) {
+        const SurfacePoint to{f, {0.5, 0.2, 0.3}};
+        const Vec3 q = position(sphere, to).normalized();
+        const double angle = std::acos(std::clamp(p.dot(q), -1., 1.));
         if (angle < 0.1 || angle > 1.5) continue;
-        const Vec3 away = heading_between(sphere, from, at[std::size_t(v)]);
-        const Vec3 expected = (sphere.vertex(v) - p * p.dot(sphere.vertex(v))).normalized();
-        EXPECT_NEAR(away.norm(), angle, 0.02 * angle);
-        EXPECT_GT(away.normalized().dot(expected), 0.995);
+        const StraightPath path = path_between(sphere, from, to);
+        EXPECT_NEAR(path.length, angle, 0.02 * angle);
+        EXPECT_NEAR(path.goal_from_start.norm(), path.length, 1e-12);
+        EXPECT_GT(path.goal_from_start.normalized().dot((q - p * p.dot(q)).normalized()), 0.995);
+        EXPECT_GT(path.start_from_goal.normalized().dot((p - q * q.dot(p)).normalized()), 0.995);
     }
 }
 

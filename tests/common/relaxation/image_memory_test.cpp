@@ -1,4 +1,4 @@
-#include "varimap/relaxation/face_memory.h"
+#include "varimap/relaxation/image_memory.h"
 
 #include <gtest/gtest.h>
 
