@@ -28,6 +28,7 @@ void record(Stage& stage, const RepairCounts& counts) {
     number("duplicate_faces", counts.duplicates);
     number("turned_faces", counts.turned);
     number("cut_edges", counts.cut_edges);
+    number("opened_edges", counts.opened_edges);
     number("split_vertices", counts.split_vertices);
     number("closed_slits", counts.closed_slits);
     number("filled_holes", counts.filled_holes);

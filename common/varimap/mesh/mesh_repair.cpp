@@ -165,8 +165,9 @@ void Repair::separate_sheets() {
     for (const int v : sheets.origin) ++copies[std::size_t(v)];
     counts_.split_vertices = int(std::count_if(copies.begin(), copies.end(), [](int n) { return n > 1; }));
     counts_.cut_edges = sheets.cut_edges;
+    counts_.opened_edges = sheets.opened_edges;
     counts_.turned = int(std::count(sheets.turned.begin(), sheets.turned.end(), 1));
-    if (counts_.split_vertices + counts_.cut_edges + counts_.turned == 0) return;
+    if (counts_.split_vertices + counts_.cut_edges + counts_.opened_edges + counts_.turned == 0) return;
     faces_ = sheets.faces;
     turned_ = sheets.turned;
     origin_ = sheets.origin;
@@ -300,6 +301,9 @@ std::string in_words(const RepairCounts& counts) {
     add(counts.duplicates, "face that lies on another dropped", "faces that lie on others dropped");
     add(counts.turned, "face turned", "faces turned");
     add(counts.cut_edges, "edge cut", "edges cut");
+    add(counts.opened_edges,
+        "edge cut because the surface has one side only, like a Moebius strip, and tears there",
+        "edges cut because the surface has one side only, like a Moebius strip, and tears there");
     add(counts.split_vertices, "vertex split", "vertices split");
     add(counts.dropped_components, "component left out", "components left out");
     add(counts.closed_slits, "slit closed", "slits closed");

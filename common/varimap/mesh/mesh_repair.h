@@ -46,7 +46,8 @@ struct RepairCounts {
     int degenerate = 0;          ///< faces that name a vertex twice, after welding
     int duplicates = 0;          ///< faces that lie on another one
     int turned = 0;              ///< faces whose orientation was reversed
-    int cut_edges = 0;           ///< edges along which sheets were separated
+    int cut_edges = 0;           ///< edges of three or more faces, along which sheets were separated
+    int opened_edges = 0;        ///< edges cut where a surface has one side only
     int split_vertices = 0;      ///< vertices that were given to several sheets
     int dropped_components = 0;  ///< components left out
     double dropped_area = 0;     ///< their share of the area
@@ -58,8 +59,8 @@ struct RepairCounts {
     int bridges = 0;             ///< tubes that join components (bridges.h)
 
     bool any() const {
-        return welded + not_finite + degenerate + duplicates + turned + cut_edges + split_vertices +
-                   dropped_components >
+        return welded + not_finite + degenerate + duplicates + turned + cut_edges + opened_edges +
+                   split_vertices + dropped_components >
                0;
     }
 };

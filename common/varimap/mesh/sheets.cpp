@@ -60,7 +60,7 @@ class SheetFinder {
     std::vector<int> partner_;  ///< per side: that of the face it hangs together with; -1: none
     std::vector<char> turned_;
     std::vector<int> corner_;  ///< per corner: the lowest of those that are one with it
-    int cut_edges_ = 0;
+    int cut_edges_ = 0, opened_edges_ = 0;
 };
 
 void SheetFinder::join(int side, int other) {
@@ -151,7 +151,7 @@ std::vector<int> SheetFinder::orient_from(int seed, std::vector<char>& seen) {
                 faces.push_back(other / 3);
             } else if (!agree(side, other)) {
                 part(side);
-                ++cut_edges_;
+                ++opened_edges_;
             }
         }
     return faces;
@@ -237,6 +237,7 @@ Sheets SheetFinder::find() {
     sheets.faces = Faces::Map(corner_.data(), mesh_.face_count(), 3);
     sheets.turned = turned_;
     sheets.cut_edges = cut_edges_;
+    sheets.opened_edges = opened_edges_;
     return sheets;
 }
 

@@ -11,7 +11,8 @@ struct Sheets {
     Faces faces;               ///< of the sheets' vertices; the corners are those of the mesh, not turned
     std::vector<int> origin;   ///< per vertex of the sheets: the mesh's; ascending
     std::vector<char> turned;  ///< per face: to be reversed
-    int cut_edges = 0;
+    int cut_edges = 0;         ///< of three or more faces
+    int opened_edges = 0;      ///< where a surface with one side only was cut open
 };
 
 /// Cuts a mesh into sheets and orients them alike, as repaired() in mesh_repair.h says. Where the mesh is

@@ -1,6 +1,7 @@
 #include "varimap/mesh/triangle_strip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -183,7 +184,60 @@ struct OpenWay {
     }
 };
 
+/// A plane through two points, which a way between them follows: how far off it a vertex lies, and where it
+/// crosses an edge, 0 at the one point and 1 at the other.
+class Cut {
+  public:
+    Cut(const TriangleMesh& mesh, const Vec3& from, const Vec3& to, const Vec3& up)
+        : mesh_(mesh), from_(from), along_(to - from), normal_(along_.cross(up)) {}
+
+    bool is_plane() const { return normal_.squaredNorm() > 0; }
+    /// Where it crosses an edge; nothing where it does not. A vertex lies on the same side of it for all
+    /// faces.
+    std::optional<double> crossing(const std::array<int, 2>& edge) const {
+        const Vec3 a = mesh_.vertex(edge[0]) - from_, b = mesh_.vertex(edge[1]) - from_;
+        const double off_a = normal_.dot(a), off_b = normal_.dot(b);
+        if ((off_a < 0) == (off_b < 0)) return {};
+        return along_.dot((off_b * a - off_a * b) / (off_b - off_a)) / along_.squaredNorm();
+    }
+
+  private:
+    const TriangleMesh& mesh_;
+    Vec3 from_, along_, normal_;
+};
+
+constexpr int most_straight = 64;  ///< faces of a straight strip
+
 }  // namespace
+
+TriangleStrip straight_strip(const TriangleMesh& mesh, const Edges& edges, const SurfacePoint& from,
+                             const SurfacePoint& to) {
+    TriangleStrip strip{{from.face}, {}};
+    if (from.face == to.face) return strip;
+    const Cut cut(mesh, position(mesh, from), position(mesh, to),
+                  face_normal(mesh, from.face).normalized() + face_normal(mesh, to.face).normalized());
+    if (!cut.is_plane()) return {};
+    double reached = 0;
+    for (int step = 0; step < most_straight; ++step) {
+        const int face = strip.faces.back();
+        int exit = -1;
+        double farthest = reached;
+        for (int side = 3 * face; side < 3 * face + 3; ++side) {
+            const int edge = edges.of_side[std::size_t(side)];
+            if (const auto at = cut.crossing(edges.vertices[std::size_t(edge)]); at && *at > farthest) {
+                exit = edge;
+                farthest = *at;
+            }
+        }
+        if (exit < 0 || farthest > 1 || edges.sides[exit].size() != 2) return {};
+        const auto sides = edges.sides[exit];
+        reached = farthest;
+        strip.edges.push_back(exit);
+        strip.faces.push_back(sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3);
+        if (strip.faces.back() == to.face) return strip;
+    }
+    return {};
+}
 
 TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most,
                          double detour) {

@@ -239,7 +239,9 @@ TEST(MeshRepair, CutsOneSidedSurfacesOpen) {
         add_face(band, a, d, c);
     }
     const RepairedMesh cut = repaired(band);
-    EXPECT_EQ(cut.counts.cut_edges, 1);
+    EXPECT_EQ(cut.counts.opened_edges, 1);
+    EXPECT_EQ(cut.counts.cut_edges, 0);
+    EXPECT_NE(in_words(cut.counts).find("one side only"), std::string::npos);
     EXPECT_EQ(summarise_topology(cut.mesh).boundary_loops, 1);
     EXPECT_EQ(cut.mesh.face_count(), band.face_count());
     EXPECT_EQ(cut.mesh.vertex_count(), band.vertex_count() + 2);

@@ -7,6 +7,7 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "varimap/mesh/closest_point.h"
 
 namespace varimap {
 namespace {
@@ -50,6 +51,40 @@ TEST(StraightPath, FollowsGreatCircles) {
         EXPECT_GT(path.goal_from_start.normalized().dot((q - p * p.dot(q)).normalized()), 0.995);
         EXPECT_GT(path.start_from_goal.normalized().dot((p - q * q.dot(p)).normalized()), 0.995);
     }
+}
+
+TEST(StraightStrip, LeadsThereWhereASearchWouldToo) {
+    const TriangleMesh sphere = shapes::ellipsoid(4);
+    const Edges edges = find_edges(sphere);
+    const SurfacePoint from{700, {0.3, 0.3, 0.4}};
+    const Vec3 start = position(sphere, from);
+    int found = 0;
+    for (int f = 0; f < sphere.face_count(); ++f) {
+        const SurfacePoint to{f, {0.5, 0.2, 0.3}};
+        const Vec3 goal = position(sphere, to);
+        if ((goal - start).norm() > 0.8) continue;
+        TriangleStrip strip = straight_strip(sphere, edges, from, to);
+        if (strip.faces.empty()) continue;
+        ++found;
+        EXPECT_EQ(strip.faces.front(), from.face);
+        EXPECT_EQ(strip.faces.back(), f);
+        ASSERT_EQ(strip.edges.size() + 1, strip.faces.size());
+        TriangleStrip searched = find_strip(sphere, edges, from.face, f, sphere.face_count());
+        EXPECT_NEAR(straighten(sphere, edges, strip, start, goal).length,
+                    straighten(sphere, edges, searched, start, goal).length, 1e-5)
+            << "both locally shortest, past vertices of little curvature";
+    }
+    EXPECT_GT(found, 200);
+}
+
+TEST(StraightStrip, FindsNothingOnTheOtherSideOfAPlate) {
+    const TriangleMesh plate = shapes::ellipsoid(3, {1, 1, 0.05});
+    const Edges edges = find_edges(plate);
+    const ClosestPoint closest(plate);
+    const SurfacePoint above = closest(Vec3(0.3, 0.2, 1)).point, below = closest(Vec3(0.35, 0.2, -1)).point,
+                       beside = closest(Vec3(0.35, 0.2, 1)).point;
+    EXPECT_FALSE(straight_strip(plate, edges, above, beside).faces.empty());
+    EXPECT_TRUE(straight_strip(plate, edges, above, below).faces.empty());
 }
 
 TEST(FindStrip, GivesUpWhereToldTo) {
