@@ -215,10 +215,9 @@ void cut_all(RepairedMesh& mesh, Length longest, double unit) {
 
 double longest_handle(const std::string& words, const TriangleMesh& mesh) {
     // The length did well on mouse skulls, which have about 300 handles.
-    constexpr int noise = 20;
     constexpr double short_ones = 0.05;
     if (words == "none") return 0;
-    if (words == "auto") return summarise_topology(mesh).genus > noise ? short_ones : 0;
+    if (words == "auto") return summarise_topology(mesh).genus > most_handles ? short_ones : 0;
     double length = -1;
     const char* end = words.data() + words.size();
     const auto [stop, error] = std::from_chars(words.data(), end, length);

@@ -6,9 +6,11 @@
 
 namespace varimap {
 
+/// More handles than a surface has by design: noise, as in scans of bones.
+constexpr int most_handles = 20;
+
 /// The length of handles_cut that `words` asks for: a number up to 1, "none" (0), or "auto": .05 for a mesh
-/// of more than 20 handles, which are noise, as in scans of bones; otherwise none. Throws UsageError for
-/// others.
+/// of more than most_handles handles; otherwise none. Throws UsageError for others.
 double longest_handle(const std::string& words, const TriangleMesh& mesh);
 
 /// Cuts small handles and closes small tunnels of a repaired mesh: along closed paths of edges that are at

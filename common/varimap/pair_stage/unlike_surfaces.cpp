@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "varimap/core/log.h"
+#include "varimap/mesh/handles.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/local_shape.h"
 
@@ -16,9 +17,6 @@ namespace {
 constexpr double long_loop = 0.25;
 /// Of that loop: where the other's longest is no longer, it has no such opening.
 constexpr double much_shorter = 0.5;
-
-/// More are noise, as preprocessing takes it, and some of it is left there.
-constexpr int most_handles = 20;
 
 double opening(const Surface& surface) {
     return longest_boundary(surface.input) / std::sqrt(surface_area(surface.input));
@@ -45,7 +43,7 @@ void warn_of_part(const Surface& A, const Surface& B) {
 void warn_of_genus(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface()) return;
     const int a = summarise_topology(A.mesh).genus, b = summarise_topology(B.mesh).genus;
-    if (a == b || std::max(a, b) > most_handles) return;
+    if (a == b || std::max(a, b) > most_handles) return;  // of noise some is left by preprocessing
     warn(
         "the source has genus {}, the target {}: every map between them folds or leaves something out; "
         "handles and tunnels that are noise are cut by --cut-handles LENGTH",
