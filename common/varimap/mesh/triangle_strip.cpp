@@ -58,6 +58,13 @@ Unfolded unfold(const TriangleMesh& mesh, const Edges& edges, const TriangleStri
     return flat;
 }
 
+/// The other face of an edge; -1 on a boundary, and where it has more than two.
+int face_beyond(const Edges& edges, int edge, int face) {
+    const auto sides = edges.sides[edge];
+    if (sides.size() != 2) return -1;
+    return sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3;
+}
+
 /// Crosses, from `face`, the edge at `vertex` other than `edge`, and goes on around the vertex up to `last`.
 /// Nothing where a boundary is in the way.
 std::optional<TriangleStrip> walk_around(const Edges& edges, int vertex, int face, int edge, int last) {
@@ -69,10 +76,9 @@ std::optional<TriangleStrip> walk_around(const Edges& edges, int vertex, int fac
             const auto [a, b] = edges.vertices[e];
             if (e != edge && (a == vertex || b == vertex)) next = e;
         }
-        if (next < 0 || edges.sides[next].size() != 2) return {};
-        const auto sides = edges.sides[next];
-        edge = next, face = sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3;
-        if (face == first) return {};
+        const int beyond = next < 0 ? -1 : face_beyond(edges, next, face);
+        if (beyond < 0 || beyond == first) return {};
+        edge = next, face = beyond;
         walk.edges.push_back(edge);
         walk.faces.push_back(face);
     }
@@ -229,12 +235,12 @@ TriangleStrip straight_strip(const TriangleMesh& mesh, const Edges& edges, const
                 farthest = *at;
             }
         }
-        if (exit < 0 || farthest > 1 || edges.sides[exit].size() != 2) return {};
-        const auto sides = edges.sides[exit];
+        const int beyond = exit < 0 || farthest > 1 ? -1 : face_beyond(edges, exit, face);
+        if (beyond < 0) return {};
         reached = farthest;
         strip.edges.push_back(exit);
-        strip.faces.push_back(sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3);
-        if (strip.faces.back() == to.face) return strip;
+        strip.faces.push_back(beyond);
+        if (beyond == to.face) return strip;
     }
     return {};
 }
