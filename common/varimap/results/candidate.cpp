@@ -10,13 +10,13 @@ namespace varimap {
 namespace {
 
 /// How much log energy a correlation of 1 is worth.
-constexpr double bending_worth = 2.5;
+constexpr double bending_worth = 2, relief_worth = 2;
 
 }  // namespace
 
 double score_of(const Candidate& candidate) {
-    return std::log(candidate.energy) - bending_worth * candidate.bending +
-           reversed_worth * candidate.reversed_mass;
+    return std::log(candidate.energy) - bending_worth * candidate.bending -
+           relief_worth * candidate.relief + reversed_worth * candidate.reversed_mass;
 }
 
 bool is_mirrored(const Candidate& candidate) {
@@ -31,7 +31,7 @@ namespace {
 /// How probable it is that a rival is the right map rather than the best one: as much as not where both are
 /// as good, three quarters with a few rivals; less for one that differs on a limb alone.
 double doubt_by(const Candidate& rival, const Candidate& best) {
-    constexpr double even = 0.75, scale = 0.06, whole = 0.25;
+    constexpr double even = 0.75, scale = 0.09, whole = 0.25;
     return even * std::exp(-std::max(0.0, rival.score - best.score) / scale) *
            std::min(1.0, rival.moved_mass / whole);
 }
@@ -77,7 +77,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished) {
-    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.12;
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.18;
     const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
     const Candidate& best = candidates.front();
@@ -107,6 +107,7 @@ std::string decided_by(const std::vector<Candidate>& candidates) {
         double gain;  // of score, of the best map over its rival
     } cues[] = {{"energy", std::log(rival->energy / best->energy)},
                 {"bending", bending_worth * (best->bending - rival->bending)},
+                {"relief", relief_worth * (best->relief - rival->relief)},
                 {"reversed area", reversed_worth * (rival->reversed_mass - best->reversed_mass)}};
     constexpr double little = 0.005;
     std::string with, against;
