@@ -15,8 +15,8 @@ constexpr double bending_worth = 2, relief_worth = 2;
 }  // namespace
 
 double score_of(const Candidate& candidate) {
-    return std::log(candidate.energy) - bending_worth * candidate.bending -
-           relief_worth * candidate.relief + reversed_worth * candidate.reversed_mass;
+    return std::log(candidate.energy) - bending_worth * candidate.bending - relief_worth * candidate.relief +
+           reversed_worth * candidate.reversed_mass;
 }
 
 bool is_mirrored(const Candidate& candidate) {
