@@ -31,7 +31,7 @@ namespace {
 /// How probable it is that a rival is the right map rather than the best one: as much as not where both are
 /// as good, three quarters with a few rivals; less for one that differs on a limb alone.
 double doubt_by(const Candidate& rival, const Candidate& best) {
-    constexpr double even = 0.75, scale = 0.09, whole = 0.25;
+    constexpr double even = 0.75, scale = 0.06, whole = 0.25;
     return even * std::exp(-std::max(0.0, rival.score - best.score) / scale) *
            std::min(1.0, rival.moved_mass / whole);
 }
@@ -77,7 +77,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished) {
-    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.18;
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.12;
     const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
     const Candidate& best = candidates.front();
