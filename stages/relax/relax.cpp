@@ -20,7 +20,7 @@ constexpr double coarse_input = 0.5;
 /// Over a map that was carried over from the meshes to the inputs.
 constexpr int fine_sweeps = 3;
 /// Its folds are small and soon removed, or none of its own but where the map is torn. On a pair of skulls
-/// twice as many visits, here and in all that goes before, leave as many triangles reversed.
+/// 8 leave as many triangles reversed.
 constexpr double fine_fold_visits = 3;
 
 /// Whether mesh and input differ in resolution, so that the map is untangled on the meshes first.

@@ -26,8 +26,8 @@ constexpr double reversed_worth = 0.5;
 
 /// log energy - 2 bending - 2 relief + reversed_worth reversed_mass. None of these tells the right map from a
 /// wrong one everywhere: of people turned front to back energies say little and bending much; of limbs
-/// exchanged, often the converse; on apes and people relief tells what bending does not. The weights are from
-/// 27 generated pairs and from half of the pairs of animals, apes and people (stages/explore/README.md).
+/// exchanged, often the converse; on apes and people relief tells what bending does not. The weights were
+/// chosen with all known pairs of animals, apes and people in view (stages/explore/README.md).
 double score_of(const Candidate& candidate);
 
 /// A mirrored map is no answer, however small its energy.
