@@ -67,7 +67,10 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
                                      : initial_map ? &*initial_map
                                                    : nullptr)
         begun = at_vertices(*map, context.A().surface, context.B().surface);
-    const int first = begun ? std::min(first_level_for_a_map(context), levels - 1) : 0;
+    // Candidates are finished maps of sketches: what coarser levels could find is in them.
+    const int first = candidates ? levels - 1
+                      : begun    ? std::min(first_level_for_a_map(context), levels - 1)
+                                 : 0;
     Solution solution;
     for (int l = first; l < levels; ++l) {
         descent.enter(level_with_terms(l, context, params));

@@ -21,10 +21,11 @@ constexpr int tip_samples = 30;
 constexpr int extremities = 8;
 
 /// Least samples of levels on which images of extremities are exchanged, and for how many of the best maps.
+/// On finer levels exchanges took a third of the time of exploring, and changed no choice on 39 known pairs.
 struct SwapRule {
     int samples, best;
 };
-constexpr SwapRule swap_rules[] = {{18, 4}, {45, 3}, {100, 2}};
+constexpr SwapRule swap_rules[] = {{18, 4}, {45, 3}};
 
 /// Distinct maps that go on from a level with that many samples. Wrong ones stand out from about 250 samples
 /// on.

@@ -110,16 +110,48 @@ std::vector<PooledMap> pooled(const PairContext& context, const std::vector<Expl
     return pool;
 }
 
-/// The finished maps and what is known of them, the best first, mirrored ones last.
+/// A finished map and what is known of it.
 struct Appraised {
     FinishedMap map;
     Candidate candidate;
 };
-std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::vector<PooledMap>& pool,
-                                 const PairContext& context) {
-    const Appraisal appraisal(context);
+
+/// Finishes the maps of a pool that grows.
+class Finishing {
+  public:
+    Finishing(const PairContext& context, FinishingOptions options)
+        : context_(context), options_(std::move(options)) {}
+
+    /// Those that have joined the pool since the last time, but for those that become what is there already.
+    void finish(const std::vector<PooledMap>& pool) {
+        const size_t before = origins_.size();
+        if (pool.size() == before) return;
+        const Timer timer("finishing");
+        std::vector<VertexImages> starts;
+        for (size_t n = before; n < pool.size(); ++n) {
+            starts.push_back(pool[n].images);
+            origins_.push_back(pool[n].origin);
+        }
+        for (FinishedMap& map : varimap::finish(context_, starts, options_, maps_)) {
+            map.start += int(before);
+            maps_.push_back(std::move(map));
+        }
+    }
+
+    /// The best first, mirrored ones last.
+    std::vector<Appraised> appraised() const;
+
+  private:
+    const PairContext& context_;
+    FinishingOptions options_;
+    std::vector<Candidate> origins_;  ///< of all starts so far
+    std::vector<FinishedMap> maps_;
+};
+
+std::vector<Appraised> Finishing::appraised() const {
+    const Appraisal appraisal(context_);
     std::vector<Appraised> list;
-    for (FinishedMap& map : finished) list.push_back({std::move(map), pool[std::size_t(map.start)].origin});
+    for (const FinishedMap& map : maps_) list.push_back({map, origins_[std::size_t(map.start)]});
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
     // Where landmarks lead is given up for what is clearly better only. Chosen by hand on half of the known
     // pairs.
@@ -133,19 +165,6 @@ std::vector<Appraised> appraised(std::vector<FinishedMap> finished, const std::v
     for (std::size_t k = 1; k < list.size(); ++k)
         appraisal.compare(list.front().map, list[k].map, list[k].candidate);
     return list;
-}
-
-std::vector<FinishedMap> finish(const std::vector<PooledMap>& pool, const PairContext& context,
-                                const FinishingOptions& options, const std::vector<FinishedMap>& known = {}) {
-    const Timer timer("finishing");
-    std::vector<VertexImages> starts;
-    for (const PooledMap& map : pool) starts.push_back(map.images);
-    return finish(context, starts, options, known);
-}
-
-std::vector<Appraised> finished(const std::vector<PooledMap>& pool, const PairContext& context,
-                                const FinishingOptions& options) {
-    return appraised(finish(pool, context, options), pool, context);
 }
 
 FinishingOptions quick_finishing(const ExploreParams& params) {
@@ -164,26 +183,23 @@ double logged_plausibility(const Candidate& best) {
     return found;
 }
 
-/// What most pairs need: one exploration, and maps finished just well enough to be told apart.
+/// What most pairs need: one exploration, and maps finished just well enough to be told apart. In `finishing`
+/// the map that landmarks lead to may be finished already.
 std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
-                                     const std::vector<PooledMap>& led, LazySelfMaps& self_maps) {
+                                     const std::vector<PooledMap>& led, Finishing& finishing,
+                                     LazySelfMaps& self_maps) {
     // Of 83 generated pairs as different as real ones exploration alone found so good a map for 28. All of
     // these were right, and no composition was better. From .985 on, 3 of 40 were wrong.
     constexpr double beyond_doubt = 0.995;
-    const FinishingOptions options = quick_finishing(params);
     std::vector<PooledMap> pool = pooled(context, {params.exploration}, params, led);
-    std::vector<FinishedMap> maps = finish(pool, context, options);
-    std::vector<Appraised> list = appraised(maps, pool, context);
+    finishing.finish(pool);
+    std::vector<Appraised> list = finishing.appraised();
     if (!self_maps.exist() || logged_plausibility(list.front().candidate) >= beyond_doubt) return list;
-    const auto explored = std::ptrdiff_t(pool.size());
+    const size_t explored = pool.size();
     self_maps.compose(pool, params.composed);
-    const std::vector<PooledMap> composed(pool.begin() + explored, pool.end());
-    if (composed.empty()) return list;
-    for (FinishedMap& map : finish(composed, context, options, maps)) {
-        map.start += int(explored);
-        maps.push_back(std::move(map));
-    }
-    return appraised(std::move(maps), pool, context);
+    if (pool.size() == explored) return list;
+    finishing.finish(pool);
+    return finishing.appraised();
 }
 
 /// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with the
@@ -202,13 +218,15 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
         options.seed += int(explorations.size());
         explorations.push_back(options);
     }
-    FinishingOptions finishing = params.finishing;
-    finishing.alternation = for_comparison(params.alternation, params.alternation.area_bound);
-    finishing.euclidean_rounds = finishing.ironing.maximum_rounds;
-    finishing.most += 3;
+    FinishingOptions options = params.finishing;
+    options.alternation = for_comparison(params.alternation, params.alternation.area_bound);
+    options.euclidean_rounds = options.ironing.maximum_rounds;
+    options.most += 3;
     std::vector<PooledMap> pool = pooled(context, explorations, params, led);
     self_maps.compose(pool, 2 * params.composed);
-    return finished(pool, context, finishing);
+    Finishing finishing(context, options);
+    finishing.finish(pool);
+    return finishing.appraised();
 }
 
 Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& context) {
@@ -275,12 +293,14 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         return {};
     }
     const std::vector<PooledMap> led_there = led_by_landmarks(context, params);
+    Finishing finishing(context, quick_finishing(params));
     if (if_needed) {
-        std::vector<Appraised> alone = finished(led_there, context, quick_finishing(params));
+        finishing.finish(led_there);
+        std::vector<Appraised> alone = finishing.appraised();
         if (logged_plausibility(alone.front().candidate) >= suffices) return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask_for_self_maps);
-    std::vector<Appraised> list = quickly_found(context, params, led_there, self_maps);
+    std::vector<Appraised> list = quickly_found(context, params, led_there, finishing, self_maps);
     if (const double found = plausibility(list.front().candidate);
         found < (if_needed ? plausible_with_landmarks : plausible)) {
         log("the best of these maps is not good (plausible by {:.2f}): looking further", found);

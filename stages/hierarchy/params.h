@@ -13,9 +13,10 @@ inline void describe(ParameterList& list, HierarchyOptions& o) {
              1.0, 10.0);
     list.add("minimum_neighbours", o.minimum_neighbours, "lower bound on Euclidean neighbourhoods (Sec. 4.5)",
              3, 1000);
-    list.add("full_neighbours", o.full_neighbours, "neighbours on the first level that has every vertex", 3,
+    list.add("sampled_share", o.sampled_share, "of the vertices, on the last level but one, at least", 0.0,
+             1.0);
+    list.add("last_neighbours", o.last_neighbours, "neighbours on the last level, which has every vertex", 3,
              1000);
-    list.add("last_neighbours", o.last_neighbours, "neighbours on the last level", 3, 1000);
 }
 
 }  // namespace varimap

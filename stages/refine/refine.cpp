@@ -59,7 +59,7 @@ Points space_part(const RowMatrix& centres) {
     return centres.leftCols<3>();
 }
 
-/// The first level to solve: where nothing is handed down, the first that has all points.
+/// The first level to solve: where nothing is handed down, that of all points.
 int first_level(const PairContext& context, const RefineParams& params) {
     if (params.start == RefineStart::diffusion) return 0;
     const int points = std::max(int(context.A().surface.mass.size()), int(context.B().surface.mass.size()));
@@ -69,8 +69,7 @@ int first_level(const PairContext& context, const RefineParams& params) {
             fmt::format("--start wasserstein: {} points are too many for a plan with all entries, "
                         "{} are allowed; start from the diffusion",
                         points, most_points));
-    return context.euclidean_levels() -
-           std::min(context.A().hierarchy.full_levels(), context.B().hierarchy.full_levels());
+    return context.euclidean_levels() - 1;
 }
 
 }  // namespace

@@ -268,7 +268,7 @@ void Forger::operator()(Hierarchy& h) {
          [&] { h.levels.insert(h.levels.begin(), 1 + below(20), Level(any())); },
          [&] { real(h.options.density); }, [&] { real(h.options.truncation); },
          [&] { real(h.options.growth); }, [&] { integer(h.options.minimum_neighbours, 1000); },
-         [&] { integer(h.options.full_neighbours, 1000); }, [&] { integer(h.options.last_neighbours, 1000); },
+         [&] { real(h.options.sampled_share); }, [&] { integer(h.options.last_neighbours, 1000); },
          [&] { reals(h.shape.descriptors); }, [&] { reals(h.shape.bending); }},
         2);
     if (h.levels.empty()) h.levels.emplace_back();

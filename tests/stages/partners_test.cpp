@@ -41,7 +41,7 @@ SurfaceData data_of(const Domain& domain, int neighbours) {
     data.surface.input = domain.mesh;
     data.basis = compute_eigenbasis(domain, {});
     HierarchyOptions options;
-    options.full_neighbours = options.last_neighbours = neighbours;
+    options.last_neighbours = neighbours;
     data.hierarchy = build_hierarchy(domain, data.basis, options);
     return data;
 }

@@ -121,16 +121,14 @@ int PairContext::find_diffusion_level(const std::vector<int>& samples_A,
 }
 
 int PairContext::euclidean_levels() const {
-    return std::max(A().hierarchy.sampled_euclidean_levels(), B().hierarchy.sampled_euclidean_levels()) +
-           std::min(A().hierarchy.full_levels(), B().hierarchy.full_levels());
+    return std::max(A().hierarchy.sampled_euclidean_levels(), B().hierarchy.sampled_euclidean_levels()) + 1;
 }
 
 const Level& PairContext::euclidean_source(const Side& side, int index) const {
     const Hierarchy& h = side.data.hierarchy;
-    // A surface with fewer sampled levels goes on with its first full one, so that both end together.
-    const int levels = int(h.levels.size()) - h.diffusion_levels(), left = euclidean_levels() - index;
-    const int own = left <= h.full_levels() ? levels - left : std::min(index, h.sampled_euclidean_levels());
-    return h.levels[size_t(h.diffusion_levels() + own)];
+    if (index + 1 == euclidean_levels()) return h.levels.back();
+    // A surface with fewer sampled levels stays on its last one, so that both end together.
+    return h.levels[size_t(h.diffusion_levels() + std::min(index, h.sampled_euclidean_levels() - 1))];
 }
 
 LevelPair PairContext::euclidean_level(int index, double mu) const {

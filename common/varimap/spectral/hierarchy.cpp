@@ -45,12 +45,15 @@ void append_euclidean_levels(std::vector<Level>& levels, const GeodesicGraph& gr
                    gaussian_distance(options.truncation);
     for (;; sigma /= 2) {
         Level level = builder.euclidean(sigma, levels.back().samples, half + 1);
-        // Past half of the vertices a level of its own is not worth its time: take them all.
+        // Past half of the vertices a level of its own is not worth its time.
         if (int(level.samples.size()) > half || !(sigma > 0)) break;
         append(levels, std::move(level));
     }
-    for (int neighbours : {options.full_neighbours, options.last_neighbours})
-        append(levels, builder.full(neighbours));
+    // Neighbourhoods on the last level are too small to move a patch: the one before must be fine enough.
+    const int least = int(options.sampled_share * graph.vertex_count());
+    if (levels.back().kind == LevelKind::diffusion || int(levels.back().samples.size()) < least)
+        append(levels, builder.euclidean(sigma, levels.back().samples, least));
+    append(levels, builder.full(options.last_neighbours));
 }
 
 }  // namespace
@@ -60,12 +63,8 @@ int Hierarchy::diffusion_levels() const {
                              [](const Level& l) { return l.kind == LevelKind::diffusion; }));
 }
 
-int Hierarchy::full_levels() const {
-    return int(std::count_if(levels.begin(), levels.end(), [](const Level& l) { return l.full; }));
-}
-
 int Hierarchy::sampled_euclidean_levels() const {
-    return int(levels.size()) - diffusion_levels() - full_levels();
+    return int(levels.size()) - diffusion_levels() - 1;
 }
 
 Hierarchy build_hierarchy(const Domain& domain, const Basis& basis, const HierarchyOptions& options) {
@@ -83,7 +82,7 @@ void serialize(Archive& archive, Level& level) {
 }
 template <class Archive>
 void serialize(Archive& archive, HierarchyOptions& o) {
-    archive(o.truncation, o.density, o.growth, o.minimum_neighbours, o.full_neighbours, o.last_neighbours);
+    archive(o.truncation, o.density, o.growth, o.minimum_neighbours, o.sampled_share, o.last_neighbours);
 }
 template <class Archive>
 void serialize(Archive& archive, LocalShape& shape) {

@@ -15,12 +15,11 @@ namespace varimap {
 struct Hierarchy {
     HierarchyOptions options;   ///< what it was built with
     std::vector<Level> levels;  ///< coarse to fine; samples are nested. Diffusion levels, then Euclidean
-                                ///< ones, of which the last have every vertex
+                                ///< ones, of which the last has every vertex
     LocalShape shape;           ///< per vertex
 
     int diffusion_levels() const;
-    int sampled_euclidean_levels() const;  ///< those that have not every vertex
-    int full_levels() const;
+    int sampled_euclidean_levels() const;  ///< those before the last, which has every vertex; one or more
     const Level& last_diffusion_level() const { return levels[size_t(diffusion_levels()) - 1]; }
 };
 
@@ -28,7 +27,7 @@ template <>
 struct ArtifactType<Hierarchy> {
     static constexpr const char* kind = "hierarchy";
     static constexpr const char* stage = "varimap-hierarchy";
-    static constexpr int schema = 2;
+    static constexpr int schema = 3;
 };
 std::string encode(const Hierarchy& hierarchy);
 void decode(const std::string& payload, Hierarchy& hierarchy);

@@ -54,7 +54,7 @@ bool are_neighbours(int count) {
 
 bool are_options(const HierarchyOptions& o) {
     return is_share(o.truncation) && is_share(o.density) && std::isfinite(o.growth) && o.growth >= 1 &&
-           are_neighbours(o.minimum_neighbours) && are_neighbours(o.full_neighbours) &&
+           are_neighbours(o.minimum_neighbours) && o.sampled_share >= 0 && o.sampled_share <= 1 &&
            are_neighbours(o.last_neighbours);
 }
 
@@ -111,10 +111,10 @@ void require_complete(const Hierarchy& hierarchy) {
         require_complete(levels[l], vertices);
         if (l == 0) continue;
         const Level& coarser = levels[l - 1];
-        require<Hierarchy>(coarser.kind <= levels[l].kind && coarser.full <= levels[l].full,
-                           "order of levels");
+        require<Hierarchy>(coarser.kind <= levels[l].kind && !coarser.full, "order of levels");
         require<Hierarchy>(coarser.samples.size() <= levels[l].samples.size(), "order of levels");
     }
+    require<Hierarchy>(hierarchy.sampled_euclidean_levels() >= 1, "levels");
     const LocalShape& shape = hierarchy.shape;
     require<Hierarchy>(shape.descriptors.rows() == vertices && shape.bending.size() == vertices,
                        "local shape");

@@ -161,6 +161,14 @@ void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potenti
         exponentiate(plan.value.data() + begin, plan.value.data() + end,
                      negligible * std::min(p.row_mass[i], lightest_column));
     });
+    // Most backgrounds are too little to count anywhere, and their products not normal numbers, which take a
+    // hundred times as long.
+    constexpr double nothing = 1e-100;
+    if (u.maxCoeff() + w.maxCoeff() + kernel.background < std::log(nothing)) {
+        plan.row_background.setZero(u.size());
+        plan.column_background.setZero(w.size());
+        return;
+    }
     // The background's logarithm is shared evenly so that neither factor leaves the range of doubles alone.
     const double shift = (u.maxCoeff() - w.maxCoeff() - kernel.background) / 2;
     plan.row_background = (u - shift).exp();

@@ -137,16 +137,31 @@ TEST(Hierarchy, EuclideanLevelsFollowTheirRules) {
         expect_weights(level);
         if (l + 1 < last) expect_euclidean_cover(level, graph);
     }
-    EXPECT_EQ(h.full_levels(), 2);
-    EXPECT_EQ(h.sampled_euclidean_levels(), int(last - 1 - first));
-    for (const auto& [l, neighbours] : {std::pair{last - 1, 30}, std::pair{last, 12}}) {
-        EXPECT_TRUE(h.levels[l].full);
-        EXPECT_EQ(int(h.levels[l].samples.size()), data.surface.mesh.vertex_count());
-        EXPECT_EQ(h.levels[l].mass, data.surface.mass);
-        const double mean = double(h.levels[l].weights.nonZeros()) / data.surface.mesh.vertex_count();
-        EXPECT_LE(mean, neighbours);  // fewer where normals disagree
-        EXPECT_GT(mean, .8 * neighbours);
-    }
+    EXPECT_EQ(h.sampled_euclidean_levels(), int(last - first));
+    const int vertices = data.surface.mesh.vertex_count();
+    EXPECT_FALSE(h.levels[last - 1].full);
+    EXPECT_GE(h.levels[last - 1].samples.size(), std::size_t(.35 * vertices));
+    EXPECT_LE(h.levels[last - 1].samples.size(), std::size_t(.5 * vertices));
+    EXPECT_TRUE(h.levels[last].full);
+    EXPECT_EQ(int(h.levels[last].samples.size()), vertices);
+    EXPECT_EQ(h.levels[last].mass, data.surface.mass);
+    const double neighbours = double(h.levels[last].weights.nonZeros()) / vertices;
+    EXPECT_LE(neighbours, 12);  // fewer where normals disagree
+    EXPECT_GT(neighbours, .8 * 12);
+}
+
+TEST(Hierarchy, HasASampledEuclideanLevelWhateverTheShare) {
+    const Surface surface = unit_surface(shapes::ellipsoid(1));
+    EigenSolverOptions eigen;
+    eigen.count = 16;
+    HierarchyOptions options;
+    options.sampled_share = 0;
+    const Hierarchy h = build_hierarchy(surface, compute_eigenbasis(surface, eigen), options);
+    EXPECT_GE(h.sampled_euclidean_levels(), 1);
+    const Level& sampled = h.levels[h.levels.size() - 2];
+    EXPECT_EQ(sampled.kind, LevelKind::euclidean);
+    EXPECT_FALSE(sampled.full);
+    expect_nested(h);
 }
 
 TEST(Hierarchy, EuclideanWeightsDoNotBridgeThinParts) {
