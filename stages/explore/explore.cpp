@@ -153,9 +153,9 @@ std::vector<Appraised> Finishing::appraised() const {
     std::vector<Appraised> list;
     for (const FinishedMap& map : maps_) list.push_back({map, origins_[std::size_t(map.start)]});
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
-    // Where landmarks lead is given up for what is clearly better only. Chosen by hand on half of the known
-    // pairs.
-    constexpr double preference = 0.1;
+    // Where landmarks lead is given up only for what is better by more than scores err. Chosen by hand on
+    // half of the known pairs; no choice of the other half depends on it.
+    constexpr double preference = 0.04;
     const auto rank = [](const Candidate& c) {
         return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0));
     };
@@ -238,6 +238,13 @@ Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& 
     return found;
 }
 
+/// Whether another map scores better than the first, to which landmarks lead: then both are shown.
+bool is_disputed(const std::vector<Appraised>& list) {
+    std::vector<Candidate> candidates;
+    for (const Appraised& one : list) candidates.push_back(one.candidate);
+    return confidence_of(candidates).margin < 0;
+}
+
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
 /// at full resolution, landmarks may lead elsewhere.
 Candidates led(std::vector<Appraised> list, const PairContext& context) {
@@ -305,8 +312,8 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         found < (if_needed ? plausible_with_landmarks : plausible)) {
         log("the best of these maps is not good (plausible by {:.2f}): looking further", found);
         list = thoroughly_found(context, params, led_there, self_maps);
-    } else if (if_needed && list.front().candidate.explored == 0) {
-        log("none of {} maps is clearly better than where the landmarks lead", list.size());
+    } else if (if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
+        log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }
     Candidates found = candidates_of(list, context);

@@ -11,7 +11,7 @@ namespace {
 
 // Chosen by hand on the known pairs, not swept.
 constexpr double trusted_determinant = 0.3;  ///< anchors are oriented beyond doubt
-constexpr int wanted_anchors = 24;
+constexpr int wanted_anchors = 12;
 constexpr int least_anchors = 6;
 /// Images may be somewhat further from the anchors' images than the samples are from the anchors.
 constexpr double stretch = 1.3;
