@@ -10,9 +10,9 @@ namespace varimap {
 
 /// Finding maps without landmarks. The coarsest levels have so few samples that solving them costs
 /// milliseconds: many starts are solved there, and the better ones are promoted from level to level
-/// (successive halving), with duplicates removed on the way. Energies of these levels do not tell the right
-/// map; they bring it among the few that are finished (finishing.h). Defaults were chosen by hand on half of
-/// the known pairs, not swept.
+/// (successive halving), with duplicates removed and the images of extremities exchanged on the way. Energies
+/// of these levels do not tell the right map; they bring it among the few that are finished (finishing.h).
+/// Defaults were chosen by hand on half of the known pairs, not swept.
 struct ExplorationOptions {
     int random_starts = 16;  ///< at each of the three coarsest levels worth it
     int seed = 1;
@@ -54,6 +54,7 @@ class Exploration {
     void add_starts();
     void add_tip_starts();
     void add_axes_starts();
+    void add_swaps(int best);
     void prune(int keep);
     void log_pool(int level) const;
     Trial tried(const Start& start, bool ironed) const;
@@ -64,6 +65,7 @@ class Exploration {
     AlternationOptions alternation_;
     Descent descent_;  ///< at the level where the pool is
     std::mt19937 random_;
+    Levels extremities_;  ///< the coarse level whose samples are exchanged
     std::vector<Trial> pool_;
 };
 

@@ -72,6 +72,14 @@ std::vector<Eigen::Matrix3d> axis_rotations() {
     return rotations;
 }
 
+Coupling swap_rows(const Coupling& plan, int first, int second) {
+    Coupling swapped = plan;
+    const int columns = plan.support.columns();
+    for (int j = 0; j < columns; ++j)
+        std::swap(swapped.value[first * columns + j], swapped.value[second * columns + j]);
+    return swapped;
+}
+
 }  // namespace
 
 Matching nearest_to_each_other(const RowMatrix& a, const RowMatrix& b) {
@@ -116,6 +124,26 @@ std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt
             matching.emplace_back(row[n % rows], column[n % columns]);
     }
     return matchings;
+}
+
+Coupling coarsened(const Coupling& plan, const LevelPair& fine, const Levels& coarse) {
+    const auto row = parents(fine.A.level, coarse.A), column = parents(fine.B.level, coarse.B);
+    const int rows = int(coarse.A.samples.size()), columns = int(coarse.B.samples.size());
+    Coupling sum{Support::dense(rows, columns), Eigen::VectorXd::Zero(Eigen::Index(rows) * columns),
+                 Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(columns)};
+    for (int i = 0; i < plan.support.rows(); ++i)
+        for (int e = plan.support.row_begin[i]; e < plan.support.row_begin[i + 1]; ++e)
+            sum.value[row[i] * columns + column[plan.support.column[e]]] += plan.value[e];
+    return sum;
+}
+
+std::vector<Coupling> with_swapped_rows(const Coupling& plan, int count) {
+    count = std::min(count, plan.support.rows());
+    std::vector<Coupling> swapped;
+    for (int first = 0; first < count; ++first)
+        for (int second = first + 1; second < count; ++second)
+            swapped.push_back(swap_rows(plan, first, second));
+    return swapped;
 }
 
 }  // namespace varimap

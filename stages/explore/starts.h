@@ -22,4 +22,11 @@ std::vector<Matching> axes_matchings(const PairContext& context, const LevelPair
 /// Each sample with a random one.
 std::vector<Matching> random_matchings(int rows, int columns, int count, std::mt19937& random);
 
+/// The plan between coarser samples: sums over their cells.
+Coupling coarsened(const Coupling& plan, const LevelPair& fine, const Levels& coarse);
+
+/// The plan with what it says of two rows exchanged, for every pair of its first `count` rows. Samples come
+/// farthest first, so the first ones of a coarse level lie at extremities, which a wrong map exchanges.
+std::vector<Coupling> with_swapped_rows(const Coupling& plan, int count);
+
 }  // namespace varimap

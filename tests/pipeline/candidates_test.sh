@@ -27,8 +27,9 @@ map a.off b.off -o out
 
 # The long axis runs up to 1.3, the next one to 0.7.
 tips() {
-    awk 'NR > 2 && NF == 3 { if ($3 > 1.29) up = NR - 3; if ($3 < -1.29) down = NR - 3; if ($1 > .69) side = NR - 3 }
-        END { print up; print down; print side }' "$1"
+    awk 'NR > 2 && NF == 3 { if ($3 > 1.29) up = NR - 3; if ($3 < -1.29) down = NR - 3
+            if ($1 > .69) side = NR - 3; if ($1 < -.69) other = NR - 3 }
+        END { print up; print down; print side; print other }' "$1"
 }
 paste <(tips a.off) <(tips b.off) >tips.txt
 map a.off b.off -o out --landmarks tips.txt

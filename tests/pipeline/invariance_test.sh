@@ -70,9 +70,10 @@ for other in source_moved target_moved; do
     # measured .0026.
     below "$mean" 5e-3 "$other, mean change"
 done
-# Up to the plan rounding decides nothing, but for shape diameters (rays have single precision) and for ironing (which
-# samples are reversed, and whether they are too many).
-smooth=(--set relax.untangle=false)
+# Up to the plan rounding decides nothing, but for shape diameters (rays have single precision), for ironing (which
+# samples are reversed, and whether they are too many), and for the map of the sketches that is continued, which is ironed
+# and relaxed.
+smooth=(--set relax.untangle=false --set explore.few_landmarks=0)
 for stage in diffuse refine; do smooth+=(--set "$stage.shape_weight=0" --set "$stage.ironing=false"); done
 map a.off b.off -o plain --landmarks a.txt b.txt "${smooth[@]}"
 map a_moved.off b.off -o source_moved --landmarks a.txt b.txt "${smooth[@]}"

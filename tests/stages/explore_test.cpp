@@ -315,6 +315,14 @@ TEST(Starts, RandomMatchingsUseEverySampleAndRepeatForASeed) {
     EXPECT_EQ(columns.size(), 8u);
 }
 
+TEST(Starts, SwapsExchangeRowsPairwise) {
+    const Coupling plan{Support::dense(3, 2), Eigen::VectorXd::LinSpaced(6, 0, 5), Eigen::VectorXd::Zero(3),
+                        Eigen::VectorXd::Zero(2)};
+    const auto swapped = with_swapped_rows(plan, 8);
+    ASSERT_EQ(swapped.size(), 3u);
+    EXPECT_EQ(swapped[1].value, (Eigen::VectorXd(6) << 4, 5, 2, 3, 0, 1).finished());
+}
+
 TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     const Candidate best{.dirichlet = 1, .relief = .9, .score = -6},
         rival{.dirichlet = 1.2, .relief = .7, .score = -5.7, .moved_mass = .8};

@@ -111,9 +111,9 @@ TEST(Inspect, CheckAcceptsEveryKindAndRefusesDamage) {
     hierarchy.levels[0].mass = Eigen::VectorXd::Ones(1);
     hierarchy.levels[0].weights.resize(1, 1);
     hierarchy.levels[0].weights.insert(0, 0) = 1;
-    hierarchy.levels.push_back(hierarchy.levels[0]);
-    hierarchy.levels[1].kind = LevelKind::euclidean;
-    hierarchy.levels[1].full = true;
+    hierarchy.levels.resize(3, hierarchy.levels[0]);
+    hierarchy.levels[1].kind = hierarchy.levels[2].kind = LevelKind::euclidean;
+    hierarchy.levels[2].full = true;
     hierarchy.shape = {RowMatrix::Zero(1, 3), Eigen::VectorXd::Zero(1)};
     write_sample(folder / "A.hierarchy", hierarchy);
     write_sample(folder / "AB.diffusion", small_diffusion());
