@@ -245,6 +245,14 @@ bool is_disputed(const std::vector<Appraised>& list) {
     return confidence_of(candidates).margin < 0;
 }
 
+/// Whether the best map that was quickly found may do. Chosen by hand on half of the known pairs: fewer maps
+/// are wrong with landmarks, but a limb may be, which strains them.
+bool is_good(const Candidate& best, bool has_landmarks) {
+    constexpr double plausible = 0.9, plausible_with_landmarks = 0.75, strained = 1.25;
+    if (!has_landmarks) return plausibility(best) >= plausible;
+    return plausibility(best) >= plausible_with_landmarks && best.dirichlet < strained;
+}
+
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
 /// at full resolution, landmarks may lead elsewhere.
 Candidates led(std::vector<Appraised> list, const PairContext& context) {
@@ -293,7 +301,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
                    const std::function<SelfMaps()>& ask_for_self_maps) {
     // Chosen by hand on half of the known pairs. With landmarks, fewer maps are wrong, and nothing else is
     // looked for where the map that they lead to suffices.
-    constexpr double plausible = 0.9, plausible_with_landmarks = 0.75, suffices = 0.985;
+    constexpr double suffices = 0.985;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
         log("{} landmarks: nothing else is looked for", context.landmarks().size());
@@ -308,9 +316,10 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
     }
     LazySelfMaps self_maps(context, ask_for_self_maps);
     std::vector<Appraised> list = quickly_found(context, params, led_there, finishing, self_maps);
-    if (const double found = plausibility(list.front().candidate);
-        found < (if_needed ? plausible_with_landmarks : plausible)) {
-        log("the best of these maps is not good (plausible by {:.2f}): looking further", found);
+    if (!is_good(list.front().candidate, if_needed)) {
+        log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "
+            "further",
+            plausibility(list.front().candidate), list.front().candidate.dirichlet);
         list = thoroughly_found(context, params, led_there, self_maps);
     } else if (if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
         log("none of {} maps is better than where the landmarks lead", list.size());
