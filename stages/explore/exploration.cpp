@@ -21,7 +21,8 @@ constexpr int tip_samples = 30;
 constexpr int extremities = 8;
 
 /// Least samples of levels on which images of extremities are exchanged, and for how many of the best maps.
-/// On finer levels exchanges took a third of the time of exploring, and changed no choice on 39 known pairs.
+/// On finer levels exchanges took a third of the time of exploring, and hardly changed a choice on 39 known
+/// pairs.
 struct SwapRule {
     int samples, best;
 };

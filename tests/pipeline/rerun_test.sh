@@ -75,7 +75,7 @@ awk '{ print $1 }' tips.txt >list.txt
 step "$explored" --landmarks list.txt list.txt
 # The candidates of before are still those of the two surfaces.
 step "$pair"
-step "$pair" --candidate 1 --set diffuse.tolerance=0.002
+step "$pair" --candidate 1 --set diffuse.tolerance=0.02
 step "$pair"
 
 # Another pair in the same folder shares a; its exports take the place of the first's.
