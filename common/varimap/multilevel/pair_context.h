@@ -33,7 +33,7 @@ class PairContext {
     /// The last diffusion level that has these samples, in this order; -1 if there is none. Builds no level.
     int find_diffusion_level(const std::vector<int>& samples_A, const std::vector<int>& samples_B) const;
 
-    /// Number of Euclidean levels of the pair: sampled ones, then those with every vertex.
+    /// Number of Euclidean levels of the pair: sampled ones, then that with every vertex.
     int euclidean_levels() const;
     /// Levels in the mixed metric (x, mu c psi): positions in R^3 beside normalised diffusion coordinates
     /// psi = Phi / sqrt(1 + K) at the last diffusion level's time, scaled by c so that short edges measure
