@@ -299,8 +299,8 @@ SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& pa
 
 Candidates explore(const PairContext& context, const ExploreParams& params,
                    const std::function<SelfMaps()>& ask_for_self_maps) {
-    // Chosen by hand on half of the known pairs. With landmarks, fewer maps are wrong, and nothing else is
-    // looked for where the map that they lead to suffices.
+    // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
+    // to is as plausible.
     constexpr double suffices = 0.985;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {

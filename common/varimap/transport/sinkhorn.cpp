@@ -164,13 +164,14 @@ void form_plan(const TransportProblem& p, const LogKernel& kernel, const Potenti
     // Most backgrounds are too little to count anywhere, and their products not normal numbers, which take a
     // hundred times as long.
     constexpr double nothing = 1e-100;
-    if (u.maxCoeff() + w.maxCoeff() + kernel.background < std::log(nothing)) {
+    const double largest_u = u.maxCoeff(), largest_w = w.maxCoeff();
+    if (largest_u + largest_w + kernel.background < std::log(nothing)) {
         plan.row_background.setZero(u.size());
         plan.column_background.setZero(w.size());
         return;
     }
     // The background's logarithm is shared evenly so that neither factor leaves the range of doubles alone.
-    const double shift = (u.maxCoeff() - w.maxCoeff() - kernel.background) / 2;
+    const double shift = (largest_u - largest_w - kernel.background) / 2;
     plan.row_background = (u - shift).exp();
     plan.column_background = (w + shift + kernel.background).exp();
 }
