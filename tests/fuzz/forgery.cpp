@@ -261,16 +261,15 @@ void Forger::level(Level& l) {
 
 void Forger::operator()(Hierarchy& h) {
     const auto any = [&]() -> Level& { return h.levels[below(h.levels.size())]; };
-    one_of(
-        {[&] { level(any()); }, [&] { level(any()); }, [&] { level(any()); }, [&] { any() = Level(any()); },
-         [&] { h.levels.resize(1 + below(h.levels.size())); },
-         [&] { h.levels.erase(h.levels.begin() + std::ptrdiff_t(below(h.levels.size()))); },
-         [&] { h.levels.insert(h.levels.begin(), 1 + below(20), Level(any())); },
-         [&] { real(h.options.density); }, [&] { real(h.options.truncation); },
-         [&] { real(h.options.growth); }, [&] { integer(h.options.minimum_neighbours, 1000); },
-         [&] { real(h.options.sampled_share); }, [&] { integer(h.options.last_neighbours, 1000); },
-         [&] { reals(h.shape.descriptors); }, [&] { reals(h.shape.bending); }},
-        2);
+    one_of({[&] { level(any()); }, [&] { level(any()); }, [&] { level(any()); },
+            [&] { any() = Level(any()); }, [&] { h.levels.resize(1 + below(h.levels.size())); },
+            [&] { h.levels.erase(h.levels.begin() + std::ptrdiff_t(below(h.levels.size()))); },
+            [&] { h.levels.insert(h.levels.begin(), 1 + below(20), Level(any())); },
+            [&] { real(h.options.density); }, [&] { real(h.options.truncation); },
+            [&] { real(h.options.growth); }, [&] { integer(h.options.minimum_neighbours, 1000); },
+            [&] { real(h.options.sampled_share); }, [&] { integer(h.options.last_neighbours, 1000); },
+            [&] { reals(h.shape.descriptors); }, [&] { reals(h.shape.bending); }},
+           2);
     if (h.levels.empty()) h.levels.emplace_back();
 }
 
