@@ -96,12 +96,12 @@ class Reader {
 
 std::vector<double> probabilities(const std::vector<Candidate>& candidates) {
     // Scores mislead now and then, by much: a share of the probability is the same for all.
-    constexpr double scale = .06, misled = .3;  // chosen on generated families
+    constexpr double misled = .3;  // chosen on generated families
     std::vector<double> result;
     double sum = 0, count = 0;
     for (const Candidate& candidate : candidates) {
         const bool mirrored = is_mirrored(candidate);
-        result.push_back(mirrored ? 0 : std::exp((candidates.front().score - candidate.score) / scale));
+        result.push_back(mirrored ? 0 : std::exp(candidates.front().score - candidate.score));
         sum += result.back();
         count += !mirrored;
     }

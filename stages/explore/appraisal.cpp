@@ -22,8 +22,7 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
 
 }  // namespace
 
-Appraisal::Appraisal(const PairContext& context)
-    : context_(context), agreement_(context.A().surface, context.B().surface) {}
+Appraisal::Appraisal(const PairContext& context) : context_(context), agreement_(context) {}
 
 void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
@@ -32,7 +31,8 @@ void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     candidate.energy = map.energy;
     candidate.dirichlet = std::sqrt(there.dirichlet_energy * back.dirichlet_energy);
     candidate.relief = agreement_.relief(map.maps);
-    candidate.bending = agreement_.bending(map.maps);
+    candidate.alignment = agreement_.alignment(map.maps);
+    candidate.stretch = agreement_.stretch(map.maps);
     candidate.reversed_mass = (there.flipped_area_percent + back.flipped_area_percent) / 200;
     candidate.score = score_of(candidate);
 }

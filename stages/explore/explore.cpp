@@ -155,7 +155,7 @@ std::vector<Appraised> Finishing::appraised() const {
     for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
     // Where landmarks lead is given up only for what is better by more than scores err. Chosen by hand on
     // half of the known pairs; no choice of the other half depends on it.
-    constexpr double preference = 0.04;
+    constexpr double preference = 0.5;
     const auto rank = [](const Candidate& c) {
         return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0));
     };

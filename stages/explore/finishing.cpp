@@ -24,10 +24,11 @@ struct Pursued {
     double energy() const { return solution.step.energy; }
 };
 
-/// On the Euclidean levels, which make the score: what raises it is not taken.
+/// On the Euclidean levels, by whose energies maps are dropped: little may be paid for less that is reversed.
 IroningOptions euclidean_ironing(IroningOptions options, int rounds) {
+    constexpr double log_energy_for_mass = 0.5;
     options.maximum_rounds = rounds;
-    options.energy_for_mass = reversed_worth;
+    options.energy_for_mass = log_energy_for_mass;
     return options;
 }
 

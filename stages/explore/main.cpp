@@ -10,12 +10,12 @@ namespace {
 
 void report(const std::vector<Candidate>& candidates, bool has_landmarks) {
     for (size_t k = 0; k < candidates.size(); ++k)
-        log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, bending {:.3f}, score "
-            "{:.4f}, {:.1f}% "
-            "reversed; {}",
+        log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, alignment {:.3f}, "
+            "stretch "
+            "{:.3f}, score {:.2f}, {:.1f}% reversed; {}",
             k + 1, origin(candidates[k]), candidates[k].energy, candidates[k].dirichlet, candidates[k].relief,
-            candidates[k].bending, candidates[k].score, 100 * candidates[k].reversed_mass,
-            relation(candidates[k]));
+            candidates[k].alignment, candidates[k].stretch, candidates[k].score,
+            100 * candidates[k].reversed_mass, relation(candidates[k]));
     const Confidence confidence = confidence_of(candidates);
     log("the first is right with a probability of {:.2f}", confidence.probability);
     if (const std::string cue = decided_by(candidates); !cue.empty())

@@ -2,43 +2,58 @@
 
 #include <vector>
 
-#include "varimap/mesh/domain.h"
+#include "varimap/multilevel/pair_context.h"
 #include "varimap/relaxation/untangling.h"
 
 namespace varimap {
 
 /// How well maps between two surfaces of unit area bring like places together, by cues that do not go into
-/// the maps' energies. Each is a correlation over the source, 1 at best, mean of both directions; the
-/// surfaces may be of opposite handedness. Keeps references to the meshes.
+/// the maps' energies. Each is a mean over the source, and of both directions; the surfaces may be of
+/// opposite handedness. Keeps a reference to the context.
 class ShapeAgreement {
   public:
-    ShapeAgreement(const Domain& A, const Domain& B);
+    explicit ShapeAgreement(const PairContext& context);
 
-    /// Of relief (relief_agreement.h), mean of two scales.
+    /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales.
     double relief(const MapPair& maps) const;
-    /// Of normal curvatures along the source's edges and along their images, of both surfaces smoothed at
-    /// bending_scale: how they bend, and in which direction, where relief knows their mean curvature alone.
-    /// A limb turned about its axis keeps most of the latter and little of the former.
-    double bending(const MapPair& maps) const;
+    /// How well patches can be laid onto their images: of all rotations R of a patch, with points x of
+    /// normals n and images y of normals m, relative to the patch's and the image's centres and mean square
+    /// radii r and s,
+    ///     max over R of mean(y . R x / (r s) + m . R n) / 2,
+    /// 1 at best, mean of patches of two sizes. Limbs may bend between patches; which side of a limb is
+    /// which, and what belongs beside what, shows within them.
+    double alignment(const MapPair& maps) const;
+    /// How much distances along the surface change: mean of |log| of their ratios, over pairs of places; of
+    /// each, most_stretch at most. 0 at best.
+    double stretch(const MapPair& maps) const;
 
   private:
+    struct Patch {
+        std::vector<int> vertices;
+        double weight;
+    };
     struct Side {
         const TriangleMesh& mesh;
+        const GeodesicGraph& graph;
         Eigen::VectorXd mass;
         std::vector<Eigen::VectorXd> relief;  ///< per scale; outward
-        TriangleMesh smooth;
-        Points normals;  ///< of `smooth`, outward
+        Points normals;                       ///< of vertices, outward
+        std::vector<int> samples;             ///< vertices, spread over the surface
+        Eigen::VectorXd sample_mass;          ///< of their cells
+        RowMatrix distance;                   ///< samples x samples
+        std::vector<Patch> patches;           ///< of all sizes
 
-        explicit Side(const Domain& surface);
+        Side(const SurfaceData& data, const GeodesicGraph& graph);
     };
     static double relief(const PointMap& map, const Side& source, const Side& target);
-    static double bending(const PointMap& map, const Side& source, const Side& target);
+    double alignment(const PointMap& map, const Side& source, const Side& target) const;
+    static double stretch(const PointMap& map, const Side& source, const Side& target);
 
     Side A_, B_;
+    bool opposed_;  ///< of opposite handedness
 };
 
-/// Units of sqrt(area). Of .02, .03, .05 and .1, all of which divide right maps from wrong ones of generated
-/// pairs about as well, .1 a little less.
-constexpr double bending_scale = 0.05;
+/// |log| of the ratio of two distances from which on they do not agree at all.
+constexpr double most_stretch = 0.25;
 
 }  // namespace varimap

@@ -109,12 +109,13 @@ std::string trace_csv(const Trace& trace) {
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
     std::string text =
-        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,bending,score,reversed_mass,"
+        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,alignment,stretch,score,reversed_"
+        "mass,"
         "moved_mass,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A,
-                            c.self_map_B, c.energy, c.dirichlet, c.relief, c.bending, c.score,
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored, c.self_map_A,
+                            c.self_map_B, c.energy, c.dirichlet, c.relief, c.alignment, c.stretch, c.score,
                             c.reversed_mass, c.moved_mass, c.turn);
     }
     return text;
@@ -126,9 +127,9 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
     for (std::size_t k = 0; k < candidates.size(); ++k)
         visitor.fact(fmt::format("candidate {}", k + 1),
                      fmt::format("{}; {}", origin(candidates[k]), relation(candidates[k])));
-    visitor.fact("confidence", fmt::format("{}: right with a probability of {:.2f}, margin {:.2f}%",
+    visitor.fact("confidence", fmt::format("{}: right with a probability of {:.2f}, margin {:.2f}",
                                            confidence.confident ? "sure" : "not sure", confidence.probability,
-                                           100 * confidence.margin));
+                                           confidence.margin));
     visitor.text("candidates.csv", candidates_csv(candidates));
 }
 

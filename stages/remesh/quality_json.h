@@ -21,7 +21,7 @@ namespace varimap {
 ///                     (definitions: landmark_check.h)
 ///   exploration       where it chose the map: which candidate was continued, confident, margin, probability,
 ///                     doubt and decided_by in words, and the candidates: origin, energy, dirichlet_energy,
-///                     relief_agreement, bending_agreement, score, reversed_percent, moved_percent,
+///                     relief_agreement, alignment, stretch, score, reversed_percent, moved_percent,
 ///                     turn_degrees, mirrored (definitions: candidate.h). Where the first was continued,
 ///                     probability, confident and doubt are those of the finished map; confident_when_found:
 ///                     before it was finished

@@ -166,7 +166,7 @@ TEST(Probabilities, AreSharedByScore) {
     good.relief = .9;
     good.score = 1;
     Candidate worse = good, mirrored = good;
-    worse.score = 1.2;
+    worse.score = 4;
     mirrored.reversed_mass = .9;
     const auto p = probabilities({good, good, worse, mirrored});
     EXPECT_EQ(p[0], p[1]);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "fixtures/known_pair.h"
+#include "fixtures/surface_data.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/appraisal.h"
 #include "stages/explore/pool.h"
@@ -164,7 +165,8 @@ TEST(Finishing, IsBestForTheRightMap) {
     appraisal.measure(finished.front(), best);
     EXPECT_LT(best.reversed_mass, .01);
     EXPECT_GT(best.relief, .8);
-    EXPECT_GT(best.bending, .8);
+    EXPECT_GT(best.alignment, .8);
+    EXPECT_LT(best.stretch, .1);
     if (finished.size() > 1) {
         appraisal.measure(finished.back(), other);
         EXPECT_GT(other.score, best.score);
@@ -324,22 +326,22 @@ TEST(Starts, SwapsExchangeRowsPairwise) {
 }
 
 TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
-    const Candidate best{.dirichlet = 1, .relief = .9, .score = -6},
-        rival{.dirichlet = 1.2, .relief = .7, .score = -5.7, .moved_mass = .8};
+    const Candidate best{.dirichlet = 1, .relief = .9, .score = -30},
+        rival{.dirichlet = 1.2, .relief = .7, .score = -24, .moved_mass = .8};
     const Confidence sure = confidence_of({best, rival});
     EXPECT_TRUE(sure.confident);
-    EXPECT_NEAR(sure.margin, .3, 1e-12);
+    EXPECT_NEAR(sure.margin, 6, 1e-12);
     EXPECT_GT(sure.probability, .95);
     EXPECT_EQ(doubt({best, rival}), "");
     Candidate close = rival;
-    close.score = -5.99;
+    close.score = -29;
     EXPECT_LT(confidence_of({best, close}).probability, sure.probability);
-    EXPECT_THAT(doubt({best, close}), testing::HasSubstr("another is only 1.0% worse"));
+    EXPECT_THAT(doubt({best, close}), testing::HasSubstr("another is 37% as probable"));
     close.moved_mass = .03;  // the same map, but for an ear
-    EXPECT_EQ(confidence_of({best, close}).margin, 1);
+    EXPECT_EQ(confidence_of({best, close}).margin, 10);
     close.moved_mass = .8;
     close.reversed_mass = .9;  // a mirrored map is no rival
-    EXPECT_EQ(confidence_of({best, close}).margin, 1);
+    EXPECT_EQ(confidence_of({best, close}).margin, 10);
     Candidate strained = best;
     strained.dirichlet = 3;
     strained.relief = .4;
@@ -351,27 +353,29 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
 }
 
 TEST(Confidence, SaysWhichCueDecided) {
-    const Candidate best{.energy = .005, .bending = .8, .score = -7.3},
-        rival{.energy = .00495, .bending = .7, .score = -7.06, .moved_mass = .9};
-    EXPECT_EQ(decided_by({best, rival}), "bending, against energy");
+    const Candidate best{.relief = .7, .alignment = .9, .stretch = .1, .score = -24.5},
+        rival{.relief = .8, .alignment = .7, .stretch = .1, .score = -21.5, .moved_mass = .9};
+    EXPECT_EQ(decided_by({best, rival}), "alignment, against relief");
     Candidate nearer = best;  // the best rival counts, not the first in the list
     nearer.moved_mass = .5;
-    nearer.bending = .8001;
-    nearer.score = -7.1;
-    nearer.energy = .006;
-    EXPECT_EQ(decided_by({best, rival, nearer}), "energy");
+    nearer.stretch = .12;
+    nearer.score = -22.1;
+    EXPECT_EQ(decided_by({best, rival, nearer}), "stretch");
     nearer.moved_mass = .01;  // the same map
     EXPECT_EQ(decided_by({best, nearer}), "");
-    Candidate reversing = rival;
-    reversing.energy = best.energy;
-    reversing.reversed_mass = .2;
-    EXPECT_EQ(decided_by({best, reversing}), "bending and reversed area");
-    reversing = best;
-    reversing.moved_mass = .9;
-    EXPECT_EQ(decided_by({best, reversing}), "no cue by much");
+    Candidate alike = best;
+    alike.moved_mass = .9;
+    EXPECT_EQ(decided_by({best, alike}), "no cue by much");
 }
 
-/// Points of the mesh nearest to the vertices, moved.
+/// A bar, flat above and below.
+SurfaceData bar(const Eigen::Matrix3d& moved = Eigen::Matrix3d::Identity()) {
+    TriangleMesh mesh = shapes::ellipsoid(3, {1, .5, .2});
+    mesh.vertices *= moved.transpose();
+    return shapes::surface_data(shapes::unit_surface(mesh), 40);
+}
+
+/// Vertices of the mesh nearest to its vertices, moved.
 PointMap nearest_points(const TriangleMesh& mesh, const Eigen::Matrix3d& moved) {
     const PointMap at = points_at_vertices(mesh);
     PointMap map;
@@ -380,30 +384,33 @@ PointMap nearest_points(const TriangleMesh& mesh, const Eigen::Matrix3d& moved) 
     return map;
 }
 
-TEST(ShapeAgreement, SeesInWhichDirectionSurfacesBend) {
-    // A bar, flat above and below. Turned by a quarter about its axis it has flat places on bent ones; turned
-    // by a half, like ones on like ones.
-    TriangleMesh mesh = shapes::ellipsoid(3, {1, .5, .2});
-    mesh.vertices /= std::sqrt(surface_area(mesh));
-    Domain surface;
-    surface.mesh = mesh;
-    surface.mass = voronoi_masses(mesh);
-    Domain reversed = surface;  // as one of the other handedness is
-    reversed.mesh.faces.col(1).swap(reversed.mesh.faces.col(2));
-    const auto bending = [&](const Domain& target, double degrees) {
+TEST(ShapeAgreement, SeesWhichPlacesAreAlike) {
+    const SurfaceData data = bar();
+    const PairContext context(data, data, {});
+    const ShapeAgreement agreement(context);
+    const auto turned = [&](double degrees) -> MapPair {
         const Eigen::Matrix3d turn =
             Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitX()).toRotationMatrix();
-        return ShapeAgreement(surface, target)
-            .bending({nearest_points(target.mesh, turn), nearest_points(mesh, turn.transpose())});
+        return {nearest_points(data.surface.mesh, turn), nearest_points(data.surface.mesh, turn.transpose())};
     };
-    EXPECT_NEAR(bending(surface, 0), 1, 1e-9);
-    EXPECT_GT(bending(surface, 180), .9);
-    EXPECT_LT(bending(surface, 90), .5);
-    EXPECT_NEAR(bending(reversed, 0), 1, 1e-9);
+    EXPECT_NEAR(agreement.alignment(turned(0)), 1, 1e-9);
+    EXPECT_NEAR(agreement.stretch(turned(0)), 0, 1e-9);
+    EXPECT_GT(agreement.alignment(turned(180)), .95);  // like places on like ones
+    EXPECT_LT(agreement.stretch(turned(180)), .02);
+    EXPECT_LT(agreement.alignment(turned(90)), .9);  // flat places on bent ones
+    EXPECT_GT(agreement.stretch(turned(90)), .05);
+}
+
+TEST(ShapeAgreement, KnowsSurfacesOfOppositeHandedness) {
+    const PairContext context(bar(), bar(Eigen::DiagonalMatrix<double, 3>(-1, 1, 1)), {});
+    const PointMap same = points_at_vertices(context.A().surface.mesh);
+    const ShapeAgreement agreement(context);
+    EXPECT_NEAR(agreement.alignment({same, same}), 1, 1e-9);
+    EXPECT_NEAR(agreement.relief({same, same}), 1, 1e-9);
 }
 
 TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
-    const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -6}};
+    const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
     const double found = confidence_of(candidates).probability;
     double last = found;
     for (const double dirichlet : {1.05, 1.15, 1.25, 1.35, 2.}) {

@@ -89,7 +89,7 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
 }
 
 TEST_F(Remesh, IsLessSureOfAMapThatIsStrainedInTheEnd) {
-    pair_.plan.record.candidates = {Candidate{.dirichlet = 1, .relief = .9, .score = -6}};
+    pair_.plan.record.candidates = {Candidate{.dirichlet = 1, .relief = .9, .score = -30}};
     pair_.plan.record.candidate = 1;
     EXPECT_TRUE(quality()["exploration"]["confident"]);
     SurfaceMap strained = pair_.as_planned();

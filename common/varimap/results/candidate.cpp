@@ -9,14 +9,17 @@ namespace varimap {
 
 namespace {
 
-/// How much log energy a correlation of 1 is worth.
-constexpr double bending_worth = 2, relief_worth = 2;
+constexpr double alignment_worth = 25, relief_worth = 20, stretch_worth = 120, strain_worth = 3;
+
+double strain(const Candidate& candidate) {
+    return std::log(std::max(candidate.dirichlet, 1.0));
+}
 
 }  // namespace
 
 double score_of(const Candidate& candidate) {
-    return std::log(candidate.energy) - bending_worth * candidate.bending - relief_worth * candidate.relief +
-           reversed_worth * candidate.reversed_mass;
+    return stretch_worth * candidate.stretch - alignment_worth * candidate.alignment -
+           relief_worth * candidate.relief + strain_worth * strain(candidate);
 }
 
 bool is_mirrored(const Candidate& candidate) {
@@ -31,8 +34,8 @@ namespace {
 /// How probable it is that a rival is the right map rather than the best one: as much as not where both are
 /// as good, three quarters with a few rivals; less for one that differs on a limb alone.
 double doubt_by(const Candidate& rival, const Candidate& best) {
-    constexpr double even = 0.75, scale = 0.06, whole = 0.25;
-    return even * std::exp(-std::max(0.0, rival.score - best.score) / scale) *
+    constexpr double even = 0.75, whole = 0.25;
+    return even * std::exp(-std::max(0.0, rival.score - best.score)) *
            std::min(1.0, rival.moved_mass / whole);
 }
 
@@ -56,15 +59,14 @@ bool is_rival(const Candidate& candidate) {
 
 double plausibility(const Candidate& candidate) {
     constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
-    return 1 / (1 + std::exp(-14 * (candidate.relief - relief) +
-                             4 * (std::log(std::max(candidate.dirichlet, 1.0)) - dirichlet)));
+    return 1 / (1 + std::exp(-14 * (candidate.relief - relief) + 4 * (strain(candidate) - dirichlet)));
 }
 
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished) {
     constexpr double sure = 0.9;
     if (candidates.empty()) return {};
     const Candidate& best = candidates.front();
-    double margin = 1, doubt = 0;
+    double margin = 10, doubt = 0;
     for (size_t k = 1; k < candidates.size(); ++k) {
         const Candidate& rival = candidates[k];
         if (!is_rival(rival)) continue;
@@ -77,14 +79,17 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished) {
-    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.12;
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 2;
     const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
     const Candidate& best = candidates.front();
     if (is_mirrored(best)) return "only mirrored maps were found";
     std::string why;
     const auto add = [&](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
-    if (confidence.margin < close) add(fmt::format("another is only {:.1f}% worse", 100 * confidence.margin));
+    if (confidence.margin < close)
+        add(confidence.margin > 0
+                ? fmt::format("another is {:.0f}% as probable", 100 * std::exp(-confidence.margin))
+                : std::string("another is as probable"));
     if (finished > strained_in_the_end)
         add(fmt::format("finished, it is strained, with a Dirichlet energy of {:.2f}", *finished));
     else if (best.dirichlet > strained)
@@ -104,12 +109,12 @@ std::string decided_by(const std::vector<Candidate>& candidates) {
     if (!rival) return "";
     const struct {
         const char* name;
-        double gain;  // of score, of the best map over its rival
-    } cues[] = {{"energy", std::log(rival->energy / best->energy)},
-                {"bending", bending_worth * (best->bending - rival->bending)},
+        double gain;  // in score, of the best map over its rival
+    } cues[] = {{"alignment", alignment_worth * (best->alignment - rival->alignment)},
                 {"relief", relief_worth * (best->relief - rival->relief)},
-                {"reversed area", reversed_worth * (rival->reversed_mass - best->reversed_mass)}};
-    constexpr double little = 0.005;
+                {"stretch", stretch_worth * (rival->stretch - best->stretch)},
+                {"strain", strain_worth * (strain(*rival) - strain(*best))}};
+    constexpr double little = 0.1;
     std::string with, against;
     for (const auto& [name, gain] : cues) {
         std::string& side = gain > 0 ? with : against;

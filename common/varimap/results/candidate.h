@@ -13,21 +13,21 @@ struct Candidate {
     int self_map_B = 0;        ///< the self-map of B that follows it, or 0
     double energy = 0;         ///< Eq. (3) of the plan on all vertices
     double dirichlet = 1;      ///< Dirichlet energy (quality.h), geometric mean of both directions
-    double relief = 0;         ///< agreement of relief, a correlation (stages/explore/shape_agreement.h)
-    double bending = 0;        ///< agreement of normal curvatures, a correlation (the same)
-    double score = 0;          ///< score_of; .01 more is about 1% more energy
+    double relief = 0;         ///< how well relief agrees, a correlation (stages/explore/shape_agreement.h)
+    double alignment = 0;      ///< how well patches can be laid onto their images, 1 at best (the same)
+    double stretch = 0;        ///< how much distances along the surfaces change, 0 at best (the same)
+    double score = 0;          ///< score_of
     double reversed_mass = 0;  ///< share of the surfaces that the map reverses
     double moved_mass = 0;     ///< share of A with another image than the best candidate gives it
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
 };
 
-/// How much log energy the whole mass, reversed, is worth.
-constexpr double reversed_worth = 0.5;
-
-/// log energy - 2 bending - 2 relief + reversed_worth reversed_mass. None of these tells the right map from a
-/// wrong one everywhere: of people turned front to back energies say little and bending much; of limbs
-/// exchanged, often the converse; on apes and people relief tells what bending does not. The weights were
-/// chosen with all known pairs of animals, apes and people in view (stages/explore/README.md).
+/// 120 stretch - 25 alignment - 20 relief + 3 log dirichlet: minus the logarithm of how probable a map is, up
+/// to a constant, so that of two candidates that with a score less by 3 is 20 times as probable. None of
+/// these cues tells the right map from a wrong one everywhere: of bodies turned front to back distances say
+/// little and alignment much; of limbs exchanged, often the converse. Strain counts where symmetry makes the
+/// others alike, and landmarks are on the wrong side. The plan's energy tells no more than these. The weights
+/// are half of those fitted (stages/explore/README.md), for pairs that are unlike the fitted ones.
 double score_of(const Candidate& candidate);
 
 /// A mirrored map is no answer, however small its energy.
@@ -39,7 +39,7 @@ double plausibility(const Candidate& candidate);
 /// How sure the choice of the first candidate is among its rivals: those that are not mirrored and give more
 /// than 5% of A another image.
 struct Confidence {
-    double margin = 0;       ///< score of the best rival, less the first's; 1 at most, and without a rival
+    double margin = 0;       ///< score of the best rival, less the first's; 10 at most, and without a rival
     double probability = 0;  ///< that the first is right
     bool confident = false;  ///< the probability is at least 0.9
 };
@@ -50,8 +50,8 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 /// Why the choice is not sure, in words; for a choice that is, "".
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished = {});
 
-/// Which cue put the first before its best rival, in words: "energy and bending", "bending, against energy",
-/// ...; without a rival, "".
+/// Which cue put the first before its best rival, in words: "relief and stretch", "alignment, against
+/// relief", ...; without a rival, "".
 std::string decided_by(const std::vector<Candidate>& candidates);
 
 /// "80% of the surface elsewhere, turned by 170 degrees": what a candidate is to the best one.

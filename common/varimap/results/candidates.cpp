@@ -12,8 +12,8 @@ namespace varimap {
 namespace {
 
 bool is_finite(const Candidate& c) {
-    for (const double number :
-         {c.energy, c.dirichlet, c.relief, c.bending, c.score, c.reversed_mass, c.moved_mass, c.turn})
+    for (const double number : {c.energy, c.dirichlet, c.relief, c.alignment, c.stretch, c.score,
+                                c.reversed_mass, c.moved_mass, c.turn})
         if (!std::isfinite(number)) return false;
     return c.explored >= 0 && c.self_map_A >= 0 && c.self_map_B >= 0;
 }
