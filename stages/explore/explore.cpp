@@ -183,18 +183,27 @@ double logged_plausibility(const Candidate& best) {
     return found;
 }
 
+/// Whether the best map has been compared with one that gives most of the surface another image.
+bool has_turned_rival(const std::vector<Appraised>& list) {
+    constexpr double most = 0.5;
+    return std::any_of(list.begin(), list.end(), [](const Appraised& one) {
+        return !is_mirrored(one.candidate) && one.candidate.moved_mass > most;
+    });
+}
+
 /// What most pairs need: one exploration, and maps finished just well enough to be told apart. In `finishing`
 /// the map that landmarks lead to may be finished already.
 std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
                                      const std::vector<PooledMap>& led, Finishing& finishing,
                                      LazySelfMaps& self_maps) {
-    // Of 83 generated pairs as different as real ones exploration alone found so good a map for 28. All of
-    // these were right, and no composition was better. From .985 on, 3 of 40 were wrong.
-    constexpr double beyond_doubt = 0.995;
+    // A wrong map may look as good as that where the right one is the same, turned about, and was not found.
+    constexpr double beyond_doubt = 0.985;
     std::vector<PooledMap> pool = pooled(context, {params.exploration}, params, led);
     finishing.finish(pool);
     std::vector<Appraised> list = finishing.appraised();
-    if (!self_maps.exist() || logged_plausibility(list.front().candidate) >= beyond_doubt) return list;
+    if (!self_maps.exist() ||
+        (logged_plausibility(list.front().candidate) >= beyond_doubt && has_turned_rival(list)))
+        return list;
     const size_t explored = pool.size();
     self_maps.compose(pool, params.composed);
     if (pool.size() == explored) return list;
