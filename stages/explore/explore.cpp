@@ -238,20 +238,24 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
     return finishing.appraised();
 }
 
+/// What is known of the maps, without them.
+std::vector<Candidate> ratings(const std::vector<Appraised>& list) {
+    std::vector<Candidate> candidates;
+    for (const Appraised& one : list) candidates.push_back(one.candidate);
+    return candidates;
+}
+
 Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& context) {
     Candidates found;
-    for (const Appraised& one : list) {
-        found.list.push_back(one.candidate);
+    found.list = ratings(list);
+    for (const Appraised& one : list)
         found.maps.push_back(correspondences(one.map.maps, context.A().surface, context.B().surface));
-    }
     return found;
 }
 
 /// Whether another map scores better than the first, to which landmarks lead: then both are shown.
 bool is_disputed(const std::vector<Appraised>& list) {
-    std::vector<Candidate> candidates;
-    for (const Appraised& one : list) candidates.push_back(one.candidate);
-    return confidence_of(candidates).margin < 0;
+    return confidence_of(ratings(list)).margin < 0;
 }
 
 /// Whether the best map that was quickly found may do. Chosen by hand on half of the known pairs: fewer maps
