@@ -120,7 +120,7 @@ struct Appraised {
 class Finishing {
   public:
     Finishing(const PairContext& context, FinishingOptions options)
-        : context_(context), options_(std::move(options)) {}
+        : context_(context), options_(std::move(options)), appraisal_(context) {}
 
     /// Those that have joined the pool since the last time, but for those that become what is there already.
     void finish(const std::vector<PooledMap>& pool) {
@@ -134,6 +134,8 @@ class Finishing {
         }
         for (FinishedMap& map : varimap::finish(context_, starts, options_, maps_)) {
             map.start += int(before);
+            measured_.push_back(origins_[std::size_t(map.start)]);
+            appraisal_.measure(map, measured_.back());
             maps_.push_back(std::move(map));
         }
     }
@@ -144,15 +146,15 @@ class Finishing {
   private:
     const PairContext& context_;
     FinishingOptions options_;
+    Appraisal appraisal_;
     std::vector<Candidate> origins_;  ///< of all starts so far
     std::vector<FinishedMap> maps_;
+    std::vector<Candidate> measured_;  ///< what is known of each by itself
 };
 
 std::vector<Appraised> Finishing::appraised() const {
-    const Appraisal appraisal(context_);
     std::vector<Appraised> list;
-    for (const FinishedMap& map : maps_) list.push_back({map, origins_[std::size_t(map.start)]});
-    for (Appraised& one : list) appraisal.measure(one.map, one.candidate);
+    for (std::size_t n = 0; n < maps_.size(); ++n) list.push_back({maps_[n], measured_[n]});
     // Where landmarks lead is given up only for what is better by more than scores err. Chosen by hand on
     // half of the known pairs; no choice of the other half depends on it.
     constexpr double preference = 0.5;
@@ -163,7 +165,7 @@ std::vector<Appraised> Finishing::appraised() const {
         return rank(a.candidate) < rank(b.candidate);
     });
     for (std::size_t k = 1; k < list.size(); ++k)
-        appraisal.compare(list.front().map, list[k].map, list[k].candidate);
+        appraisal_.compare(list.front().map, list[k].map, list[k].candidate);
     return list;
 }
 
