@@ -5,6 +5,7 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
@@ -76,19 +77,6 @@ RowMatrix columns(const RowMatrix& all, const std::vector<int>& chosen) {
     RowMatrix result(all.rows(), Eigen::Index(chosen.size()));
     for (std::size_t k = 0; k < chosen.size(); ++k) result.col(Eigen::Index(k)) = all.col(chosen[k]);
     return result;
-}
-
-/// The vertex of the target that is most of each sample's image.
-std::vector<int> nearest_corners(const PointMap& map, const std::vector<int>& samples,
-                                 const TriangleMesh& target) {
-    std::vector<int> corners;
-    for (const int sample : samples) {
-        const SurfacePoint& image = map[std::size_t(sample)];
-        int corner = 0;
-        image.barycentric.maxCoeff(&corner);
-        corners.push_back(target.faces(image.face, corner));
-    }
-    return corners;
 }
 
 double stretch_between(double here, double there) {
@@ -185,7 +173,9 @@ double ShapeAgreement::alignment(const PointMap& map, const Side& source, const 
 }
 
 double ShapeAgreement::stretch(const PointMap& map, const Side& source, const Side& target) {
-    const std::vector<int> images = nearest_corners(map, source.samples, target.mesh);
+    std::vector<int> images;
+    for (const int sample : source.samples)
+        images.push_back(nearest_vertex(target.mesh, map[std::size_t(sample)]));
     const RowMatrix there = columns(distances(target.graph, images), images);
     double sum = 0, weight = 0;
     for (Eigen::Index i = 0; i < there.rows(); ++i)

@@ -23,8 +23,7 @@ constexpr double least_scale = 0.02;
 /// more); with 2 and 4, they rise by up to 17% between poses.
 constexpr std::array<double, 2> scales{0.6, 1};
 
-}  // namespace
-
+/// The surface after an implicit step of diffusion with time scale^2.
 Points smoothed(const TriangleMesh& mesh, double scale) {
     // Unused vertices have no mass, which would leave the matrix singular.
     const Eigen::VectorXd mass = voronoi_masses(mesh).cwiseMax(1e-15);
@@ -36,12 +35,15 @@ Points smoothed(const TriangleMesh& mesh, double scale) {
     return solver.solve(mass.asDiagonal() * mesh.vertices);
 }
 
+/// Less their median, in units of 1.5 median deviations.
 Eigen::VectorXd bounded_deviations(Eigen::VectorXd values) {
     values.array() -= upper_median(values);
     const double deviation = 1.5 * upper_median(values.cwiseAbs());
     if (!(deviation > 0)) return Eigen::VectorXd::Zero(values.size());
     return bound * (values / (bound * deviation)).array().tanh();
 }
+
+}  // namespace
 
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
     const Points height = mesh.vertices - smoothed(mesh, scale);

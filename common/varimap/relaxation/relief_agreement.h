@@ -7,18 +7,11 @@
 
 namespace varimap {
 
-/// The surface after an implicit step of diffusion with time scale^2: (M + scale^2 L)^-1 M x, with M the
-/// vertices' areas and L the cotangent Laplacian.
-Points smoothed(const TriangleMesh& mesh, double scale);
-
-/// Values less their median, in units of 1.5 median deviations, and bounded to [-2, 2]; zeros where there is
-/// no deviation.
-Eigen::VectorXd bounded_deviations(Eigen::VectorXd values);
-
 /// Relief h of a surface of unit area, one value per vertex: the normal part of what smoothing takes
-/// off, x - smoothed(x, s), which is s^2 times twice the mean curvature smoothed at scale s. It shows bumps
-/// and hollows of about size s and leaves out the broader shape, which changes with the pose. In
-/// bounded_deviations.
+/// off, x - (M + s^2 L)^-1 M x with M the vertices' areas and L the cotangent Laplacian, which is s^2 times
+/// twice the mean curvature smoothed at scale s. It shows bumps and hollows of about size s and leaves out
+/// the broader shape, which changes with the pose. Less its median, in units of 1.5 median deviations, and
+/// bounded to [-2, 2]; zeros where there is no deviation.
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 
 /// A data term that holds relief in place: the sum over two scales s and the source's vertices v, of area
