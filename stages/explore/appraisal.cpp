@@ -37,9 +37,10 @@ void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     candidate.score = score_of(candidate);
 }
 
-void Appraisal::compare(const FinishedMap& best, const FinishedMap& other, Candidate& candidate) const {
+void compare(const FinishedMap& best, const FinishedMap& other, const PairContext& context,
+             Candidate& candidate) {
     constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
-    const Surface &A = context_.A().surface, &B = context_.B().surface;
+    const Surface &A = context.A().surface, &B = context.B().surface;
     // Where the best map's inverse takes the other's images, linear on B's faces.
     Points moved(A.mesh.vertex_count(), 3);
     for (int v = 0; v < A.mesh.vertex_count(); ++v) {

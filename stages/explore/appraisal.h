@@ -14,12 +14,14 @@ class Appraisal {
 
     /// Fills in what is known of the map by itself, and its score.
     void measure(const FinishedMap& map, Candidate& candidate) const;
-    /// Fills in what the map is to the best one.
-    void compare(const FinishedMap& best, const FinishedMap& other, Candidate& candidate) const;
 
   private:
     const PairContext& context_;
     ShapeAgreement agreement_;
 };
+
+/// Fills in what a map is to the best one.
+void compare(const FinishedMap& best, const FinishedMap& other, const PairContext& context,
+             Candidate& candidate);
 
 }  // namespace varimap

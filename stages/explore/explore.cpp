@@ -119,8 +119,8 @@ struct Appraised {
 /// Finishes the maps of a pool that grows.
 class Finishing {
   public:
-    Finishing(const PairContext& context, FinishingOptions options)
-        : context_(context), options_(std::move(options)), appraisal_(context) {}
+    Finishing(const PairContext& context, FinishingOptions options, const Appraisal& appraisal)
+        : context_(context), options_(std::move(options)), appraisal_(appraisal) {}
 
     /// Those that have joined the pool since the last time, but for those that become what is there already.
     void finish(const std::vector<PooledMap>& pool) {
@@ -146,7 +146,7 @@ class Finishing {
   private:
     const PairContext& context_;
     FinishingOptions options_;
-    Appraisal appraisal_;
+    const Appraisal& appraisal_;
     std::vector<Candidate> origins_;  ///< of all starts so far
     std::vector<FinishedMap> maps_;
     std::vector<Candidate> measured_;  ///< what is known of each by itself
@@ -165,7 +165,7 @@ std::vector<Appraised> Finishing::appraised() const {
         return rank(a.candidate) < rank(b.candidate);
     });
     for (std::size_t k = 1; k < list.size(); ++k)
-        appraisal_.compare(list.front().map, list[k].map, list[k].candidate);
+        compare(list.front().map, list[k].map, context_, list[k].candidate);
     return list;
 }
 
@@ -217,7 +217,8 @@ std::vector<Appraised> quickly_found(const PairContext& context, const ExplorePa
 /// area bound and with exact areas, that give more maps and more alike ones a chance, more compositions, and
 /// maps finished with care. Chosen by hand on two hippopotamuses.
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
-                                        const std::vector<PooledMap>& led, LazySelfMaps& self_maps) {
+                                        const std::vector<PooledMap>& led, const Appraisal& appraisal,
+                                        LazySelfMaps& self_maps) {
     std::vector<ExplorationOptions> explorations;
     for (const double factor : {1.0, 0.5}) {
         ExplorationOptions options = params.exploration;
@@ -232,10 +233,10 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
     FinishingOptions options = params.finishing;
     options.alternation = for_comparison(params.alternation, params.alternation.area_bound);
     options.euclidean_rounds = options.ironing.maximum_rounds;
-    options.most += 3;
+    options.most += 4;
     std::vector<PooledMap> pool = pooled(context, explorations, params, led);
     self_maps.compose(pool, 2 * params.composed);
-    Finishing finishing(context, options);
+    Finishing finishing(context, options, appraisal);
     finishing.finish(pool);
     return finishing.appraised();
 }
@@ -288,7 +289,6 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
     Exploration exploration(context, options, params.alternation, params.ironing);
     const std::vector<PooledMap> pool = explored(exploration);
     const Surface& surface = context.A().surface;
-    const Appraisal appraisal(context);
     const FinishedMap same{0, {points_at_vertices(surface.mesh), points_at_vertices(surface.mesh)}, 0};
     Candidates found;
     for (const PooledMap& map : pool) {
@@ -299,7 +299,7 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
             map.origin.energy};
         Candidate candidate = map.origin;
         candidate.score = std::log(map.origin.energy / pool.front().origin.energy);
-        appraisal.compare(same, rough, candidate);
+        compare(same, rough, context, candidate);
         found.list.push_back(candidate);
         found.maps.push_back(correspondences(rough.maps, surface, surface));
     }
@@ -323,7 +323,8 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         return {};
     }
     const std::vector<PooledMap> led_there = led_by_landmarks(context, params);
-    Finishing finishing(context, quick_finishing(params));
+    const Appraisal appraisal(context);
+    Finishing finishing(context, quick_finishing(params), appraisal);
     if (if_needed) {
         finishing.finish(led_there);
         std::vector<Appraised> alone = finishing.appraised();
@@ -335,7 +336,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "
             "further",
             plausibility(list.front().candidate), list.front().candidate.dirichlet);
-        list = thoroughly_found(context, params, led_there, self_maps);
+        list = thoroughly_found(context, params, led_there, appraisal, self_maps);
     } else if (if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);

@@ -23,7 +23,7 @@ struct FinishingOptions {
     /// Rounds of ironing on the Euclidean levels, where mirrored limbs are placed anew in any case: left as
     /// they are, they make the right map look worse than a wrong one.
     int euclidean_rounds = 3;
-    int most = 5;            ///< maps that reach the last level: those of least energy
+    int most = 4;            ///< maps that reach the last level: those of least energy
     double worst = 1.6;      ///< and of no more than that times the least
     double distinct = 0.05;  ///< relaxed are those that differ on more than this share of the surfaces
     UntanglingOptions untangling;

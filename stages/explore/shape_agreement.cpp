@@ -60,23 +60,10 @@ std::vector<int> spread_vertices(const Hierarchy& hierarchy) {
     return {samples.begin(), samples.begin() + std::ptrdiff_t(std::min(samples.size(), sample_count))};
 }
 
-/// sources x vertices, along the graph.
-RowMatrix distances(const GeodesicGraph& graph, const std::vector<int>& sources) {
-    RowMatrix result = RowMatrix::Constant(Eigen::Index(sources.size()), graph.vertex_count(),
-                                           std::numeric_limits<double>::infinity());
-    parallel_for_each_index(sources.size(), std::size_t(8), [&](std::size_t k) {
-        GeodesicBall(graph).grow(sources[k], [&](int v, double distance) {
-            result(Eigen::Index(k), v) = distance;
-            return true;
-        });
-    });
-    return result;
-}
-
-RowMatrix columns(const RowMatrix& all, const std::vector<int>& chosen) {
-    RowMatrix result(all.rows(), Eigen::Index(chosen.size()));
-    for (std::size_t k = 0; k < chosen.size(); ++k) result.col(Eigen::Index(k)) = all.col(chosen[k]);
-    return result;
+PointMap at(const PointMap& map, const std::vector<int>& vertices) {
+    PointMap images;
+    for (const int v : vertices) images.push_back(map[std::size_t(v)]);
+    return images;
 }
 
 double stretch_between(double here, double there) {
@@ -94,8 +81,8 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& own_gra
     const double outward = looks_inward(data.surface) ? -1 : 1;
     normals = outward * vertex_normals(mesh);
     for (const double scale : relief_scales) relief.push_back(outward * varimap::relief(mesh, scale));
-    const RowMatrix to_all = distances(graph, samples);
-    distance = columns(to_all, samples);
+    const RowMatrix to_all = distances_from_each(graph, samples);
+    distance = to_all.transpose();
     sample_mass = Eigen::VectorXd::Zero(Eigen::Index(samples.size()));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         Eigen::Index nearest = 0;
@@ -125,7 +112,15 @@ double ShapeAgreement::alignment(const MapPair& maps) const {
 }
 
 double ShapeAgreement::stretch(const MapPair& maps) const {
-    return (stretch(maps.A_to_B, A_, B_) + stretch(maps.B_to_A, B_, A_)) / 2;
+    // Between samples of A and the images of those of B, and between the images of the former and the latter:
+    // distances from samples to everywhere are known.
+    const RowMatrix here = pulled_back(A_.distance, A_.mesh, at(maps.B_to_A, B_.samples)),
+                    there = pulled_back(B_.distance, B_.mesh, at(maps.A_to_B, A_.samples)).transpose();
+    double sum = 0;
+    for (Eigen::Index j = 0; j < here.rows(); ++j)
+        for (Eigen::Index i = 0; i < here.cols(); ++i)
+            sum += A_.sample_mass[i] * B_.sample_mass[j] * stretch_between(here(j, i), there(j, i));
+    return sum / (A_.sample_mass.sum() * B_.sample_mass.sum());
 }
 
 double ShapeAgreement::relief(const PointMap& map, const Side& source, const Side& target) {
@@ -170,21 +165,6 @@ double ShapeAgreement::alignment(const PointMap& map, const Side& source, const 
         weight += source.patches[k].weight;
     }
     return sum / weight;
-}
-
-double ShapeAgreement::stretch(const PointMap& map, const Side& source, const Side& target) {
-    std::vector<int> images;
-    for (const int sample : source.samples)
-        images.push_back(nearest_vertex(target.mesh, map[std::size_t(sample)]));
-    const RowMatrix there = columns(distances(target.graph, images), images);
-    double sum = 0, weight = 0;
-    for (Eigen::Index i = 0; i < there.rows(); ++i)
-        for (Eigen::Index j = 0; j < i; ++j) {
-            const double share = source.sample_mass[i] * source.sample_mass[j];
-            sum += share * stretch_between(source.distance(i, j), there(i, j));
-            weight += share;
-        }
-    return weight > 0 ? sum / weight : 0;
 }
 
 }  // namespace varimap

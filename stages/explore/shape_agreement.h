@@ -8,8 +8,8 @@
 namespace varimap {
 
 /// How well maps between two surfaces of unit area bring like places together, by cues that do not go into
-/// the maps' energies. Each is a mean over the source, and of both directions; the surfaces may be of
-/// opposite handedness. Keeps a reference to the context.
+/// the maps' energies. Each is a mean over the surfaces, of both directions; the surfaces may be of opposite
+/// handedness. Keeps a reference to the context.
 class ShapeAgreement {
   public:
     explicit ShapeAgreement(const PairContext& context);
@@ -23,8 +23,10 @@ class ShapeAgreement {
     /// 1 at best, mean of patches of two sizes. Limbs may bend between patches; which side of a limb is
     /// which, and what belongs beside what, shows within them.
     double alignment(const MapPair& maps) const;
-    /// How much distances along the surface change: mean of |log| of their ratios, over pairs of places; of
-    /// each, most_stretch at most. 0 at best.
+    /// How much distances along the surface change: mean of |log| of the ratios
+    ///     d_A(p, psi(q)) / d_B(phi(p), q)
+    /// over places p of A and q of B, for the maps phi from A to B and psi back; of each, most_stretch at
+    /// most. 0 at best.
     double stretch(const MapPair& maps) const;
 
   private:
@@ -40,14 +42,13 @@ class ShapeAgreement {
         Points normals;                       ///< of vertices, outward
         std::vector<int> samples;             ///< vertices, spread over the surface
         Eigen::VectorXd sample_mass;          ///< of their cells
-        RowMatrix distance;                   ///< samples x samples
+        RowMatrix distance;                   ///< vertices x samples
         std::vector<Patch> patches;           ///< of all sizes
 
         Side(const SurfaceData& data, const GeodesicGraph& graph);
     };
     static double relief(const PointMap& map, const Side& source, const Side& target);
     double alignment(const PointMap& map, const Side& source, const Side& target) const;
-    static double stretch(const PointMap& map, const Side& source, const Side& target);
 
     Side A_, B_;
     bool opposed_;  ///< of opposite handedness

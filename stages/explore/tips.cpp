@@ -13,13 +13,9 @@ namespace {
 
 // Constants of this file are first guesses that did well on one hippopotamus and were not swept.
 
-Eigen::VectorXd distances_from(int source, const GeodesicGraph& graph) {
-    Eigen::VectorXd distance = Eigen::VectorXd::Constant(graph.vertex_count(), 1e3);
-    GeodesicBall(graph).grow(source, [&](int v, double d) {
-        distance[v] = d;
-        return true;
-    });
-    return distance;
+/// To other components it is far.
+RowMatrix finite_distances(const GeodesicGraph& graph, const std::vector<int>& sources) {
+    return distances_from_each(graph, sources).cwiseMin(1e3);
 }
 
 /// Maxima of a function on a graph and how far one must go down from each to get to a higher one.
@@ -41,7 +37,9 @@ std::vector<std::pair<double, int>> prominent_maxima(const Eigen::VectorXd& heig
             if (peak[std::size_t(w)] < 0) continue;
             int higher = top(v), lower = top(w);
             if (higher == lower) continue;
-            if (height[higher] < height[lower]) std::swap(higher, lower);
+            // Of equal heights the first in that order counts as higher, as which it remains to the end.
+            if (std::pair(-height[lower], lower) < std::pair(-height[higher], higher))
+                std::swap(higher, lower);
             if (height[lower] > height[v]) found.emplace_back(height[lower] - height[v], lower);
             peak[std::size_t(lower)] = higher;
         }
@@ -126,15 +124,12 @@ RowMatrix places(const Tips& tips, const std::vector<int>& which, const std::vec
 
 Tips find_tips(const GeodesicGraph& graph, const std::vector<int>& sources, int most) {
     constexpr double least_prominence = 0.01;  // units of sqrt(area)
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(graph.vertex_count());
-    for (const int source : sources) mean += distances_from(source, graph) / double(sources.size());
+    const Eigen::VectorXd mean = finite_distances(graph, sources).colwise().mean();
     Tips tips;
     for (const auto& [prominence, vertex] : prominent_maxima(mean, graph))
         if (prominence >= least_prominence && int(tips.vertices.size()) < most)
             tips.vertices.push_back(vertex);
-    tips.distance.resize(graph.vertex_count(), Eigen::Index(tips.vertices.size()));
-    for (std::size_t k = 0; k < tips.vertices.size(); ++k)
-        tips.distance.col(Eigen::Index(k)) = distances_from(tips.vertices[k], graph);
+    tips.distance = finite_distances(graph, tips.vertices).transpose();
     return tips;
 }
 

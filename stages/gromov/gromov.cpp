@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
-#include "varimap/core/parallel.h"
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/transport/sinkhorn.h"
@@ -18,13 +18,10 @@ namespace {
 
 RowMatrix all_distances(const Domain& domain) {
     const GeodesicGraph graph(domain);
-    RowMatrix distances(graph.vertex_count(), graph.vertex_count());
-    tbb::parallel_for(tbb::blocked_range<int>(0, graph.vertex_count(), 32), [&](const auto& range) {
-        GeodesicBall ball(graph);
-        for (int v = range.begin(); v < range.end(); ++v)
-            ball.grow(v, [&](int w, double d) { return distances(v, w) = d, true; });
-    });
-    return (distances + distances.transpose()) / 2;
+    std::vector<int> vertices(std::size_t(graph.vertex_count()));
+    std::iota(vertices.begin(), vertices.end(), 0);
+    const RowMatrix there = distances_from_each(graph, vertices);
+    return (there + there.transpose()) / 2;
 }
 
 /// Cost of each entry for the plan before: sum_kl (d_ik - d'_jl)^2 pi_kl, with the plan's exact masses.

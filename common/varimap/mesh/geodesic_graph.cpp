@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "varimap/core/parallel.h"
+
 namespace varimap {
 
 namespace {
@@ -139,6 +141,16 @@ std::pair<double, int> GeodesicBall::pop() {
     const auto top = heap_.back();
     heap_.pop_back();
     return top;
+}
+
+RowMatrix distances_from_each(const GeodesicGraph& graph, const std::vector<int>& sources) {
+    RowMatrix result = RowMatrix::Constant(Eigen::Index(sources.size()), graph.vertex_count(),
+                                           std::numeric_limits<double>::infinity());
+    parallel_for_each_index(sources.size(), std::size_t(8), [&](std::size_t k) {
+        GeodesicBall(graph).grow(sources[k],
+                                 [&](int v, double d) { return result(Eigen::Index(k), v) = d, true; });
+    });
+    return result;
 }
 
 }  // namespace varimap

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "varimap/core/linear_algebra.h"
 #include "varimap/mesh/domain.h"
 #include "varimap/mesh/triangle_mesh.h"
 
@@ -60,5 +61,8 @@ class GeodesicBall {
     std::vector<int> touched_;
     std::vector<std::pair<double, int>> heap_;
 };
+
+/// sources x vertices: lengths of shortest paths along the graph, infinite where there are none.
+RowMatrix distances_from_each(const GeodesicGraph& graph, const std::vector<int>& sources);
 
 }  // namespace varimap

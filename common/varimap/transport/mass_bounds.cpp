@@ -69,26 +69,48 @@ bool is_below_one(const Eigen::ArrayXd& log_a, const Scaled& scaled, double log_
     return clamped(log_a, log_phi, bounds).sum() < 1;
 }
 
+/// What the lines carry for some phi: those at a bound, and the a_i of the others.
+struct Carried {
+    double held, free;
+};
+
+Carried carried(const Eigen::ArrayXd& a, double scale, const MassBounds& bounds) {
+    constexpr int lanes = 4;  // partial sums, so that no addition waits for the one before
+    double held[lanes] = {}, free[lanes] = {};
+    const auto add = [&](Eigen::Index i, int lane) {
+        const double mass = a[i] * scale, lower = bounds.lower[i], upper = bounds.upper[i];
+        const bool is_low = mass <= lower, is_high = mass >= upper;
+        held[lane] += is_low ? lower : is_high ? upper : 0;
+        free[lane] += is_low || is_high ? 0 : a[i];
+    };
+    Eigen::Index i = 0;
+    for (; i + lanes <= a.size(); i += lanes)
+        for (int lane = 0; lane < lanes; ++lane) add(i + lane, lane);
+    for (; i < a.size(); ++i) add(i, 0);
+    return {(held[0] + held[1]) + (held[2] + held[3]), (free[0] + free[1]) + (free[2] + free[3])};
+}
+
 /// Newton's method for log phi, from 0 on, where Sinkhorn's iterations end: the sum is linear in phi between
-/// breakpoints, so it is exact once it stays among the same ones. None where it does not get there, as among
-/// masses too far apart or all at their bounds.
+/// breakpoints, so it is exact once it stays among the same ones. Where all lines are at their bounds, or a
+/// step leaves the interval known to hold phi, that is searched or halved. None where it does not get there,
+/// as among masses too far apart or all at their bounds.
 std::optional<double> newton(const Scaled& scaled, const MassBounds& bounds) {
-    constexpr int iterations = 20;
+    constexpr int iterations = 40;
     if (!scaled.exists()) return {};
-    const auto& [top, a] = scaled;
-    double log_phi = 0;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double log_phi = 0, below = -infinity, above = infinity, stride = 0.25;
     for (int k = 0; k < iterations; ++k) {
         const double scale = scaled.scale(log_phi);
-        double held = 0, free = 0;
-        for (Eigen::Index i = 0; i < a.size(); ++i) {
-            const double mass = a[i] * scale;
-            const bool is_low = mass <= bounds.lower[i], is_high = mass >= bounds.upper[i];
-            held += is_low ? bounds.lower[i] : is_high ? bounds.upper[i] : 0;
-            free += is_low || is_high ? 0 : a[i];
-        }
-        if (!(free > 0) || !(held < 1)) return {};
-        const double next = std::log((1 - held) / free) - top;
+        const auto [held, free] = carried(scaled.a, scale, bounds);
+        double next = free > 0 && held < 1 ? std::log((1 - held) / free) - scaled.top : infinity;
         if (next == log_phi) return log_phi;
+        (held + free * scale < 1 ? below : above) = log_phi;
+        if (!(below < next && next < above)) {
+            next = above == infinity    ? below + stride
+                   : below == -infinity ? above - stride
+                                        : below + (above - below) / 2;
+            stride *= 2;
+        }
         log_phi = next;
     }
     return {};

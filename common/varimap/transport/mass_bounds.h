@@ -28,9 +28,11 @@ struct PlanBounds {
 /// clamp(phi a_i, lower_i, upper_i) with the phi that makes their sum 1 (App. A; Alg. 4, Global_Mass and
 /// Update_Vector_Global_Mass). Given are the logarithms of the a_i, which may spread over any range.
 ///
-/// The sum is piecewise linear and does not decrease in phi. The breakpoints lower_i / a_i and upper_i / a_i
-/// around sum 1 are found by bisection of their sorted list, and between those phi solves a linear equation:
-/// O(n log n). Every evaluation sums afresh: a running sum would lose the small a_i behind the large ones.
+/// The sum is piecewise linear and does not decrease in phi. Newton's method, kept within an interval that
+/// holds phi, ends in a few steps of O(n). Where the a_i spread too far for that, the breakpoints lower_i /
+/// a_i and upper_i / a_i around sum 1 are found by bisection of their sorted list, and between those phi
+/// solves a linear equation: O(n log n). Every evaluation sums afresh: a running sum would lose the small a_i
+/// behind the large ones.
 Eigen::VectorXd bounded_masses(const Eigen::ArrayXd& log_a, const MassBounds& bounds);
 
 }  // namespace varimap

@@ -34,14 +34,15 @@ Eigen::VectorXd by_halving(const Eigen::ArrayXd& log_a, const MassBounds& bounds
 TEST(BoundedMasses, AgreeWithASearchByHalving) {
     Generator random(1);
     for (const double spread : {.1, 5., 500.})
-        for (const double factor : {1.01, 1.5, 10.}) {
-            const MassBounds bounds = MassBounds::around(random.mass(60), factor);
-            const Eigen::ArrayXd log_a = spread * random.points(60, 1).array();
-            const Eigen::VectorXd m = bounded_masses(log_a, bounds);
-            EXPECT_LT((m - by_halving(log_a, bounds)).lpNorm<1>(), 1e-10) << spread << " " << factor;
-            EXPECT_NEAR(m.sum(), 1, 1e-12);
-            EXPECT_LE(bounds.excess(m), 1e-12);
-        }
+        for (const double factor : {1.001, 1.01, 1.5, 10.})
+            for (const double shift : {0., 40., -3.}) {  // at phi = 1 all or none are at a bound, or some
+                const MassBounds bounds = MassBounds::around(random.mass(60), factor);
+                const Eigen::ArrayXd log_a = spread * random.points(60, 1).array() + shift;
+                const Eigen::VectorXd m = bounded_masses(log_a, bounds);
+                EXPECT_LT((m - by_halving(log_a, bounds)).lpNorm<1>(), 1e-10) << spread << " " << factor;
+                EXPECT_NEAR(m.sum(), 1, 1e-12);
+                EXPECT_LE(bounds.excess(m), 1e-12);
+            }
 }
 
 /// sum p (log(p / q) - 1).
