@@ -5,7 +5,6 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
-#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
@@ -73,11 +72,8 @@ double stretch_between(double here, double there) {
 
 }  // namespace
 
-ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& own_graph)
-    : mesh(data.surface.mesh),
-      graph(own_graph),
-      mass(data.surface.mass),
-      samples(spread_vertices(data.hierarchy)) {
+ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph)
+    : mesh(data.surface.mesh), mass(data.surface.mass), samples(spread_vertices(data.hierarchy)) {
     const double outward = looks_inward(data.surface) ? -1 : 1;
     normals = outward * vertex_normals(mesh);
     for (const double scale : relief_scales) relief.push_back(outward * varimap::relief(mesh, scale));

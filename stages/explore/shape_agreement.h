@@ -36,7 +36,6 @@ class ShapeAgreement {
     };
     struct Side {
         const TriangleMesh& mesh;
-        const GeodesicGraph& graph;
         Eigen::VectorXd mass;
         std::vector<Eigen::VectorXd> relief;  ///< per scale; outward
         Points normals;                       ///< of vertices, outward

@@ -24,7 +24,11 @@ std::vector<std::pair<double, int>> prominent_maxima(const Eigen::VectorXd& heig
     const int n = graph.vertex_count();
     std::vector<int> order(static_cast<std::size_t>(n)), peak(static_cast<std::size_t>(n), -1);
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return height[a] > height[b]; });
+    // Of equal heights the first counts as higher, here and where two peaks meet.
+    const auto is_higher = [&](int a, int b) {
+        return height[a] != height[b] ? height[a] > height[b] : a < b;
+    };
+    std::sort(order.begin(), order.end(), is_higher);
     const auto top = [&](int v) {
         while (peak[std::size_t(v)] != v) v = peak[std::size_t(v)] = peak[std::size_t(peak[std::size_t(v)])];
         return v;
@@ -37,9 +41,7 @@ std::vector<std::pair<double, int>> prominent_maxima(const Eigen::VectorXd& heig
             if (peak[std::size_t(w)] < 0) continue;
             int higher = top(v), lower = top(w);
             if (higher == lower) continue;
-            // Of equal heights the first in that order counts as higher, as which it remains to the end.
-            if (std::pair(-height[lower], lower) < std::pair(-height[higher], higher))
-                std::swap(higher, lower);
+            if (is_higher(lower, higher)) std::swap(higher, lower);
             if (height[lower] > height[v]) found.emplace_back(height[lower] - height[v], lower);
             peak[std::size_t(lower)] = higher;
         }

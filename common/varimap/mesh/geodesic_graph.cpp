@@ -146,9 +146,10 @@ std::pair<double, int> GeodesicBall::pop() {
 RowMatrix distances_from_each(const GeodesicGraph& graph, const std::vector<int>& sources) {
     RowMatrix result = RowMatrix::Constant(Eigen::Index(sources.size()), graph.vertex_count(),
                                            std::numeric_limits<double>::infinity());
-    parallel_for_each_index(sources.size(), std::size_t(8), [&](std::size_t k) {
-        GeodesicBall(graph).grow(sources[k],
-                                 [&](int v, double d) { return result(Eigen::Index(k), v) = d, true; });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sources.size(), 8), [&](const auto& range) {
+        GeodesicBall ball(graph);
+        for (std::size_t k = range.begin(); k < range.end(); ++k)
+            ball.grow(sources[k], [&](int v, double d) { return result(Eigen::Index(k), v) = d, true; });
     });
     return result;
 }
