@@ -22,9 +22,11 @@ struct StraightPath {
 };
 
 /// The shortest path from `start` to `goal` on the surface, near the strip. The strip is unfolded
-/// into the plane, where the funnel algorithm finds its shortest path; where that bends at a vertex, the
-/// strip is led past the vertex's other side if this shortens the path, until nothing does: the path is then
-/// locally shortest. `strip` becomes the strip that holds it. `start` lies in its first face, `goal` in its
+/// into the plane, where the funnel algorithm finds its shortest path; the strip is led past the other side
+/// of a vertex if this shortens the path, until nothing does: where it bends, since otherwise it is not even
+/// locally shortest, and, where it is longer than straight by a hundredth, at all vertices along the strip,
+/// since of two locally shortest paths, one on either side of a spike, the search for a strip may have found
+/// the longer. `strip` becomes the strip that holds the path. `start` lies in its first face, `goal` in its
 /// last.
 StraightPath straighten(const TriangleMesh& mesh, const Edges& edges, TriangleStrip& strip, const Vec3& start,
                         const Vec3& goal);

@@ -53,6 +53,35 @@ TEST(StraightPath, FollowsGreatCircles) {
     }
 }
 
+TEST(StraightPath, PassesASpikeOnItsShorterSide) {
+    // Six faces around an apex, far above a hexagon. Paths around either side are locally shortest.
+    TriangleMesh spike;
+    spike.vertices.resize(7, 3);
+    spike.faces.resize(6, 3);
+    spike.vertices.row(6) << 0, 0, 5;
+    for (int k = 0; k < 6; ++k) {
+        spike.vertices.row(k) << std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0;
+        spike.faces.row(k) << k, (k + 1) % 6, 6;
+    }
+    const Edges edges = find_edges(spike);
+    const Vec3 start = position(spike, {0, {0.4, 0.1, 0.5}}), goal = position(spike, {2, {0.1, 0.4, 0.5}});
+    const auto strip_through = [&](const std::vector<int>& faces) {
+        TriangleStrip strip{faces, {}};
+        for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+            for (int side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side)
+                for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
+                    if (other / 3 == faces[i + 1]) strip.edges.push_back(edges.of_side[std::size_t(side)]);
+        return strip;
+    };
+    TriangleStrip longer = strip_through({0, 5, 4, 3, 2}), shorter = strip_through({0, 1, 2});
+    const double around = straight_path(spike, edges, longer, start, goal).length;
+    const StraightPath expected = straighten(spike, edges, shorter, start, goal);
+    const StraightPath path = straighten(spike, edges, longer, start, goal);
+    EXPECT_GT(around, 1.1 * expected.length);
+    EXPECT_EQ(longer.faces, shorter.faces);
+    EXPECT_EQ(path.length, expected.length);
+}
+
 TEST(StraightStrip, LeadsThereWhereASearchWouldToo) {
     const TriangleMesh sphere = shapes::ellipsoid(4);
     const Edges edges = find_edges(sphere);
