@@ -24,15 +24,25 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
 
 Appraisal::Appraisal(const PairContext& context) : context_(context), agreement_(context) {}
 
+void Appraisal::measure_agreement(const MapPair& maps, Candidate& candidate) const {
+    candidate.relief = agreement_.relief(maps);
+    candidate.alignment = agreement_.alignment(maps);
+    candidate.stretch = agreement_.stretch(maps);
+}
+
+double Appraisal::rough_score(const MapPair& maps) const {
+    Candidate candidate;
+    measure_agreement(maps, candidate);
+    return score_of(candidate);
+}
+
 void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
     const Distortion there = measure_distortion(map.maps.A_to_B, A, B),
                      back = measure_distortion(map.maps.B_to_A, B, A);
     candidate.energy = map.energy;
     candidate.dirichlet = std::sqrt(there.dirichlet_energy * back.dirichlet_energy);
-    candidate.relief = agreement_.relief(map.maps);
-    candidate.alignment = agreement_.alignment(map.maps);
-    candidate.stretch = agreement_.stretch(map.maps);
+    measure_agreement(map.maps, candidate);
     candidate.reversed_mass = (there.flipped_area_percent + back.flipped_area_percent) / 200;
     candidate.score = score_of(candidate);
 }

@@ -1,12 +1,19 @@
 #pragma once
 
-#include "stages/explore/finishing.h"
 #include "stages/explore/shape_agreement.h"
+#include "varimap/relaxation/untangling.h"
 #include "varimap/results/candidate.h"
 
 namespace varimap {
 
-/// Measures finished maps of a pair.
+/// A map solved for on all levels and relaxed on the meshes, which are meant to be coarse.
+struct FinishedMap {
+    int start = 0;      ///< which of the starts it was; of several that became the same, the first
+    MapPair maps;       ///< per vertex of either mesh, on faces of the other
+    double energy = 0;  ///< Eq. (3) on the last level, of every vertex
+};
+
+/// Measures maps of a pair.
 class Appraisal {
   public:
     /// Keeps a reference to the context.
@@ -14,8 +21,13 @@ class Appraisal {
 
     /// Fills in what is known of the map by itself, and its score.
     void measure(const FinishedMap& map, Candidate& candidate) const;
+    /// What the score of a map that is not finished will be, but for strain, which tells nothing as long as a
+    /// map has folds.
+    double rough_score(const MapPair& maps) const;
 
   private:
+    void measure_agreement(const MapPair& maps, Candidate& candidate) const;
+
     const PairContext& context_;
     ShapeAgreement agreement_;
 };

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "stages/explore/pool.h"
 #include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
-#include "varimap/multilevel/vertex_images.h"
 
 namespace varimap {
 
@@ -163,11 +163,7 @@ void Exploration::prune(int keep) {
 }
 
 VertexImages Exploration::images(const Trial& trial) const {
-    const LevelPair& level = last_level();
-    return {vertex_images(level.A, level.B, trial.solution.step.row_image,
-                          largest_of_rows(trial.solution.plan), context_.graph_B()),
-            vertex_images(level.B, level.A, trial.solution.step.column_image,
-                          largest_of_columns(trial.solution.plan), context_.graph_A())};
+    return images_of(trial.solution, last_level(), context_);
 }
 
 void Exploration::log_pool(int level) const {

@@ -132,7 +132,7 @@ class Finishing {
             starts.push_back(pool[n].images);
             origins_.push_back(pool[n].origin);
         }
-        for (FinishedMap& map : varimap::finish(context_, starts, options_, maps_)) {
+        for (FinishedMap& map : varimap::finish(context_, appraisal_, starts, options_, maps_)) {
             map.start += int(before);
             measured_.push_back(origins_[std::size_t(map.start)]);
             appraisal_.measure(map, measured_.back());

@@ -6,6 +6,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
+#include "varimap/core/timing.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
@@ -21,6 +22,8 @@ namespace {
 struct Pursued {
     int start;
     Solution solution;
+    VertexImages images;  ///< when it was last judged
+    double score = 0;     ///< then
     double energy() const { return solution.step.energy; }
 };
 
@@ -35,25 +38,28 @@ IroningOptions euclidean_ironing(IroningOptions options, int rounds) {
 /// The way down of all starts, level by level.
 class JointDescent {
   public:
-    JointDescent(const PairContext& context, const FinishingOptions& options)
+    JointDescent(const PairContext& context, const Appraisal& appraisal, const FinishingOptions& options)
         : context_(context),
+          appraisal_(appraisal),
           options_(options),
           descent_(context, options.alternation, options.ironing),
           euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
-        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}});
+        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}});
         const int first = first_level_for_a_map(context_);
         enter(context_.diffusion_level(first));
         solve_all(options_.ironing, [&](const Pursued& one) {
             return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
         });
+        keep_best(options_.gap_at_first);
         if (const int last = context_.diffusion_levels() - 1; last > first)
             go_on(context_.diffusion_level(last), options_.ironing);
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
             go_on(context_.euclidean_level(l, l + 1 == levels ? 0 : 1), euclidean_ironing_);
-            keep_best();
+            keep_best(options_.gap);
+            if (int(pursued_.size()) > options_.most) pursued_.resize(std::size_t(options_.most));
         }
         return std::move(pursued_);
     }
@@ -76,21 +82,42 @@ class JointDescent {
             pursued_[n].solution = minimization.take_solution();
         });
     }
-    /// Those whose energy may be that of the right map; the best first. Energies are no numbers, or negative,
-    /// where coordinates are too large to be squared.
-    void keep_best() {
+    /// The best by their rough scores, the best first. Energies are no numbers, or negative, where
+    /// coordinates are too large to be squared.
+    void keep_best(double gap) {
+        const Timer timer("rough scores");
         std::erase_if(pursued_, [](const Pursued& one) { return !(one.energy() >= 0); });
         if (pursued_.empty())
             throw ConvergenceError(
                 "no map was found between these surfaces; give landmarks, and look at both meshes");
+        parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) { judge(pursued_[n]); });
         std::stable_sort(pursued_.begin(), pursued_.end(),
-                         [](const Pursued& a, const Pursued& b) { return a.energy() < b.energy(); });
-        const double worst = options_.worst * pursued_.front().energy();
-        std::erase_if(pursued_, [&](const Pursued& one) { return one.energy() > worst; });
-        if (int(pursued_.size()) > options_.most) pursued_.resize(std::size_t(options_.most));
+                         [](const Pursued& a, const Pursued& b) { return a.score < b.score; });
+        std::vector<Pursued> kept;
+        bool has_rival = false;  // elsewhere on most of the surfaces
+        for (Pursued& one : pursued_) {
+            const bool is_best = kept.empty(), is_rival = !is_best && !has_rival && differ(one, kept.front());
+            has_rival |= is_rival;
+            if (is_best || is_rival || one.score <= kept.front().score + gap) kept.push_back(std::move(one));
+        }
+        log("{} of {} maps go on, rough scores {:.2f} to {:.2f}", kept.size(), pursued_.size(),
+            kept.front().score, kept.back().score);
+        pursued_ = std::move(kept);
+    }
+    void judge(Pursued& one) const {
+        one.images = images_of(one.solution, level(), context_);
+        const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
+        one.score =
+            appraisal_.rough_score({images_at(one.images.A_to_B, B), images_at(one.images.B_to_A, A)});
+    }
+    /// On most of the surfaces.
+    bool differ(const Pursued& a, const Pursued& b) const {
+        constexpr double most = 0.5;
+        return difference(a.images, b.images, context_.A().surface, context_.B().surface) > most;
     }
 
     const PairContext& context_;
+    const Appraisal& appraisal_;
     const FinishingOptions& options_;
     Descent descent_;
     const IroningOptions euclidean_ironing_;
@@ -134,9 +161,10 @@ bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context
 
 }  // namespace
 
-std::vector<FinishedMap> finish(const PairContext& context, const std::vector<VertexImages>& starts,
-                                const FinishingOptions& options, const std::vector<FinishedMap>& known) {
-    JointDescent descent(context, options);
+std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& appraisal,
+                                const std::vector<VertexImages>& starts, const FinishingOptions& options,
+                                const std::vector<FinishedMap>& known) {
+    JointDescent descent(context, appraisal, options);
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
         FinishedMap map{one.start,

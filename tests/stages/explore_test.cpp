@@ -126,14 +126,16 @@ TEST(SelfMaps, BringTheRightMapToAWrongOne) {
     std::vector<VertexImages> starts;
     for (const PooledMap& map : pool) starts.push_back(map.images);
     FinishingOptions options;
-    options.worst = 1000;
+    options.gap = options.gap_at_first = 1000;
     double least = 1;
     const Points& truth = surface.mesh.vertices;
-    for (const FinishedMap& map : finish(context, starts, options))
+    for (const FinishedMap& map : finish(context, Appraisal(context), starts, options))
         least = std::min(least, shapes::mean_error(map.maps.A_to_B, surface.mesh, truth));
     EXPECT_LT(least, .05);  // one of them is a half turn done twice: the identity
     starts.resize(1);
-    EXPECT_GT(shapes::mean_error(finish(context, starts, options)[0].maps.A_to_B, surface.mesh, truth), .2);
+    EXPECT_GT(shapes::mean_error(finish(context, Appraisal(context), starts, options)[0].maps.A_to_B,
+                                 surface.mesh, truth),
+              .2);
 }
 
 VertexImages true_images(const KnownPair& pair) {
@@ -155,8 +157,8 @@ TEST(Finishing, IsBestForTheRightMap) {
     for (int& image : wrong.A_to_B) image = (image + 300) % B.mesh.vertex_count();
     for (int& image : wrong.B_to_A) image = (image + 300) % A.mesh.vertex_count();
     FinishingOptions options;
-    options.worst = 1000;
-    const std::vector<FinishedMap> finished = finish(context, {wrong, right}, options);
+    options.gap = options.gap_at_first = 1000;
+    const std::vector<FinishedMap> finished = finish(context, Appraisal(context), {wrong, right}, options);
     ASSERT_FALSE(finished.empty());
     EXPECT_EQ(finished.front().start, 1);
     EXPECT_LT(shapes::mean_error(finished.front().maps.A_to_B, B.mesh, pair.A_on_B), .03);
@@ -200,7 +202,7 @@ TEST(Finishing, PlacesAMirroredLimbAnew) {
     const VertexImages start = with_a_mirrored_limb(true_images(pair), context.A().surface.mesh);
     const auto reversed = [&](const FinishingOptions& options) {
         Candidate candidate;
-        Appraisal(context).measure(finish(context, {start}, options).front(), candidate);
+        Appraisal(context).measure(finish(context, Appraisal(context), {start}, options).front(), candidate);
         return candidate.reversed_mass;
     };
     FinishingOptions options;

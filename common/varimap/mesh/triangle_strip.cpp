@@ -213,10 +213,10 @@ class Cut {
 };
 
 constexpr int most_straight = 64;  ///< faces of a straight strip
-/// By how much a path is longer than the segment between its ends if another one may be shorter, that passes
-/// a vertex on its other side. Of pairs of people, horses and centaurs a tenth to a third of the paths
-/// between neighbours' images are longer.
-constexpr double least_detour = 1.01;
+/// By how much a path is longer than the segment between its ends if another one is looked for, that passes a
+/// vertex on its other side. Of the 140,000 paths between neighbours' images on five pairs 36 are not the
+/// shortest then (by paths along points of edges), 30 with 1.01, 65 with 1.1.
+constexpr double least_detour = 1.03;
 
 }  // namespace
 

@@ -24,7 +24,7 @@ struct StraightPath {
 /// The shortest path from `start` to `goal` on the surface, near the strip. The strip is unfolded
 /// into the plane, where the funnel algorithm finds its shortest path; the strip is led past the other side
 /// of a vertex if this shortens the path, until nothing does: where it bends, since otherwise it is not even
-/// locally shortest, and, where it is longer than straight by a hundredth, at all vertices along the strip,
+/// locally shortest, and, where it is longer than straight by 3%, at all vertices along the strip,
 /// since of two locally shortest paths, one on either side of a spike, the search for a strip may have found
 /// the longer. `strip` becomes the strip that holds the path. `start` lies in its first face, `goal` in its
 /// last.

@@ -19,13 +19,18 @@ class StarKernels {
         : map_(map), along_target_(along_target), log_map_(map.target()) {}
 
     /// Visits the corners of these faces, and then what is around those that moved, for as long as faces get
-    /// less wrong, 5 times at most. Moved are vertices of `free` (ascending; none on the source's boundary).
-    void centre(std::vector<int> faces, const std::vector<int>& free);
+    /// less wrong, 5 times at most. Where some stay wrong, all of `free` go to the centres of their kernels,
+    /// which makes room, and it begins anew, 6 times at most. Moved are vertices of `free` (ascending; none
+    /// on the source's boundary).
+    void centre(const std::vector<int>& faces, const std::vector<int>& free);
 
   private:
     double wrong(int f);
     double wrong_around(int v);
-    bool move_to_centre(int v);
+    /// What a move is for: less that is wrong, or room for others where nothing gets more wrong.
+    enum class Aim { upright, room };
+    bool move_to_centre(int v, Aim aim);
+    void turn_upright(std::vector<int> faces, const std::vector<int>& free);
 
     SlidingMap& map_;
     AlongTarget& along_target_;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "varimap/core/index_set.h"
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/verification/verification.h"
 
@@ -78,6 +80,29 @@ TEST_F(StarKernelsOfASphere, StayAsTheyAreWhereANeighbourHasNoImage) {
     AlongTarget along_target(map);
     StarKernels(map, along_target).centre(reversed(before), {astray});
     EXPECT_TRUE(moved(before, map.points()).empty());
+}
+
+TEST_F(StarKernelsOfASphere, MakeRoomWhereNoneIsLeft) {
+    // The vertices of a star change places at random: for many there is no right place until others move.
+    const Adjacency neighbours = vertex_neighbours(sphere_);
+    std::mt19937 random(1);
+    int mended = 0, tried = 0;
+    for (int centre = 0; centre < sphere_.vertex_count(); centre += 20, ++tried) {
+        std::vector<int> star(neighbours[centre].begin(), neighbours[centre].end());
+        star.push_back(centre);
+        std::vector<int> places = star, free = star;
+        for (std::size_t i = places.size() - 1; i > 0; --i) std::swap(places[i], places[random() % (i + 1)]);
+        PointMap images = shapes::at_vertices(sphere_);
+        for (std::size_t i = 0; i < star.size(); ++i)
+            images[std::size_t(star[i])] = point_at_vertex(sphere_, places[i]);
+        for (const int v : star) free.insert(free.end(), neighbours[v].begin(), neighbours[v].end());
+        make_set(free);
+        SlidingMap map(images, sphere_, sphere_);
+        AlongTarget along_target(map);
+        StarKernels(map, along_target).centre(reversed(map.points()), free);
+        mended += reversed(map.points()).empty();
+    }
+    EXPECT_GE(mended, tried - 2) << mended << " of " << tried;
 }
 
 TEST_F(StarKernelsOfASphere, AreCentredByTheRepairWhichSaysWhereItMovedSomething) {
