@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "stages/explore/shape_agreement.h"
 #include "varimap/relaxation/untangling.h"
 #include "varimap/results/candidate.h"
@@ -11,6 +13,7 @@ struct FinishedMap {
     int start = 0;      ///< which of the starts it was; of several that became the same, the first
     MapPair maps;       ///< per vertex of either mesh, on faces of the other
     double energy = 0;  ///< Eq. (3) on the last level, of every vertex
+    std::vector<double> rough_scores{};  ///< on its way there, level by level
 };
 
 /// Measures maps of a pair.

@@ -1,6 +1,7 @@
 #include "stages/explore/finishing.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "stages/explore/pool.h"
 #include "varimap/core/error.h"
@@ -22,12 +23,13 @@ namespace {
 struct Pursued {
     int start;
     Solution solution;
-    VertexImages images;  ///< when it was last judged
-    double score = 0;     ///< then
+    VertexImages images;               ///< when it was last judged
+    std::vector<double> rough_scores;  ///< of all levels so far
+    double score() const { return rough_scores.back(); }
     double energy() const { return solution.step.energy; }
 };
 
-/// On the Euclidean levels, by whose energies maps are dropped: little may be paid for less that is reversed.
+/// On the Euclidean levels little may be paid for less that is reversed.
 IroningOptions euclidean_ironing(IroningOptions options, int rounds) {
     constexpr double log_energy_for_mass = 0.5;
     options.maximum_rounds = rounds;
@@ -38,26 +40,27 @@ IroningOptions euclidean_ironing(IroningOptions options, int rounds) {
 /// The way down of all starts, level by level.
 class JointDescent {
   public:
-    JointDescent(const PairContext& context, const Appraisal& appraisal, const FinishingOptions& options)
+    JointDescent(const PairContext& context, const Appraisal& appraisal, const FinishingOptions& options,
+                 const std::vector<FinishedMap>& known)
         : context_(context),
           appraisal_(appraisal),
           options_(options),
+          known_(known),
           descent_(context, options.alternation, options.ironing),
           euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
-        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}});
-        const int first = first_level_for_a_map(context_);
-        enter(context_.diffusion_level(first));
+        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}});
+        enter(context_.diffusion_level(first_level_for_a_map(context_)));
         solve_all(options_.ironing, [&](const Pursued& one) {
             return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
         });
         keep_best(options_.gap_at_first);
-        if (const int last = context_.diffusion_levels() - 1; last > first)
-            go_on(context_.diffusion_level(last), options_.ironing);
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
-            go_on(context_.euclidean_level(l, l + 1 == levels ? 0 : 1), euclidean_ironing_);
+            enter(context_.euclidean_level(l, l + 1 == levels ? 0 : 1));
+            solve_all(euclidean_ironing_,
+                      [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
             keep_best(options_.gap);
             if (int(pursued_.size()) > options_.most) pursued_.resize(std::size_t(options_.most));
         }
@@ -69,10 +72,6 @@ class JointDescent {
     void enter(LevelPair level) {
         add_shape_term(level, context_, options_.shape_weight);
         descent_.enter(std::move(level));
-    }
-    void go_on(LevelPair level, const IroningOptions& ironing) {
-        enter(std::move(level));
-        solve_all(ironing, [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
     }
     template <class StartOf>
     void solve_all(const IroningOptions& ironing, const StartOf& start_of) {
@@ -92,23 +91,33 @@ class JointDescent {
                 "no map was found between these surfaces; give landmarks, and look at both meshes");
         parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) { judge(pursued_[n]); });
         std::stable_sort(pursued_.begin(), pursued_.end(),
-                         [](const Pursued& a, const Pursued& b) { return a.score < b.score; });
+                         [](const Pursued& a, const Pursued& b) { return a.score() < b.score(); });
+        const double worst = std::min(pursued_.front().score(), best_known_score()) + gap;
         std::vector<Pursued> kept;
         bool has_rival = false;  // elsewhere on most of the surfaces
         for (Pursued& one : pursued_) {
-            const bool is_best = kept.empty(), is_rival = !is_best && !has_rival && differ(one, kept.front());
+            const bool is_best = kept.empty(),
+                       is_rival = !is_best && !has_rival && known_.empty() && differ(one, kept.front());
             has_rival |= is_rival;
-            if (is_best || is_rival || one.score <= kept.front().score + gap) kept.push_back(std::move(one));
+            if (is_best || is_rival || one.score() <= worst) kept.push_back(std::move(one));
         }
         log("{} of {} maps go on, rough scores {:.2f} to {:.2f}", kept.size(), pursued_.size(),
-            kept.front().score, kept.back().score);
+            kept.front().score(), kept.back().score());
         pursued_ = std::move(kept);
+    }
+    /// On this level.
+    double best_known_score() const {
+        const std::size_t level = pursued_.front().rough_scores.size() - 1;
+        double best = std::numeric_limits<double>::infinity();
+        for (const FinishedMap& map : known_)
+            if (level < map.rough_scores.size()) best = std::min(best, map.rough_scores[level]);
+        return best;
     }
     void judge(Pursued& one) const {
         one.images = images_of(one.solution, level(), context_);
         const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
-        one.score =
-            appraisal_.rough_score({images_at(one.images.A_to_B, B), images_at(one.images.B_to_A, A)});
+        one.rough_scores.push_back(
+            appraisal_.rough_score({images_at(one.images.A_to_B, B), images_at(one.images.B_to_A, A)}));
     }
     /// On most of the surfaces.
     bool differ(const Pursued& a, const Pursued& b) const {
@@ -119,6 +128,7 @@ class JointDescent {
     const PairContext& context_;
     const Appraisal& appraisal_;
     const FinishingOptions& options_;
+    const std::vector<FinishedMap>& known_;
     Descent descent_;
     const IroningOptions euclidean_ironing_;
     std::vector<Pursued> pursued_;
@@ -164,12 +174,12 @@ bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context
 std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& appraisal,
                                 const std::vector<VertexImages>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known) {
-    JointDescent descent(context, appraisal, options);
+    JointDescent descent(context, appraisal, options, known);
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
         FinishedMap map{one.start,
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
-                        one.energy()};
+                        one.energy(), one.rough_scores};
         const auto is_same = [&](const FinishedMap& other) {
             return are_the_same(other.maps, map.maps, context, options.distinct);
         };

@@ -18,10 +18,11 @@ struct FinishingOptions {
     /// they are, they make the right map look worse than a wrong one.
     int euclidean_rounds = 3;
     /// Maps that go on from the first level, and from the Euclidean ones: those whose rough scores
-    /// (appraisal.h) are within so much of the best, and in any case the best that is elsewhere on most of
-    /// the surfaces, without which the choice would seem surer than it is. On 68 pairs, with all maps
-    /// finished, the best has a rough score within 4.2 and 1.9 of the least, and no map comes within 2.7 of
-    /// it that these numbers leave out.
+    /// (appraisal.h) are within so much of the best, known ones included, and in any case the best, and, if
+    /// none is known, the best that is elsewhere on most of the surfaces, without which the choice would seem
+    /// surer than it is. On 68 pairs, half of a list and generated ones, with all maps finished, the best had
+    /// a rough score within 4.2 and 3.4 of the least, and no map that these numbers leave out came within 2.3
+    /// of the best.
     double gap_at_first = 5, gap = 4;
     int most = 4;            ///< maps that reach the last level at most
     double distinct = 0.05;  ///< relaxed are those that differ on more than this share of the surfaces
@@ -37,7 +38,7 @@ struct FinishingOptions {
     }
 };
 
-/// Continues maps side by side through the diffusion and the Euclidean levels, drops the worse ones on the
+/// Continues maps side by side through a diffusion level and the Euclidean ones, drops the worse ones on the
 /// way, and relaxes the rest: only finished maps can be compared with confidence. That of the best rough
 /// score comes first. Those that become what is in `known` already are left out. Deterministic for any number
 /// of threads.

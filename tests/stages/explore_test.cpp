@@ -148,14 +148,19 @@ VertexImages true_images(const KnownPair& pair) {
     return images;
 }
 
+/// Every image is another vertex.
+VertexImages shifted(VertexImages images, int by, const TriangleMesh& A, const TriangleMesh& B) {
+    for (int& image : images.A_to_B) image = (image + by) % B.vertex_count();
+    for (int& image : images.B_to_A) image = (image + by) % A.vertex_count();
+    return images;
+}
+
 TEST(Finishing, IsBestForTheRightMap) {
     const KnownPair& pair = figures();
     const PairContext context = pair.context();
     const Surface &A = context.A().surface, &B = context.B().surface;
     const VertexImages right = true_images(pair);
-    VertexImages wrong = right;
-    for (int& image : wrong.A_to_B) image = (image + 300) % B.mesh.vertex_count();
-    for (int& image : wrong.B_to_A) image = (image + 300) % A.mesh.vertex_count();
+    const VertexImages wrong = shifted(right, 300, A.mesh, B.mesh);
     FinishingOptions options;
     options.gap = options.gap_at_first = 1000;
     const std::vector<FinishedMap> finished = finish(context, Appraisal(context), {wrong, right}, options);
@@ -175,6 +180,25 @@ TEST(Finishing, IsBestForTheRightMap) {
     }
 }
 
+TEST(Finishing, DropsWhatIsClearlyWorseButForOneMapThatIsElsewhere) {
+    const KnownPair& pair = figures();
+    const PairContext context = pair.context();
+    const TriangleMesh &A = context.A().surface.mesh, &B = context.B().surface.mesh;
+    const VertexImages right = true_images(pair);
+    std::vector<VertexImages> starts;
+    for (const int by : {300, 100, 0, 200, 400}) starts.push_back(shifted(right, by, A, B));
+    FinishingOptions options;
+    options.distinct = 0;
+    options.gap = options.gap_at_first = 0;
+    const std::vector<FinishedMap> finished = finish(context, Appraisal(context), starts, options);
+    ASSERT_EQ(finished.size(), 2u);
+    EXPECT_EQ(finished[0].start, 2);
+    EXPECT_LT(shapes::mean_error(finished[0].maps.A_to_B, B, pair.A_on_B), .03);
+    EXPECT_GT(shapes::mean_error(finished[1].maps.A_to_B, B, pair.A_on_B), .3);
+    options.gap = options.gap_at_first = 1000;
+    EXPECT_EQ(finish(context, Appraisal(context), starts, options).size(), std::size_t(options.most));
+}
+
 /// The right map but for the limb that ends farthest from the centre, which it mirrors.
 VertexImages with_a_mirrored_limb(VertexImages images, const TriangleMesh& A) {
     const Vec3 centre = A.vertices.colwise().mean().transpose();
@@ -182,7 +206,7 @@ VertexImages with_a_mirrored_limb(VertexImages images, const TriangleMesh& A) {
     (A.vertices.rowwise() - centre.transpose()).rowwise().squaredNorm().maxCoeff(&tip);
     const Vec3 along = A.vertex(int(tip)) - centre, across = along.unitOrthogonal();
     const auto is_on_limb = [&](int v) {
-        return (A.vertex(v) - A.vertex(int(tip))).norm() < .45 * along.norm();
+        return (A.vertex(v) - A.vertex(int(tip))).norm() < .9 * along.norm();
     };
     const auto reflection = [&](int v) {
         const Vec3 p = A.vertex(v);
