@@ -51,16 +51,19 @@ class JointDescent {
 
     std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
         for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}});
-        enter(context_.diffusion_level(first_level_for_a_map(context_)));
+        const int first = first_level_for_a_map(context_);
+        enter(context_.diffusion_level(first));
         solve_all(options_.ironing, [&](const Pursued& one) {
             return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
         });
         keep_best(options_.gap_at_first);
+        // A map that is by itself, as that which landmarks lead to, has no other to be chosen instead.
+        // Without this level the hands of one of 14 isometric pairs ended twisted.
+        if (const int last = context_.diffusion_levels() - 1; starts.size() == 1 && last > first)
+            go_on(context_.diffusion_level(last), options_.ironing);
         const int levels = context_.euclidean_levels();
         for (int l = std::max(0, levels - 2); l < levels; ++l) {
-            enter(context_.euclidean_level(l, l + 1 == levels ? 0 : 1));
-            solve_all(euclidean_ironing_,
-                      [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
+            go_on(context_.euclidean_level(l, l + 1 == levels ? 0 : 1), euclidean_ironing_);
             keep_best(options_.gap);
             if (int(pursued_.size()) > options_.most) pursued_.resize(std::size_t(options_.most));
         }
@@ -72,6 +75,10 @@ class JointDescent {
     void enter(LevelPair level) {
         add_shape_term(level, context_, options_.shape_weight);
         descent_.enter(std::move(level));
+    }
+    void go_on(LevelPair level, const IroningOptions& ironing) {
+        enter(std::move(level));
+        solve_all(ironing, [&](const Pursued& one) { return descent_.hand_down(one.solution.plan); });
     }
     template <class StartOf>
     void solve_all(const IroningOptions& ironing, const StartOf& start_of) {
