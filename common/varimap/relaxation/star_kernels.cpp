@@ -17,6 +17,8 @@ using Vec2 = LogMap::Vec2;
 constexpr int most_rounds = 5;
 /// With one, 11 of 18 maps (odd rows of a list) end without a reversed face, with six 12 or 13.
 constexpr int most_turns = 6;
+/// Without a bound a skull's torn walls took 45 of 102 seconds of relaxation.
+constexpr std::ptrdiff_t most_visits_for_room = 5000;
 /// Stars of more faces are left as they are: their deepest point would take long to find.
 constexpr std::ptrdiff_t most_faces = 64;
 /// Sense from which on a face is upright beyond doubt. On 14 pairs .05 and .1 leave as few reversed, .3 more.
@@ -127,6 +129,8 @@ void StarKernels::centre(const std::vector<int>& faces, const std::vector<int>& 
     for (int turn = 0; turn < most_turns; ++turn) {
         turn_upright(faces, free);
         if (std::ranges::none_of(faces, [&](int f) { return wrong(f) > 0; })) return;
+        visits_for_room_ += std::ssize(free);
+        if (visits_for_room_ > most_visits_for_room) return;
         for (const int v : free) move_to_centre(v, Aim::room);
     }
 }
