@@ -18,7 +18,7 @@ constexpr int most_rounds = 5;
 /// With one, 11 of 18 maps (odd rows of a list) end without a reversed face, with six 12 or 13.
 constexpr int most_turns = 6;
 /// Without a bound a skull's torn walls took 45 of 102 seconds of relaxation.
-constexpr std::ptrdiff_t most_visits_for_room = 5000;
+constexpr std::ptrdiff_t most_visits_for_room = 2000;
 /// Stars of more faces are left as they are: their deepest point would take long to find.
 constexpr std::ptrdiff_t most_faces = 64;
 /// Sense from which on a face is upright beyond doubt. On 14 pairs .05 and .1 leave as few reversed, .3 more.

@@ -22,7 +22,7 @@ class StarKernels {
     /// Visits the corners of these faces, and then what is around those that moved, for as long as faces get
     /// less wrong, 5 times at most. Where some stay wrong, all of `free` go to the centres of their kernels,
     /// which makes room, and it begins anew, 6 times at most, as long as all calls together have not visited
-    /// more than 5000 of them: torn maps have no end of such faces. Moved are vertices of `free` (ascending;
+    /// more than 2000 of them: torn maps have no end of such faces. Moved are vertices of `free` (ascending;
     /// none on the source's boundary).
     void centre(const std::vector<int>& faces, const std::vector<int>& free);
 
