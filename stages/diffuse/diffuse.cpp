@@ -39,10 +39,9 @@ const Correspondences& chosen_map(const Candidates& candidates, int number) {
 
 Diffusion to_diffusion(const LevelPair& pair, const Solution& solution, const PairContext& context) {
     Diffusion diffusion;
-    diffusion.image_vertex_A = vertex_images(pair.A, pair.B, solution.step.row_image,
-                                             largest_of_rows(solution.plan), context.graph_B());
-    diffusion.image_vertex_B = vertex_images(pair.B, pair.A, solution.step.column_image,
-                                             largest_of_columns(solution.plan), context.graph_A());
+    VertexImages images = vertex_images(solution, pair, context);
+    diffusion.image_vertex_A = std::move(images.A_to_B);
+    diffusion.image_vertex_B = std::move(images.B_to_A);
     diffusion.record.landmarks = context.landmarks();
     diffusion.record.landmark_weight = context.landmark_weight();
     return diffusion;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "stages/explore/pool.h"
 #include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
+#include "varimap/multilevel/vertex_images.h"
 
 namespace varimap {
 
@@ -163,7 +163,7 @@ void Exploration::prune(int keep) {
 }
 
 VertexImages Exploration::images(const Trial& trial) const {
-    return images_of(trial.solution, last_level(), context_);
+    return vertex_images(trial.solution, last_level(), context_);
 }
 
 void Exploration::log_pool(int level) const {

@@ -11,6 +11,7 @@
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
+#include "varimap/multilevel/vertex_images.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
 #include "varimap/spectral/local_shape.h"
@@ -121,7 +122,7 @@ class JointDescent {
         return best;
     }
     void judge(Pursued& one) const {
-        one.images = images_of(one.solution, level(), context_);
+        one.images = vertex_images(one.solution, level(), context_);
         const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
         one.rough_scores.push_back(
             appraisal_.rough_score({images_at(one.images.A_to_B, B), images_at(one.images.B_to_A, A)}));

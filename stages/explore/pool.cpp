@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "varimap/multilevel/vertex_images.h"
-
 namespace varimap {
 
 namespace {
@@ -55,13 +53,6 @@ VertexImages identity(const Surface& surface) {
     std::iota(images.A_to_B.begin(), images.A_to_B.end(), 0);
     images.B_to_A = images.A_to_B;
     return images;
-}
-
-VertexImages images_of(const Solution& solution, const LevelPair& level, const PairContext& context) {
-    return {vertex_images(level.A, level.B, solution.step.row_image, largest_of_rows(solution.plan),
-                          context.graph_B()),
-            vertex_images(level.B, level.A, solution.step.column_image, largest_of_columns(solution.plan),
-                          context.graph_A())};
 }
 
 std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& surface) {

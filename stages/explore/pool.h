@@ -31,7 +31,4 @@ double difference(const VertexImages& a, const VertexImages& b, const Surface& A
 
 VertexImages identity(const Surface& surface);
 
-/// The images of all vertices by a solution of one level.
-VertexImages images_of(const Solution& solution, const LevelPair& level, const PairContext& context);
-
 }  // namespace varimap

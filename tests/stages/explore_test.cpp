@@ -206,7 +206,7 @@ VertexImages with_a_mirrored_limb(VertexImages images, const TriangleMesh& A) {
     (A.vertices.rowwise() - centre.transpose()).rowwise().squaredNorm().maxCoeff(&tip);
     const Vec3 along = A.vertex(int(tip)) - centre, across = along.unitOrthogonal();
     const auto is_on_limb = [&](int v) {
-        return (A.vertex(v) - A.vertex(int(tip))).norm() < .9 * along.norm();
+        return (A.vertex(v) - A.vertex(int(tip))).norm() < .45 * along.norm();
     };
     const auto reflection = [&](int v) {
         const Vec3 p = A.vertex(v);

@@ -418,8 +418,9 @@ StraightPath straighten(const TriangleMesh& mesh, const Edges& edges, TriangleSt
         return true;
     };
     const auto is_shorter_past_a_bend = [&] {
-        return std::ranges::any_of(way.path.bends,
-                                   [&](auto bend) { return is_shorter_past(bend.first, bend.second); });
+        for (const auto& [portal, is_left] : way.path.bends)
+            if (is_shorter_past(portal, is_left)) return true;
+        return false;
     };
     const auto is_shorter_past_a_spike = [&] {
         if (!(way.path.length > length_over_a_spike)) return false;

@@ -5,6 +5,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/orientation.h"
 #include "varimap/spectral/neighbourhoods.h"
+#include "varimap/transport/support.h"
 
 namespace varimap {
 
@@ -40,6 +41,13 @@ std::vector<int> vertex_images(const LevelSide& from, const LevelSide& to, const
             centre.size() > 0 ? nearest_by_descent(start, centre, to.vertex_points, target_graph) : start;
     });
     return images;
+}
+
+VertexImages vertex_images(const Solution& solution, const LevelPair& pair, const PairContext& context) {
+    return {vertex_images(pair.A, pair.B, solution.step.row_image, largest_of_rows(solution.plan),
+                          context.graph_B()),
+            vertex_images(pair.B, pair.A, solution.step.column_image, largest_of_columns(solution.plan),
+                          context.graph_A())};
 }
 
 }  // namespace varimap

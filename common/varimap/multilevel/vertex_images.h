@@ -4,6 +4,8 @@
 
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/multilevel/level_transfer.h"
+#include "varimap/multilevel/matching.h"
+#include "varimap/transport/alternating_minimization.h"
 
 namespace varimap {
 
@@ -12,5 +14,8 @@ namespace varimap {
 /// embedding; `partner`: per sample the other side's sample near which the search begins.
 std::vector<int> vertex_images(const LevelSide& from, const LevelSide& to, const RowMatrix& sample_image,
                                const std::vector<int>& partner, const GeodesicGraph& target_graph);
+
+/// Of all vertices of both meshes, by a solution on a level.
+VertexImages vertex_images(const Solution& solution, const LevelPair& pair, const PairContext& context);
 
 }  // namespace varimap
