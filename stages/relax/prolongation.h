@@ -14,7 +14,9 @@ namespace varimap {
 /// From a coarse mesh the way leads over levels between: the mesh is subdivided, and the images of its
 /// vertices are relaxed and unfolded there, until it is about as fine as the input. Straight from the coarse
 /// mesh, faces as large as a toe cut through the target, and .2 to .3% of the area comes out reversed; the
-/// levels leave about a fifth of that, and folds of few faces each.
+/// levels leave about a fifth of that, and folds of few faces each. Of large inputs, what stays folded on the
+/// last level but one is mapped anew there (chart_repair.h), where it has some tenth of the faces it would
+/// have on the input. (With no level between there are few such faces on the input: 1 of 40,000.)
 class Prolongation {
   public:
     /// `images`: of the vertices of source.mesh, on target.mesh. Keeps references to the surfaces.
@@ -27,9 +29,10 @@ class Prolongation {
     PointMap on_input() const;
 
   private:
+    bool is_as_fine_as(double share_of_input) const;
     SurfacePoint image_of(const SurfacePoint& at) const;
     void refine();
-    void relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks);
+    void relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks, bool folds_anew);
 
     InputLocator locate_;
     TriangleMesh target_, normals_;  ///< the target's input; its normals, as a mesh to interpolate on

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "varimap/core/index_set.h"
@@ -45,8 +46,24 @@ bool AreaBound::is_kept(int v) const {
 }
 
 std::vector<int> AreaBound::press() {
+    std::vector<int> all(std::size_t(exempt_.size()));
+    std::iota(all.begin(), all.end(), 0);
+    return press(all);
+}
+
+std::vector<int> AreaBound::press_again(const std::vector<int>& moved) {
+    std::vector<int> around;
+    for (const int v : moved) {
+        const auto star = map_.faces_of_vertex()[v];
+        around.insert(around.end(), star.begin(), star.end());
+    }
+    make_set(around);
+    return press(vertices_of(map_.source(), around));
+}
+
+std::vector<int> AreaBound::press(const std::vector<int>& vertices) {
     std::vector<int> faces, corners;
-    for (int v = 0; v < exempt_.size(); ++v) {
+    for (const int v : vertices) {
         if (exempt_[v] || is_kept(v)) continue;
         const auto star = map_.faces_of_vertex()[v];
         faces.insert(faces.end(), star.begin(), star.end());

@@ -27,8 +27,11 @@ class AreaBound {
     /// Raises the weights; returns the corners of the faces that got more, ascending: none where all keep the
     /// bound. Reversed faces get none, whose energy would outweigh all others'.
     std::vector<int> press();
+    /// The same where no vertex has moved since but some of `moved`, the corners that were returned then.
+    std::vector<int> press_again(const std::vector<int>& moved);
 
   private:
+    std::vector<int> press(const std::vector<int>& vertices);
     bool is_kept(int v) const;
 
     SlidingMap& map_;

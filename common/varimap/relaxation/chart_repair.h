@@ -26,7 +26,7 @@ class ChartRepair {
         std::array<int, 6> outcomes{};  ///< attempts by how they ended
     };
 
-    /// Keeps references. `back`: the other direction.
+    /// Keeps references. `back`: the other direction; empty where it is not known.
     ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgreement& agreement, const PointMap& back);
 
     /// Vertices with fixed[v] stay, and those on the source's boundary. Returns the faces that may have

@@ -21,6 +21,7 @@ InverseMap::InverseMap(const SlidingMap& map, const PointMap& back) : map_(map),
 InverseMap::~InverseMap() = default;
 
 SurfacePoint InverseMap::operator()(int v) {
+    if (back_.empty()) return {};
     if (!search_) search_ = std::make_unique<Search>(map_, back_);
     const SurfacePoint point =
         search_->closest(map_.source().vertex(v), search_->normals.row(v).transpose()).point;

@@ -11,11 +11,12 @@ namespace varimap {
 /// face the same way.
 class InverseMap {
   public:
-    /// `back`: from the target of `map` to its source. Keeps references; nothing is built before it is asked.
+    /// `back`: from the target of `map` to its source; empty where that is not known. Keeps references;
+    /// nothing is built before it is asked.
     InverseMap(const SlidingMap& map, const PointMap& back);
     ~InverseMap();
 
-    /// The image of a vertex; its face is -1 where the target's faces there have no image.
+    /// The image of a vertex; its face is -1 where the target's faces there have no image, or nothing is known.
     SurfacePoint operator()(int v);
 
   private:

@@ -8,6 +8,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
+#include "varimap/core/timing.h"
 #include "varimap/quality/quality.h"
 #include "varimap/relaxation/area_bound.h"
 #include "varimap/relaxation/chart_repair.h"
@@ -184,12 +185,13 @@ class Untangling {
     void settle(const PointMap& back) {
         if (is_settled()) return;
         ++settling_steps_;
-        std::vector<int> pressed;
-        if (bound_) pressed = bound_->press();
-        if (relaxation_)
+        if (relaxation_) {
+            if (bound_) bound_->press();
             relaxation_->step(back);
-        else
-            sweep(free_among(std::move(pressed)), settling, settling_sweeps);
+            return;
+        }
+        pressed_ = settling_steps_ == 1 ? bound_->press() : bound_->press_again(pressed_);
+        sweep(free_among(pressed_), settling, settling_sweeps);
     }
     void end_settling() {
         bound_.reset();
@@ -264,6 +266,7 @@ class Untangling {
             sweep(free_vertices(sliding_, fixed_, landmarks_), round, options_.local_sweeps);
     }
     void sweep(std::vector<int> vertices, const Round& round, int sweeps) {
+        const Timer timer("sweeps");
         LocalRelaxation local(sliding_, 99);
         for (int i = 0; i < sweeps; ++i) local.sweep(vertices, {options_.area_weight, round.regularisation});
     }
@@ -320,6 +323,7 @@ class Untangling {
     std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
     std::unique_ptr<AreaBound> bound_;
+    std::vector<int> pressed_;  ///< where the bound was not kept at the last step
     int settling_steps_ = 0;
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;

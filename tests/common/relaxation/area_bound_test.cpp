@@ -7,6 +7,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/quality/quality.h"
+#include "varimap/relaxation/local_relaxation.h"
 #include "varimap/relaxation/untangling.h"
 
 namespace varimap {
@@ -66,6 +67,25 @@ TEST(AreaBound, PressesWhereItIsNotKeptAndNowhereElse) {
     EXPECT_TRUE(AreaBound(map, 100, exempt).press().empty());
     for (auto& e : exempt) e = true;
     EXPECT_TRUE(AreaBound(map, 1.2, exempt).press().empty());
+}
+
+TEST(AreaBound, PressesAgainAroundWhatMovedAsItDoesEverywhere) {
+    const TriangleMesh ball = shapes::ellipsoid(3), egg = shapes::ellipsoid(3, {1, 1, 3});
+    SlidingMap map(shapes::at_vertices(egg), ball, egg), same(shapes::at_vertices(egg), ball, egg);
+    AreaBound bound(map, 1.2, none(ball)), everywhere(same, 1.2, none(ball));
+    std::vector<int> pressed = bound.press();
+    everywhere.press();
+    for (int step = 0; step < 4; ++step) {
+        const std::vector<int> before = pressed;
+        for (SlidingMap* moved : {&map, &same}) {
+            std::vector<int> order = before;
+            LocalRelaxation(*moved, 99).sweep(order, {1, 0.03});
+        }
+        pressed = bound.press_again(before);
+        EXPECT_EQ(pressed, everywhere.press());
+        EXPECT_NE(pressed, before) << "some moved into the bound or out of it";
+    }
+    for (int f = 0; f < ball.face_count(); ++f) EXPECT_EQ(map.rest(f).area_weight, same.rest(f).area_weight);
 }
 
 }  // namespace

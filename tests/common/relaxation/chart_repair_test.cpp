@@ -33,10 +33,9 @@ PointMap crumpled(const TriangleMesh& mesh, int centre, double radius) {
 }
 
 /// What is left of a map's faults after repair.
-/// `back`: the other direction; as it stands, one without images, which is no help.
+/// `back`: the other direction; as it stands, it is not known.
 Verification repaired(PointMap& images, const TriangleMesh& mesh, const VertexData<bool>& fixed,
-                      PointMap back = {}) {
-    back.resize(images.size());
+                      const PointMap& back = {}) {
     SlidingMap map(images, mesh, mesh);
     AlongTarget along_target(map);
     NormalAgreement agreement(map, along_target);
@@ -101,9 +100,10 @@ TEST(InverseMap, LeadsBackWhereTheOtherDirectionCameFrom) {
         furthest = std::max(furthest,
                             (position(sphere, inverse(v)) - position(sphere, there[std::size_t(v)])).norm());
     EXPECT_LT(furthest, 0.2 * shapes::longest_edge(sphere));
-    const PointMap nothing(there.size());
-    InverseMap of_none(map, nothing);
+    const PointMap nowhere(there.size()), unknown;
+    InverseMap of_none(map, nowhere), of_unknown(map, unknown);
     EXPECT_LT(of_none(0).face, 0);
+    EXPECT_LT(of_unknown(0).face, 0);
 }
 
 TEST(ChartRepair, DoesNoHarmAtABoundary) {
