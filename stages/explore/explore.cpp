@@ -185,11 +185,12 @@ double logged_plausibility(const Candidate& best) {
     return found;
 }
 
-/// Whether the best map has been compared with one that gives most of the surface another image.
+/// Whether the best map has been compared with one that gives most of the surface another image, and is a
+/// map: of one that is torn it would be no wonder that it is worse.
 bool has_turned_rival(const std::vector<Appraised>& list) {
-    constexpr double most = 0.5;
+    constexpr double most = 0.5, torn = 0.1;
     return std::any_of(list.begin(), list.end(), [](const Appraised& one) {
-        return !is_mirrored(one.candidate) && one.candidate.moved_mass > most;
+        return one.candidate.moved_mass > most && one.candidate.reversed_mass < torn;
     });
 }
 

@@ -16,7 +16,8 @@ class InverseMap {
     InverseMap(const SlidingMap& map, const PointMap& back);
     ~InverseMap();
 
-    /// The image of a vertex; its face is -1 where the target's faces there have no image, or nothing is known.
+    /// The image of a vertex; its face is -1 where the target's faces there have no image, or nothing is
+    /// known.
     SurfacePoint operator()(int v);
 
   private:

@@ -59,7 +59,9 @@ bool is_rival(const Candidate& candidate) {
 
 double plausibility(const Candidate& candidate) {
     constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
-    return 1 / (1 + std::exp(-14 * (candidate.relief - relief) + 4 * (strain(candidate) - dirichlet)));
+    constexpr double reversed = 0.15, scale = 0.02;  // a limb; of 250 right maps one has more than .1
+    return 1 / (1 + std::exp(-14 * (candidate.relief - relief) + 4 * (strain(candidate) - dirichlet))) /
+           (1 + std::exp((candidate.reversed_mass - reversed) / scale));
 }
 
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished) {
@@ -79,7 +81,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished) {
-    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 2;
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 2, mirrored = 0.05;
     const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
     const Candidate& best = candidates.front();
@@ -94,6 +96,8 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<double
         add(fmt::format("finished, it is strained, with a Dirichlet energy of {:.2f}", *finished));
     else if (best.dirichlet > strained)
         add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
+    if (best.reversed_mass > mirrored)
+        add(fmt::format("{:.0f}% of the surface is mirrored", 100 * best.reversed_mass));
     if (best.relief < unlike) add(fmt::format("relief agrees by {:.2f} only", best.relief));
     return why.empty() ? "no one cue decides" : why;
 }
