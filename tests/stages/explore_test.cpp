@@ -373,6 +373,12 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     strained.relief = .4;
     EXPECT_FALSE(confidence_of({strained, rival}).confident);
     EXPECT_THAT(doubt({strained, rival}), testing::HasSubstr("strained"));
+    Candidate partly = best;
+    partly.reversed_mass = .17;  // a limb
+    EXPECT_FALSE(confidence_of({partly, rival}).confident);
+    EXPECT_THAT(doubt({partly, rival}), testing::HasSubstr("17% of the surface is mirrored"));
+    partly.reversed_mass = .04;  // a foot, which the final map still puts right
+    EXPECT_TRUE(confidence_of({partly, rival}).confident);
     Candidate mirrored = best;
     mirrored.reversed_mass = 1;
     EXPECT_EQ(confidence_of({mirrored}).probability, 0);
