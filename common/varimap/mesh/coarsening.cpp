@@ -31,6 +31,7 @@ constexpr double least_quality = 0.25;
 /// Of a new face in the plane: least share of the mean of the old ones' areas.
 constexpr double least_share = 1e-3;
 constexpr int most_neighbours = 11;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
@@ -71,7 +72,7 @@ struct Disc {
 
 struct Entry {
     double cost;
-    int vertex, version;
+    int vertex;
     /// The cheapest first, among equals the lowest vertex.
     bool operator<(const Entry& other) const {
         return cost != other.cost ? cost > other.cost : vertex > other.vertex;
@@ -115,7 +116,7 @@ class Coarsener {
     Faces faces_;  ///< corners stay at their places when one is exchanged
     std::vector<Quadric> quadric_;
     std::vector<double> cost_;  ///< per half-edge; a collapse changes those of its target alone
-    std::vector<int> version_;
+    std::vector<double> queued_;  ///< per vertex: the cost of the entry that counts; NaN: none does
     std::priority_queue<Entry> queue_;
     int left_;
     double lost_ = 0;                ///< area
@@ -127,7 +128,7 @@ Coarsener::Coarsener(const TriangleMesh& mesh, const PointMap& points)
     : mesh_(half_edges(mesh)),
       faces_(mesh.faces),
       quadric_(std::size_t(mesh.vertex_count())),
-      version_(std::size_t(mesh.vertex_count()), 0),
+      queued_(std::size_t(mesh.vertex_count()), none),
       left_(mesh.vertex_count()),
       on_mesh_(std::size_t(mesh.vertex_count()) + points.size()),
       first_(std::size_t(mesh.face_count()), -1),
@@ -177,9 +178,11 @@ void Coarsener::enqueue(VertexHandle v) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto h : mesh_.voh_range(v))
         if (measured(h) < least && may_collapse(h)) least = measured(h);
-    const std::size_t i = std::size_t(v.idx());
-    ++version_[i];
-    if (std::isfinite(least)) queue_.push({rounded(least), v.idx(), version_[i]});
+    const double cost = std::isfinite(least) ? rounded(least) : none;
+    double& queued = queued_[std::size_t(v.idx())];
+    if (cost == queued) return;
+    queued = cost;
+    if (std::isfinite(cost)) queue_.push({cost, v.idx()});
 }
 
 Disc Coarsener::lay_out(VertexHandle v) const {
@@ -385,7 +388,9 @@ void Coarsener::reduce_to(int vertices, int vertices_if_thin, double most_lost) 
         const Entry entry = queue_.top();
         queue_.pop();
         const VertexHandle v = mesh_.vertex_handle(unsigned(entry.vertex));
-        if (mesh_.status(v).deleted() || entry.version != version_[std::size_t(entry.vertex)]) continue;
+        double& queued = queued_[std::size_t(entry.vertex)];
+        if (mesh_.status(v).deleted() || entry.cost != queued) continue;
+        queued = none;
         const Disc disc = lay_out(v);
         // One that cannot go now is asked again when its surroundings change.
         if (const int target = cheapest_target(disc); target >= 0) collapse(disc, target);
