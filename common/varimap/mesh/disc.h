@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "varimap/mesh/topology.h"
@@ -38,10 +39,10 @@ TriangleMesh circular_chart(const TriangleMesh& disc, const std::vector<int>& bo
 /// Sets of faces of a mesh that become discs. Keeps a reference; holds scratch space for one thread.
 class FaceSets {
   public:
-    explicit FaceSets(const TriangleMesh& mesh)
-        : mesh_(mesh), edges_(find_edges(mesh)), faces_(vertex_faces(mesh)), marks_(mesh.face_count(), 0) {}
+    FaceSets(const TriangleMesh& mesh, SharedEdges edges)
+        : mesh_(mesh), edges_(std::move(edges)), faces_(vertex_faces(mesh)), marks_(mesh.face_count(), 0) {}
 
-    const Edges& edges() const { return edges_; }
+    const Edges& edges() const { return *edges_; }
     /// The faces, and all that share a vertex with them, `count` times over; ascending.
     std::vector<int> widened(std::vector<int> faces, int count);
     /// The faces, and every part of the rest that holds one of `seeds` and has at most `most` faces;
@@ -54,7 +55,7 @@ class FaceSets {
     template <class Visit>
     void neighbours(int f, const Visit& visit) const {
         for (int k = 0; k < 3; ++k)
-            for (const int side : edges_.sides[edges_.of_side[std::size_t(3 * f + k)]])
+            for (const int side : edges_->sides[edges_->of_side[std::size_t(3 * f + k)]])
                 if (side / 3 != f) visit(side / 3);
     }
     void mark(const std::vector<int>& faces, char value) {
@@ -62,7 +63,7 @@ class FaceSets {
     }
 
     const TriangleMesh& mesh_;
-    Edges edges_;
+    SharedEdges edges_;
     Adjacency faces_;  ///< of vertices
     FaceData<char> marks_;
 };

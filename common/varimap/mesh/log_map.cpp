@@ -70,26 +70,25 @@ LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, co
     // The path leaves the star through the face from which on its edges are others.
     std::ptrdiff_t skipped = 0;
     while (skipped < std::ptrdiff_t(strip.edges.size()) &&
-           touches(edges_, strip.edges[std::size_t(skipped)], vertex))
+           touches(*edges_, strip.edges[std::size_t(skipped)], vertex))
         ++skipped;
     const TriangleStrip outside{{strip.faces.begin() + skipped, strip.faces.end()},
                                 {strip.edges.begin() + skipped, strip.edges.end()}};
     const int face = outside.faces.front();
     double at = 0, total = 0;
-    const std::vector<int> around = fan(mesh_, edges_, vertex, face);
+    const std::vector<int> around = fan(mesh_, *edges_, vertex, face);
     for (const int f : around) {
         const int k = corner_of(mesh_, f, vertex);
         if (f == face) {
-            const Vec3 away = straight_path(mesh_, edges_, outside, mesh_.vertex(vertex), to).goal_from_start;
+            const Vec3 away =
+                straight_path(mesh_, *edges_, outside, mesh_.vertex(vertex), to).goal_from_start;
             at = total + angle(mesh_.vertex(mesh_.faces(f, (k + 1) % 3)) - mesh_.vertex(vertex), away);
         }
         total += corner_angle(mesh_, f, k);
     }
-    const bool is_inside =
-        edges_
-            .sides[edges_.of_side[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))]]
-            .size() > 1;
-    if (is_inside) at *= 2 * std::numbers::pi / total;
+    const int edge =
+        edges_->of_side[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))];
+    if (edges_->sides[edge].size() > 1) at *= 2 * std::numbers::pi / total;  // the vertex is inside
     return {length * std::cos(at), length * std::sin(at)};
 }
 
@@ -102,11 +101,11 @@ LogMap::Vec2 LogMap::in_plane_of(int face, const Vec3& away) const {
 }
 
 std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b) const {
-    TriangleStrip strip = straight_strip(mesh_, edges_, a, b);
-    if (strip.faces.empty()) strip = find_strip(mesh_, edges_, a.face, b.face, farthest_, detour);
+    TriangleStrip strip = straight_strip(mesh_, *edges_, a, b);
+    if (strip.faces.empty()) strip = find_strip(mesh_, *edges_, a.face, b.face, farthest_, detour);
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
     const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
-    const StraightPath path = straighten(mesh_, edges_, strip, start, goal);
+    const StraightPath path = straighten(mesh_, *edges_, strip, start, goal);
     const int at_a = vertex_at(mesh_, a), at_b = vertex_at(mesh_, b);
     return {at_a < 0 ? in_plane_of(a.face, path.goal_from_start)
                      : seen_from_vertex(at_a, strip, goal, path.length),

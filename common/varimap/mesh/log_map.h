@@ -16,7 +16,9 @@ class LogMap {
     using Vec2 = Eigen::Vector2d;
     /// `farthest`: faces that the search for a path looks at.
     explicit LogMap(const TriangleMesh& mesh, int farthest = 20'000)
-        : mesh_(mesh), edges_(find_edges(mesh)), farthest_(farthest) {}
+        : LogMap(mesh, find_shared_edges(mesh), farthest) {}
+    LogMap(const TriangleMesh& mesh, SharedEdges edges, int farthest = 20'000)
+        : mesh_(mesh), edges_(std::move(edges)), farthest_(farthest) {}
 
     /// b as seen from a, and a as seen from b. Both must have a face. Where no path is found (other
     /// components, too far, or a detour of more than 6 times their distance), both are 0.
@@ -28,7 +30,7 @@ class LogMap {
     Vec2 seen_from_vertex(int vertex, const struct TriangleStrip& strip, const Vec3& to, double length) const;
 
     const TriangleMesh& mesh_;
-    Edges edges_;
+    SharedEdges edges_;
     int farthest_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,11 @@ struct Edges {
 };
 /// Faces must not repeat a vertex. Non-manifold edges are allowed: they have more than two sides.
 Edges find_edges(const TriangleMesh& mesh);
+/// Found once for all who need them: of a large mesh they take as much memory as the mesh.
+using SharedEdges = std::shared_ptr<const Edges>;
+inline SharedEdges find_shared_edges(const TriangleMesh& mesh) {
+    return std::make_shared<const Edges>(find_edges(mesh));
+}
 
 /// Sets of marked faces that hang together over edges, by their lowest faces; each from that face outwards.
 std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked);

@@ -9,9 +9,10 @@ namespace varimap {
 AlongTarget::AlongTarget(const SlidingMap& map)
     : map_(map),
       target_faces_(vertex_faces(map.target())),
-      log_map_(map.target(), farthest),
-      edges_(find_edges(map.source())),
-      known_edges_(map, edges_.size()),
+      source_edges_(find_shared_edges(map.source())),
+      target_edges_(find_shared_edges(map.target())),
+      log_map_(map.target(), target_edges_, farthest),
+      known_edges_(map, source_edges_->size()),
       known_faces_(map) {}
 
 double AlongTarget::winding_number(int v) {
@@ -51,8 +52,8 @@ const Lie& AlongTarget::lie(int f) {
 }
 
 SeenSide AlongTarget::side(int f, int k) {
-    const int e = edges_.of_side[std::size_t(3 * f + k)];
-    const std::array<int, 2>& ends = edges_.vertices[std::size_t(e)];
+    const int e = source_edges_->of_side[std::size_t(3 * f + k)];
+    const std::array<int, 2>& ends = source_edges_->vertices[std::size_t(e)];
     const std::scoped_lock lock(edge_lock_[std::size_t(e) % locks]);
     SeenSide seen = known_edges_(e, ends, [&] { return log_map_(map_.point(ends[0]), map_.point(ends[1])); });
     if (map_.source().faces(f, k) != ends[0]) std::swap(seen.first, seen.second);

@@ -42,6 +42,9 @@ class AlongTarget {
     /// of its straight image all agrees with: nothing is in doubt then.
     bool lies_within_a_star(int f, const Vec3& normal) const;
 
+    const SharedEdges& source_edges() const { return source_edges_; }
+    const SharedEdges& target_edges() const { return target_edges_; }
+
   private:
     /// Faces looked at for the path between two corners. Those of torn triangles are looked for in vain again
     /// and again: with 2000 relaxing a skull takes a fifth longer, and as many of its faces end reversed.
@@ -55,8 +58,8 @@ class AlongTarget {
 
     const SlidingMap& map_;
     Adjacency target_faces_;  ///< per vertex of the target
+    SharedEdges source_edges_, target_edges_;
     LogMap log_map_;
-    Edges edges_;  ///< of the source
     ImageMemory<SeenSide, 2> known_edges_;
     std::array<std::mutex, locks> edge_lock_;  ///< each for many edges: faces side by side ask for the same
     FaceMemory<Lie> known_faces_;

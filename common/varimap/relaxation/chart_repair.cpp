@@ -58,8 +58,8 @@ ChartRepair::ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgree
       agreement_(agreement),
       inverse_(map, back),
       kernels_(map, along_target),
-      source_(map.source()),
-      target_(map.target()),
+      source_(map.source(), along_target.source_edges()),
+      target_(map.target(), along_target.target_edges()),
       strikes_(map.source().face_count(), 0) {}
 
 std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {

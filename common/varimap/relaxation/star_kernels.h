@@ -17,7 +17,7 @@ class StarKernels {
   public:
     /// Keeps references.
     StarKernels(SlidingMap& map, AlongTarget& along_target)
-        : map_(map), along_target_(along_target), log_map_(map.target()) {}
+        : map_(map), along_target_(along_target), log_map_(map.target(), along_target.target_edges()) {}
 
     /// Visits the corners of these faces, and then what is around those that moved, for as long as faces get
     /// less wrong, 5 times at most. Where some stay wrong, all of `free` go to the centres of their kernels,

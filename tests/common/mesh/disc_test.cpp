@@ -111,7 +111,7 @@ TEST(EvenEmbedding, LeavesRoomForTheEndOfAVeryLongLimb) {
 
 TEST(FaceSets, FillHolesUpToASize) {
     const TriangleMesh square = shapes::square(10);
-    FaceSets sets(square);
+    FaceSets sets(square, find_shared_edges(square));
     const auto ring = faces_where(square, [](const Vec3& p) {
         const double r = std::max(std::abs(p.x() - 0.5), std::abs(p.y() - 0.5));
         return r > 0.2 && r < 0.3;
@@ -131,8 +131,9 @@ TEST(FaceSets, WidenByFacesThatShareAVertex) {
     const TriangleMesh square = shapes::square(9);
     const int middle =
         faces_where(square, [](const Vec3& p) { return (p - Vec3(0.5, 0.5, 0)).norm() < 0.03; })[0];
-    EXPECT_THAT(FaceSets(square).widened({middle}, 0), ElementsAre(middle));
-    EXPECT_EQ(FaceSets(square).widened({middle}, 1).size(), 13u);
+    FaceSets sets(square, find_shared_edges(square));
+    EXPECT_THAT(sets.widened({middle}, 0), ElementsAre(middle));
+    EXPECT_EQ(sets.widened({middle}, 1).size(), 13u);
 }
 
 }  // namespace
