@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures/bad_maps.h"
 #include "fixtures/shapes.h"
 #include "fixtures/sphere_pair.h"
 #include "stages/coarsen/coarsen.h"
 #include "stages/preprocess/preprocess.h"
+#include "stages/relax/prolongation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
+#include "varimap/verification/verification.h"
 
 namespace varimap {
 namespace {
@@ -89,6 +92,19 @@ TEST(Relax, CarriesAMapOfCoarseMeshesOverToTheInputs) {
     EXPECT_EQ(flipped(map.A_to_B, surface, surface), 0);
     EXPECT_EQ(flipped(map.B_to_A, surface, surface), 0);
     EXPECT_EQ(vertex_of(surface.input, map.A_to_B[77]), 77) << "a landmark at a vertex of the input";
+}
+
+/// Images of a coarse mesh's vertices up to an edge away from themselves.
+TEST(Prolongation, MapsFoldsAnewBeforeTheyAreManyFaces) {
+    CoarsenParams coarse;
+    coarse.vertices = 1200;
+    const Surface surface = coarsened(preprocess(shapes::figure(.06), {}), coarse);
+    ASSERT_GT(surface.input.vertex_count(), 10 * surface.mesh.vertex_count()) << "a level lies between";
+    Prolongation map(shapes::noisy_identity(surface.mesh, 1), surface, surface);
+    map.relax_between(VertexData<bool>(surface.mesh.vertex_count()), {});
+    const Verification found = verify_map(map.on_input(), surface.input, surface.input);
+    EXPECT_LT(found.reversed_faces.size(), 20u) << "36 by sweeps and the removal of folds alone";
+    EXPECT_TRUE(found.branch_vertices.empty());
 }
 
 TEST(Relax, GivesPointsOnTheFacesOfTheFilesOfMirroredSurfaces) {
