@@ -115,7 +115,7 @@ class Coarsener {
     HalfEdgeMesh mesh_;
     Faces faces_;  ///< corners stay at their places when one is exchanged
     std::vector<Quadric> quadric_;
-    std::vector<double> cost_;  ///< per half-edge; a collapse changes those of its target alone
+    std::vector<double> cost_;    ///< per half-edge; a collapse changes those of its target alone
     std::vector<double> queued_;  ///< per vertex: the cost of the entry that counts; NaN: none does
     std::priority_queue<Entry> queue_;
     int left_;
