@@ -17,7 +17,7 @@ namespace {
 
 /// Share of input vertices below which the preprocessed surfaces are untangled first.
 constexpr double coarse_input = 0.5;
-/// Over a map that was carried over from the meshes to the inputs.
+/// Over a map that was carried over from the meshes to the inputs. With 3 as many triangles end reversed.
 constexpr int fine_sweeps = 1;
 /// Its folds are small and soon removed, or none of its own but where the map is torn. On a pair of skulls
 /// 8 leave as many triangles reversed.

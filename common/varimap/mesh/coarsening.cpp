@@ -31,7 +31,7 @@ constexpr double least_quality = 0.25;
 /// Of a new face in the plane: least share of the mean of the old ones' areas.
 constexpr double least_share = 1e-3;
 constexpr int most_neighbours = 11;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_entry = std::numeric_limits<double>::quiet_NaN();
 
 double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
@@ -128,7 +128,7 @@ Coarsener::Coarsener(const TriangleMesh& mesh, const PointMap& points)
     : mesh_(half_edges(mesh)),
       faces_(mesh.faces),
       quadric_(std::size_t(mesh.vertex_count())),
-      queued_(std::size_t(mesh.vertex_count()), none),
+      queued_(std::size_t(mesh.vertex_count()), no_entry),
       left_(mesh.vertex_count()),
       on_mesh_(std::size_t(mesh.vertex_count()) + points.size()),
       first_(std::size_t(mesh.face_count()), -1),
@@ -178,7 +178,7 @@ void Coarsener::enqueue(VertexHandle v) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto h : mesh_.voh_range(v))
         if (measured(h) < least && may_collapse(h)) least = measured(h);
-    const double cost = std::isfinite(least) ? rounded(least) : none;
+    const double cost = std::isfinite(least) ? rounded(least) : no_entry;
     double& queued = queued_[std::size_t(v.idx())];
     if (cost == queued) return;
     queued = cost;
@@ -390,7 +390,7 @@ void Coarsener::reduce_to(int vertices, int vertices_if_thin, double most_lost) 
         const VertexHandle v = mesh_.vertex_handle(unsigned(entry.vertex));
         double& queued = queued_[std::size_t(entry.vertex)];
         if (mesh_.status(v).deleted() || entry.cost != queued) continue;
-        queued = none;
+        queued = no_entry;
         const Disc disc = lay_out(v);
         // One that cannot go now is asked again when its surroundings change.
         if (const int target = cheapest_target(disc); target >= 0) collapse(disc, target);
