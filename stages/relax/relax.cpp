@@ -18,8 +18,8 @@ namespace {
 /// Share of input vertices below which the preprocessed surfaces are untangled first.
 constexpr double coarse_input = 0.5;
 /// Over a map that was carried over from the meshes to the inputs. Where these are far apart the last of the
-/// levels between is as fine, and one sweep leaves as few triangles reversed; where none lies between, maps of
-/// unlike shapes lose half a percent of coverage with one.
+/// levels between is as fine, and one sweep leaves as few triangles reversed; where none lies between, maps
+/// of unlike shapes lose half a percent of coverage with one.
 constexpr int fine_sweeps = 3, fine_sweeps_after_levels = 1;
 /// Its folds are small and soon removed, or none of its own but where the map is torn. On a pair of skulls
 /// 8 leave as many triangles reversed.
