@@ -52,24 +52,14 @@ std::vector<int> AreaBound::press() {
 }
 
 std::vector<int> AreaBound::press_again(const std::vector<int>& moved) {
-    std::vector<int> around;
-    for (const int v : moved) {
-        const auto star = map_.faces_of_vertex()[v];
-        around.insert(around.end(), star.begin(), star.end());
-    }
-    make_set(around);
-    return press(vertices_of(map_.source(), around));
+    return press(vertices_of(map_.source(), map_.faces_around(moved)));
 }
 
 std::vector<int> AreaBound::press(const std::vector<int>& vertices) {
-    std::vector<int> faces, corners;
-    for (const int v : vertices) {
-        if (exempt_[v] || is_kept(v)) continue;
-        const auto star = map_.faces_of_vertex()[v];
-        faces.insert(faces.end(), star.begin(), star.end());
-    }
-    make_set(faces);
-    for (const int f : faces) {
+    std::vector<int> broken, corners;
+    for (const int v : vertices)
+        if (!exempt_[v] && !is_kept(v)) broken.push_back(v);
+    for (const int f : map_.faces_around(broken)) {
         if (!map_.is_mapped(f) || !(map_.image_triangle(f).D > 0)) continue;
         map_.set_area_weight(f, std::clamp(growth * map_.rest(f).area_weight, first_weight_, most_weight));
         for (int k = 0; k < 3; ++k) corners.push_back(map_.source().faces(f, k));

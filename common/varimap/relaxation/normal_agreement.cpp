@@ -154,11 +154,8 @@ std::vector<int> NormalAgreement::improve(std::vector<int> disagreeing, const Ve
         for (const int v : vertices) moved = search(v) || moved;
         if (!moved) break;
         // Only faces around what moved can have changed.
-        std::vector<int> faces = disagreeing;
-        for (const int v : vertices) {
-            const auto star = map_.faces_of_vertex()[v];
-            faces.insert(faces.end(), star.begin(), star.end());
-        }
+        std::vector<int> faces = map_.faces_around(vertices);
+        faces.insert(faces.end(), disagreeing.begin(), disagreeing.end());
         make_set(faces);
         disagreeing = disagreeing_among(faces);
     }

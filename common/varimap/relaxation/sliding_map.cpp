@@ -1,5 +1,6 @@
 #include "varimap/relaxation/sliding_map.h"
 
+#include "varimap/core/index_set.h"
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {
@@ -32,6 +33,16 @@ SlidingMap::SlidingMap(const PointMap& map, const TriangleMesh& source, const Tr
       normal_(points_.size(), Vec3::Zero()) {
     for (int v = 0; v < points_.size(); ++v)
         if (map[v].face >= 0) place(v, map[v]);
+}
+
+std::vector<int> SlidingMap::faces_around(const std::vector<int>& vertices) const {
+    std::vector<int> faces;
+    for (const int v : vertices) {
+        const auto star = faces_of_vertex_[v];
+        faces.insert(faces.end(), star.begin(), star.end());
+    }
+    make_set(faces);
+    return faces;
 }
 
 }  // namespace varimap

@@ -25,6 +25,8 @@ class SlidingMap {
     const PointMap& points() const { return points_; }
     const SurfacePoint& point(int v) const { return points_[v]; }
     const Adjacency& faces_of_vertex() const { return faces_of_vertex_; }
+    /// The faces that have one of these vertices as a corner; ascending.
+    std::vector<int> faces_around(const std::vector<int>& vertices) const;
     const RestTriangle& rest(int f) const { return rest_[f]; }
     bool has_image(int v) const { return points_[v].face >= 0; }
     /// Whether a face counts: it has area, and all its corners have an image.
