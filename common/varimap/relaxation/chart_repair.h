@@ -9,6 +9,7 @@
 #include "varimap/relaxation/charted_part.h"
 #include "varimap/relaxation/inverse_map.h"
 #include "varimap/relaxation/normal_agreement.h"
+#include "varimap/relaxation/relief_agreement.h"
 #include "varimap/relaxation/sliding_map.h"
 #include "varimap/relaxation/star_kernels.h"
 
@@ -18,7 +19,8 @@ namespace varimap {
 /// vertices on the wrong side of a thin part. Defects are faces reversed along the target and
 /// branch points (along_target.h). They are widened, ring by ring; the part takes the images that the other
 /// direction, inverted, has for it, or, where it is a disc, is mapped anew in the plane (charted_part.h).
-/// What comes of it is relaxed on the target and kept if there are fewer defects than before.
+/// What comes of it is relaxed on the target and kept if there are fewer defects than before. A large part
+/// that was mapped anew is then relaxed as a whole (global_relaxation.h).
 class ChartRepair {
   public:
     enum class Outcome { inverted, repaired, no_disc, no_simple_rim, folded, no_gain };
@@ -26,8 +28,10 @@ class ChartRepair {
         std::array<int, 6> outcomes{};  ///< attempts by how they ended
     };
 
-    /// Keeps references. `back`: the other direction; empty where it is not known.
-    ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgreement& agreement, const PointMap& back);
+    /// Keeps references. `back`: the other direction; empty where it is not known. `relief`, if given, counts
+    /// where parts are relaxed as a whole.
+    ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgreement& agreement, const PointMap& back,
+                const ReliefAgreement* relief = nullptr);
 
     /// Vertices with fixed[v] stay, and those on the source's boundary. Returns the faces that may have
     /// moved, ascending.
@@ -57,6 +61,8 @@ class ChartRepair {
     bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, double before,
                        const VertexData<bool>& fixed);
     void polish(std::vector<int> vertices);
+    /// Global steps for these vertices, unless the badness of `around` gets beyond `most`.
+    void relax(const std::vector<int>& vertices, const std::vector<int>& around, double most);
     /// No vertex moves where more faces would be reversed.
     void polish_with_care(const std::vector<int>& vertices);
     PointMap points_of(const std::vector<int>& vertices) const;
@@ -65,6 +71,7 @@ class ChartRepair {
     SlidingMap& map_;
     AlongTarget& along_target_;
     NormalAgreement& agreement_;
+    const ReliefAgreement* relief_;
     InverseMap inverse_;
     StarKernels kernels_;
     FaceSets source_, target_;

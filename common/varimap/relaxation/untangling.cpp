@@ -295,7 +295,7 @@ class Untangling {
         std::vector<int> left = agreement.disagreeing_faces();
         report_.disagreeing_before = int(left.size());
         const VertexData<bool> stays = held();
-        ChartRepair repair(sliding_, along_target, agreement, back);
+        ChartRepair repair(sliding_, along_target, agreement, back, relief_.get());
         const auto leave = [&](const std::vector<int>& touched) {
             left.insert(left.end(), touched.begin(), touched.end());
         };
