@@ -144,8 +144,10 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
     if (is_apart(A) || is_apart(B)) {
         const bool far = is_far_apart(A) || is_far_apart(B);
         if (far) options.centre_stars = false;
+        options.repair_again = false;
         on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, options);
         options.centre_stars = params.untangling.centre_stars;
+        options.repair_again = params.untangling.repair_again;
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = far ? fine_sweeps_after_levels : fine_sweeps;

@@ -39,6 +39,8 @@ class ChartRepair {
     /// Moves single vertices where that suffices (star_kernels.h), for what is left or has come back since.
     /// Returns the faces that may have moved, ascending.
     std::vector<int> centre_stars(const VertexData<bool>& fixed);
+    /// Faces that are reversed or around branch points.
+    int faulty_faces() { return int(all_defects().size()); }
     const Report& report() const { return report_; }
 
   private:

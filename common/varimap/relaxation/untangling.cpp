@@ -42,6 +42,9 @@ constexpr std::array<Round, 2> rounds{
 constexpr Round settling{0.1, 1, 8, 2, 2};
 constexpr int settling_sweeps = 3;      ///< local ones in each of its steps where there are no global ones
 constexpr double last_fold_visits = 8;  ///< as in the first round
+/// Faces that may be faulty in the end where faults are mapped anew once more: a torn map has hundreds, for
+/// which that would take long.
+constexpr int few_faults = 100;
 /// Energy of a direction, times the other's, from which on all of it may be taken from the other.
 constexpr double much_worse = 1.2;
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
@@ -232,8 +235,32 @@ class Untangling {
     }
 
     const UntanglingReport& report() const { return report_; }
-    UntanglingReport finish(const PointMap& back) {
-        if (options_.align_normals) align_normals(back);
+    /// What cannot be slid away (chart_repair.h), and faces that cut through features.
+    void repair(const PointMap& back) {
+        if (!options_.align_normals) return;
+        AlongTarget along_target(sliding_);
+        NormalAgreement agreement(sliding_, along_target);
+        std::vector<int> left = agreement.disagreeing_faces();
+        report_.disagreeing_before = int(left.size());
+        left = repair(back, along_target, agreement, std::move(left));
+        report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
+    }
+    bool has_few_faults() const { return faults_ > 0 && faults_ <= few_faults; }
+    /// Once more around the faults that are left; as it was where more come of it.
+    void repair_again(const PointMap& back) {
+        if (!has_few_faults()) return;
+        const PointMap kept = sliding_.points();
+        const int faults = faults_;
+        AlongTarget along_target(sliding_);
+        NormalAgreement agreement(sliding_, along_target);
+        repair(back, along_target, agreement, {});
+        if (faults_ > faults) {
+            place(kept);
+            faults_ = faults;
+        }
+        report_.disagreeing_after = int(agreement.disagreeing_faces().size());
+    }
+    UntanglingReport finish() {
         if (replacement_) {
             report_.parts_tried = replacement_->report().tried;
             report_.parts_replaced = replacement_->report().replaced;
@@ -289,27 +316,31 @@ class Untangling {
                 mark_corners(source_, landmark.from.face, held);
         return held;
     }
-    void align_normals(const PointMap& back) {
-        AlongTarget along_target(sliding_);
-        NormalAgreement agreement(sliding_, along_target);
-        std::vector<int> left = agreement.disagreeing_faces();
-        report_.disagreeing_before = int(left.size());
+    void place(const PointMap& points) {
+        for (int v = 0; v < int(points.size()); ++v)
+            if (sliding_.has_image(v)) sliding_.place(v, points[std::size_t(v)]);
+    }
+    /// `left`: the faces that disagree with the target's normals, ascending. Returns those that may in the
+    /// end.
+    std::vector<int> repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
+                            std::vector<int> left) {
         const VertexData<bool> stays = held();
-        ChartRepair repair(sliding_, along_target, agreement, back, relief_.get());
+        ChartRepair charts(sliding_, along_target, agreement, back, relief_.get());
         const auto leave = [&](const std::vector<int>& touched) {
             left.insert(left.end(), touched.begin(), touched.end());
         };
-        leave(repair(stays));
+        leave(charts(stays));
         make_set(left);
         left = agreement.improve(agreement.disagreeing_among(left), stays);
         // What is upright along the target may still be reversed by the normals at its corners.
         report_.sweeps += FoldRemoval{options_.fold_sweeps, fold_visits(last_fold_visits)}(sliding_, stays);
         // What was no disc, or had no simple rim, may be one now.
-        leave(repair(stays));
-        if (options_.centre_stars) leave(repair.centre_stars(stays));
+        leave(charts(stays));
+        if (options_.centre_stars) leave(charts.centre_stars(stays));
         make_set(left);
-        report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
-        log_repair(repair.report());
+        log_repair(charts.report());
+        faults_ = charts.faulty_faces();
+        return left;
     }
 
     PointMap& map_;
@@ -325,6 +356,7 @@ class Untangling {
     std::unique_ptr<AreaBound> bound_;
     std::vector<int> pressed_;  ///< where the bound was not kept at the last step
     int settling_steps_ = 0;
+    int faults_ = 0;  ///< faulty faces after repair
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;
 };
@@ -374,10 +406,13 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     });
     run(there, back, rounds[1]);
     if (options.settling_steps > 0) settle(there, back);
+    with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.repair(inverse); });
+    // By the other direction as it has come out: often only one of them was tangled.
+    if (options.repair_again && (there.has_few_faults() || back.has_few_faults()))
+        with_each_other(there, back,
+                        [](Untangling& map, const PointMap& inverse) { map.repair_again(inverse); });
     UntanglingReports reports;
-    const PointMap A_to_B = there.points(), B_to_A = back.points();
-    tbb::parallel_invoke([&] { reports.A_to_B = there.finish(B_to_A); },
-                         [&] { reports.B_to_A = back.finish(A_to_B); });
+    tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;
 }
 

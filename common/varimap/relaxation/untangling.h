@@ -42,6 +42,8 @@ struct UntanglingOptions {
     PartReplacementOptions parts;
     bool replace_parts = true;
     bool align_normals = true;
+    /// Maps what is left of the faults anew once more at the end, where they are few.
+    bool repair_again = true;
     /// Moves single vertices at the end (star_kernels.h).
     bool centre_stars = true;
 };
@@ -65,7 +67,7 @@ struct PinnedPair {
 ///  3. the first step once more, with less regularisation;
 ///  4. the maps settled into each other's inverse and the area bound (area_bound.h);
 ///  5. what is reversed along the target mapped anew in charts (chart_repair.h), and faces that cut through
-///     thin features turned the target's way (normal_agreement.h).
+///     thin features turned the target's way (normal_agreement.h); where few faults are left, once more.
 /// Parts that are mirrored in the end stay so: a map that is made flip-free there would be wrong all the
 /// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic: the
 /// two directions run side by side, each serial.
