@@ -73,6 +73,17 @@ TEST(ChartRepair, MapsACrumpledPatchAnew) {
     }
 }
 
+TEST(ChartRepair, MapsAFifthOfASurfaceAnewAndRelaxesIt) {
+    const TriangleMesh mesh = shapes::ellipsoid(4);
+    PointMap images = crumpled(mesh, 40, 0.85);
+    EXPECT_GT(verify_map(images, mesh, mesh).reversed_faces.size(), 300u);
+    const Verification after = repaired(images, mesh, none(mesh));
+    EXPECT_TRUE(after.reversed_faces.empty()) << after.reversed_faces.size();
+    EXPECT_TRUE(after.branch_vertices.empty()) << after.branch_vertices.size();
+    // Local sweeps alone leave .5: a layout is no isometry.
+    EXPECT_LT(shapes::mean_error(images, mesh), 0.1 * shapes::longest_edge(mesh));
+}
+
 TEST(ChartRepair, TakesAPartFromTheOtherDirection) {
     const TriangleMesh mesh = shapes::ellipsoid(4);
     const PointMap back = shapes::at_vertices(mesh);
