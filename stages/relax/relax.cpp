@@ -144,7 +144,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
     if (is_apart(A) || is_apart(B)) {
         const bool far = is_far_apart(A) || is_far_apart(B);
         if (far) options.centre_stars = false;
-        options.repair_again = false;
+        options.repair_again = false;  // dearer than on the inputs, for hardly fewer faults
         on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, options);
         options.centre_stars = params.untangling.centre_stars;
         options.repair_again = params.untangling.repair_again;

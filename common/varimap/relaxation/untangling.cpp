@@ -245,10 +245,13 @@ class Untangling {
         left = repair(back, along_target, agreement, std::move(left));
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
     }
-    bool has_few_faults() const { return faults_ > 0 && faults_ <= few_faults; }
+    /// On a large surface to look at all of it again takes longer than what is won.
+    bool is_repaired_again() const {
+        return faults_ > 0 && faults_ <= few_faults && double(pinned_.size()) <= large;
+    }
     /// Once more around the faults that are left; as it was where more come of it.
     void repair_again(const PointMap& back) {
-        if (!has_few_faults()) return;
+        if (!is_repaired_again()) return;
         const PointMap kept = sliding_.points();
         const int faults = faults_;
         AlongTarget along_target(sliding_);
@@ -408,7 +411,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     if (options.settling_steps > 0) settle(there, back);
     with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.repair(inverse); });
     // By the other direction as it has come out: often only one of them was tangled.
-    if (options.repair_again && (there.has_few_faults() || back.has_few_faults()))
+    if (options.repair_again && (there.is_repaired_again() || back.is_repaired_again()))
         with_each_other(there, back,
                         [](Untangling& map, const PointMap& inverse) { map.repair_again(inverse); });
     UntanglingReports reports;
