@@ -143,11 +143,10 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, V
     std::optional<UntanglingReports> on_meshes;
     if (is_apart(A) || is_apart(B)) {
         const bool far = is_far_apart(A) || is_far_apart(B);
-        if (far) options.centre_stars = false;
-        options.repair_again = false;  // dearer than on the inputs, for hardly fewer faults
-        on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, options);
-        options.centre_stars = params.untangling.centre_stars;
-        options.repair_again = params.untangling.repair_again;
+        UntanglingOptions coarse_options = options;
+        if (far) coarse_options.centre_stars = false;
+        coarse_options.repair_again = false;  // dearer than on the inputs, for hardly fewer faults
+        on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, coarse_options);
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = far ? fine_sweeps_after_levels : fine_sweeps;

@@ -69,6 +69,7 @@ class ChartRepair {
     void polish_with_care(const std::vector<int>& vertices);
     PointMap points_of(const std::vector<int>& vertices) const;
     void place(const std::vector<int>& vertices, const PointMap& points);
+    VertexData<bool> all_but(const std::vector<int>& vertices) const;
 
     SlidingMap& map_;
     AlongTarget& along_target_;

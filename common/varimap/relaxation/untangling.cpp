@@ -245,10 +245,7 @@ class Untangling {
         left = repair(back, along_target, agreement, std::move(left));
         report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
     }
-    /// On a large surface to look at all of it again takes longer than what is won.
-    bool is_repaired_again() const {
-        return faults_ > 0 && faults_ <= few_faults && double(pinned_.size()) <= large;
-    }
+    bool is_repaired_again() const { return faults_ > 0 && faults_ <= few_faults; }
     /// Once more around the faults that are left; as it was where more come of it.
     void repair_again(const PointMap& back) {
         if (!is_repaired_again()) return;
@@ -319,6 +316,8 @@ class Untangling {
                 mark_corners(source_, landmark.from.face, held);
         return held;
     }
+    /// On a large surface to look at all of it again takes longer than what is won.
+    bool may_repair_again() const { return options_.repair_again && double(pinned_.size()) <= large; }
     void place(const PointMap& points) {
         for (int v = 0; v < int(points.size()); ++v)
             if (sliding_.has_image(v)) sliding_.place(v, points[std::size_t(v)]);
@@ -342,7 +341,7 @@ class Untangling {
         if (options_.centre_stars) leave(charts.centre_stars(stays));
         make_set(left);
         log_repair(charts.report());
-        faults_ = charts.faulty_faces();
+        if (may_repair_again()) faults_ = charts.faulty_faces();
         return left;
     }
 
@@ -359,7 +358,7 @@ class Untangling {
     std::unique_ptr<AreaBound> bound_;
     std::vector<int> pressed_;  ///< where the bound was not kept at the last step
     int settling_steps_ = 0;
-    int faults_ = 0;  ///< faulty faces after repair
+    int faults_ = 0;  ///< faulty faces after repair; not counted where none follows
     std::unique_ptr<PartReplacement> replacement_;
     UntanglingReport report_;
 };
@@ -411,7 +410,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     if (options.settling_steps > 0) settle(there, back);
     with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.repair(inverse); });
     // By the other direction as it has come out: often only one of them was tangled.
-    if (options.repair_again && (there.is_repaired_again() || back.is_repaired_again()))
+    if (there.is_repaired_again() || back.is_repaired_again())
         with_each_other(there, back,
                         [](Untangling& map, const PointMap& inverse) { map.repair_again(inverse); });
     UntanglingReports reports;
