@@ -3,13 +3,15 @@
 
 namespace varimap {
 
-ValueFile parse_npy_values(std::string_view bytes, const std::string& path) {
-    const NpyArray array = parse_npy(bytes, path);
-    const auto write = [type = array.type, flat = array.flat](const std::vector<ValueTable>& tables,
-                                                              const TriangleMesh&) {
-        return to_npy(NpyArray{type, flat, tables[0].values});
+ValueFile parse_npy_values(std::string_view bytes, const std::string& path, ValueKind kind) {
+    // Labels are compared and copied by row, so halves serve; numbers are interpolated, and rounded anyway.
+    const auto wide = kind == ValueKind::label ? WideIntegers::halved : WideIntegers::rounded;
+    NpyArray array = parse_npy(bytes, path, wide);
+    ValueTable table{Place::vertex, std::move(array.values)};
+    const auto write = [array](const std::vector<ValueTable>& tables, const TriangleMesh&) {
+        return to_npy(NpyArray{array.type, array.flat, array.halved, tables[0].values});
     };
-    return {{ValueTable{Place::vertex, array.values}}, write};
+    return {{std::move(table)}, write};
 }
 
 }  // namespace varimap

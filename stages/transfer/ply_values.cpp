@@ -20,6 +20,16 @@ bool is_geometry(const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// What a polygon has, each of the triangles has that the meshes hold in its place.
+void spread_over_triangles(PlyColumns& columns) {
+    for (PlyColumn& column : columns.face) {
+        std::vector<double> values;
+        for (std::size_t f = 0; f < columns.corners.size(); ++f)
+            values.insert(values.end(), std::max<std::size_t>(columns.corners[f], 2) - 2, column.values[f]);
+        if (!columns.corners.empty()) column.values = std::move(values);
+    }
+}
+
 ValueTable to_table(const std::vector<PlyColumn>& columns) {
     const Eigen::Index rows = Eigen::Index(columns[0].values.size());
     ValueTable table{Place::vertex, Eigen::MatrixXd(rows, Eigen::Index(columns.size()))};
@@ -42,6 +52,7 @@ std::vector<PlyColumn> to_columns(const std::vector<PlyColumn>& like, const Valu
 ValueFile parse_ply_values(std::string_view bytes, const std::string& path) {
     PlyColumns columns = parse_ply_columns(bytes, path);
     std::erase_if(columns.vertex, [](const PlyColumn& column) { return is_geometry(column.name); });
+    spread_over_triangles(columns);
     ValueFile file;
     for (const auto* of : {&columns.vertex, &columns.face})
         if (!of->empty()) file.tables.push_back(to_table(*of));

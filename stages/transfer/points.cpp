@@ -121,7 +121,7 @@ std::string carry_points(const std::string& path, LandmarkSpace space, const Cor
                          const PointCarrier& there) {
     const std::string bytes = read_file(path);
     if (is_picked_points(path)) return carry_picked(path, bytes, space, map, there);
-    TextRows rows = split_rows(bytes, path);
+    TextRows rows = split_rows(bytes, path, Content::numbers);
     const bool vertices = std::all_of(rows.rows.begin(), rows.rows.end(),
                                       [](const TextRow& row) { return row.words.size() == 1; });
     return vertices ? carry_vertices(rows, path, map, there) : carry_rows(std::move(rows), path, map, there);
@@ -129,7 +129,7 @@ std::string carry_points(const std::string& path, LandmarkSpace space, const Cor
 
 std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back) {
     std::vector<bool> inside(std::size_t(map.from.face_count()), false);
-    for (const TextRow& row : split_rows(read_file(path), path).rows) {
+    for (const TextRow& row : split_rows(read_file(path), path, Content::numbers).rows) {
         if (row.words.size() != 1)
             throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
         inside[std::size_t(vertex_number(row, path, map.from.face_count(), "faces"))] = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
@@ -10,53 +11,106 @@ namespace varimap {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view separators = ",;\t";  ///< besides blanks
 
-std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(blanks);
+/// A tab that separates is no blank.
+std::string_view trimmed(std::string_view text, char separator) {
+    const std::string_view around = separator == '\t' ? " \r" : blanks;
+    const std::size_t begin = text.find_first_not_of(around);
     if (begin == text.npos) return {};
-    text = text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-    const bool quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
-    return quoted ? text.substr(1, text.size() - 2) : text;
+    return text.substr(begin, text.find_last_not_of(around) - begin + 1);
 }
 
-char separator_of(std::string_view line) {
-    for (const char c : {',', ';', '\t'})
-        if (line.find(c) != line.npos) return c;
-    return ' ';
-}
+/// Splits one line.
+class LineSplitter {
+  public:
+    LineSplitter(std::string_view line, int number, const std::string& path)
+        : rest_(line), number_(number), path_(path) {}
 
-std::vector<std::string> words_of(std::string_view line, char separator) {
-    std::vector<std::string> words;
-    if (separator == ' ') {
-        for (std::size_t at = line.find_first_not_of(blanks); at != line.npos;) {
-            const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-            words.emplace_back(line.substr(at, end - at));
-            at = line.find_first_not_of(blanks, end);
+    /// That which the line holds outside of quotes; none: a blank.
+    char separator() const {
+        const std::string_view text = rest_.substr(0, rest_.find_last_not_of(blanks) + 1);
+        for (const char c : separators) {
+            bool quoted = false;
+            for (const char at : text) {
+                if (at == '"') quoted = !quoted;
+                if (at == c && !quoted) return c;
+            }
         }
-        return words;
+        return ' ';
     }
-    while (true) {
-        const std::size_t end = line.find(separator);
-        words.emplace_back(trimmed(line.substr(0, end)));
-        if (end == line.npos) return words;
-        line.remove_prefix(end + 1);
+    std::vector<std::string> words(char separator, Content content) {
+        std::vector<std::string> words;
+        const bool comments = separator == ' ' && content == Content::numbers;
+        while (true) {
+            rest_ = trimmed(rest_, separator);
+            if (comments && rest_.starts_with('#')) return words;
+            words.push_back(take_word(separator));
+            if (rest_.empty()) return words;
+            rest_.remove_prefix(1);
+        }
     }
+
+  private:
+    /// Up to the separator, which stays.
+    std::string take_word(char separator) {
+        const bool quoted = rest_.starts_with('"');
+        std::string word = quoted ? take_quoted() : "";
+        const std::string_view ends = separator == ' ' ? blanks : std::string_view(&separator, 1);
+        const std::size_t end = std::min(rest_.find_first_of(ends), rest_.size());
+        const std::string_view plain = trimmed(rest_.substr(0, end), separator);
+        if (quoted && !plain.empty()) fail("text stands behind a quote");
+        rest_.remove_prefix(end);
+        return quoted ? word : std::string(plain);
+    }
+    std::string take_quoted() {
+        std::string word;
+        do {
+            rest_.remove_prefix(1);
+            const std::size_t end = rest_.find('"');
+            if (end == rest_.npos) fail("a quote is not closed");
+            word += rest_.substr(0, end + 1);
+            rest_.remove_prefix(end + 1);
+        } while (rest_.starts_with('"'));
+        word.pop_back();
+        return word;
+    }
+    [[noreturn]] void fail(const std::string& what) const {
+        fail_at(path_, number_, what + "; put the word in quotes, and double those within it");
+    }
+
+    std::string_view rest_;
+    int number_;
+    const std::string& path_;
+};
+
+/// Whether the word alone would be read as something else.
+bool needs_quotes(std::string_view word, char separator) {
+    return word.starts_with('#') || word.find('"') != word.npos ||
+           word.find_first_of(separators) != word.npos || trimmed(word, ' ') != word ||
+           (separator == ' ' && (word.empty() || word.find(' ') != word.npos));
+}
+
+std::string quoted(std::string_view word) {
+    std::string text = "\"";
+    for (const char c : word) text += c == '"' ? "\"\"" : std::string(1, c);
+    return text + '"';
 }
 
 }  // namespace
 
-TextRows split_rows(std::string_view bytes, const std::string& path) {
+TextRows split_rows(std::string_view bytes, const std::string& path, Content content) {
     bytes = without_byte_order_mark(bytes, path);
+    const bool blanks_belong = content == Content::words && has_ending(path, ".csv");
     TextRows text;
     for (int number = 1; !bytes.empty(); ++number) {
-        const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-        std::string_view line = bytes.substr(0, end);
-        bytes.remove_prefix(std::min(end + 1, bytes.size()));
-        line = line.substr(0, line.find('#'));
-        if (line.find_first_not_of(blanks) == line.npos) continue;
-        if (text.rows.empty())
-            text.separator = separator_of(line.substr(0, line.find_last_not_of(blanks) + 1));
-        text.rows.push_back({number, words_of(line, text.separator)});
+        const std::string_view line = split_off_line(bytes);
+        const std::string_view start = trimmed(line, ' ');
+        if (start.empty() || start.starts_with('#')) continue;
+        LineSplitter splitter(line, number, path);
+        if (text.rows.empty()) text.separator = splitter.separator();
+        if (text.separator == ' ' && blanks_belong) text.separator = ',';
+        text.rows.push_back({number, splitter.words(text.separator, content)});
     }
     if (text.rows.empty()) throw InputError(path + ": holds no rows");
     return text;
@@ -71,7 +125,9 @@ std::string join(const std::vector<std::string>& words, char separator) {
     std::string line;
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (i > 0) line += separator;
-        line += words[i];
+        // A line with nothing on it is none.
+        const bool lost = words.size() == 1 && words[i].empty();
+        line += lost || needs_quotes(words[i], separator) ? quoted(words[i]) : words[i];
     }
     return line;
 }

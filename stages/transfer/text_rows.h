@@ -12,15 +12,25 @@ struct TextRow {
     std::vector<std::string> words;
 };
 
+/// What a table holds besides names.
+enum class Content : int {
+    numbers,
+    words  ///< which may hold blanks and #
+};
+
 /// The lines of a table that hold something besides a comment (#).
 struct TextRows {
     char separator = ' ';  ///< between the words: a comma, semicolon, tab, or blanks
     std::vector<TextRow> rows;
 };
 
-/// The first line tells the separator. Throws InputError for UTF-16 and where there are no rows.
-TextRows split_rows(std::string_view bytes, const std::string& path);
+/// The first line tells the separator; where it holds none, blanks separate, but in a .csv of words they
+/// belong to these. Quotes are those of RFC 4180, within a line. A comment begins a line, or stands behind
+/// numbers that blanks separate. Throws InputError for UTF-16, for quotes that are not closed, and where
+/// there are no rows.
+TextRows split_rows(std::string_view bytes, const std::string& path, Content content);
 bool is_number(std::string_view word);
+/// A line, without its end, of which split_rows makes these words, in quotes where they need some.
 std::string join(const std::vector<std::string>& words, char separator);
 
 }  // namespace varimap

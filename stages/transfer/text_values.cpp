@@ -23,6 +23,10 @@ bool is_index_name(std::string_view name) {
     return lower == "vertex" || lower == "face" || lower == "index" || lower == "id" || lower.empty();
 }
 
+bool any_number(const TextRow& row) {
+    return std::any_of(row.words.begin(), row.words.end(), is_number);
+}
+
 /// Words stand for numbers where values are labels.
 class Dictionary {
   public:
@@ -31,22 +35,26 @@ class Dictionary {
         if (added) words_.push_back(entry->first);
         return double(entry->second);
     }
-    std::string word_of(double number) const { return std::isnan(number) ? "" : words_[std::size_t(number)]; }
+    std::string word_of(double number) const {
+        return std::isnan(number) ? "nan" : words_[std::size_t(number)];
+    }
 
   private:
     std::map<std::string, std::size_t> numbers_;
     std::vector<std::string> words_;
 };
 
-/// The first line names the columns where none of its words is a number, but one of the next line's is; of
-/// labels, which may be words, where it names what the rows belong to.
-bool has_names(const TextRows& rows, ValueKind kind) {
-    if (rows.rows.size() < 2) return false;
-    const auto& first = rows.rows[0].words;
-    if (is_index_name(first[0])) return true;
-    if (std::any_of(first.begin(), first.end(), is_number)) return false;
-    const auto& second = rows.rows[1].words;
-    return kind != ValueKind::label || std::any_of(second.begin(), second.end(), is_number);
+/// A first line that may name the columns does so where the rows without it are those of the mesh. Where
+/// their number does not tell, it does above numbers, and in front of rows that it says are numbered.
+bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh) {
+    const auto& rows = text.rows;
+    if (rows.size() < 2) return false;
+    const bool names_rows = is_index_name(rows[0].words[0]);
+    if (!names_rows && any_number(rows[0])) return false;
+    const bool all_fit = place_of(rows.size(), mesh).has_value();
+    const bool others_fit = place_of(rows.size() - 1, mesh).has_value();
+    if (all_fit != others_fit) return others_fit;
+    return names_rows || kind != ValueKind::label || any_number(rows[1]);
 }
 
 double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& words,
@@ -87,13 +95,11 @@ struct Layout {
 std::string to_text(const Eigen::MatrixXd& values, const Layout& layout) {
     std::string text = layout.names;
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
-        if (layout.numbered) text += fmt::format("{}{}", row, layout.separator);
-        for (Eigen::Index c = 0; c < values.cols(); ++c) {
-            if (c > 0) text += layout.separator;
-            text += layout.kind == ValueKind::label ? layout.words.word_of(values(row, c))
-                                                    : shortest(values(row, c));
-        }
-        text += '\n';
+        std::vector<std::string> words;
+        if (layout.numbered) words.push_back(std::to_string(row));
+        for (const double value : values.row(row))
+            words.push_back(layout.kind == ValueKind::label ? layout.words.word_of(value) : shortest(value));
+        text += join(words, layout.separator) + '\n';
     }
     return text;
 }
@@ -117,10 +123,12 @@ Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::s
 
 }  // namespace
 
-ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind) {
-    const TextRows text = split_rows(bytes, path);
+ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind,
+                            const TriangleMesh& mesh) {
+    const TextRows text =
+        split_rows(bytes, path, kind == ValueKind::label ? Content::words : Content::numbers);
     const auto& first = text.rows[0].words;
-    const bool named = has_names(text, kind);
+    const bool named = has_names(text, kind, mesh);
     Layout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
     ValueTable table{Place::vertex, read_cells(text, named ? 1 : 0, path, layout)};

@@ -95,17 +95,21 @@ void require_weights(const ValueTable& table, const std::string& path) {
     }
 }
 
-/// Which of the two a table of that many rows belongs to.
-Place place_of(Eigen::Index rows, const TriangleMesh& mesh, const std::string& mesh_file,
-               const std::string& path) {
-    if (rows == mesh.vertex_count()) return Place::vertex;
-    if (rows == mesh.face_count()) return Place::face;
+Place require_place(Eigen::Index rows, const TriangleMesh& mesh, const std::string& mesh_file,
+                    const std::string& path) {
+    if (const auto place = place_of(std::size_t(rows), mesh)) return *place;
     throw InputError(
         fmt::format("{}: {} rows, but {} has {} vertices and {} triangles: these are values of another mesh",
                     path, rows, mesh_file, mesh.vertex_count(), mesh.face_count()));
 }
 
 }  // namespace
+
+std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh) {
+    if (rows == std::size_t(mesh.vertex_count())) return Place::vertex;
+    if (rows == std::size_t(mesh.face_count())) return Place::face;
+    return std::nullopt;
+}
 
 ValueTable carry_values(const ValueTable& table, ValueKind kind, const Correspondence& map,
                         const PointCarrier& back) {
@@ -137,11 +141,11 @@ void keep_largest(Eigen::MatrixXd& weights, int count) {
 ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMesh& mesh,
                       const std::string& mesh_file) {
     const std::string bytes = read_file(path);
-    ValueFile file = has_ending(path, ".npy")   ? parse_npy_values(bytes, path)
+    ValueFile file = has_ending(path, ".npy")   ? parse_npy_values(bytes, path, kind)
                      : has_ending(path, ".ply") ? parse_ply_values(bytes, path)
-                                                : parse_text_values(bytes, path, kind);
+                                                : parse_text_values(bytes, path, kind, mesh);
     for (ValueTable& table : file.tables) {
-        table.place = place_of(table.values.rows(), mesh, mesh_file, path);
+        table.place = require_place(table.values.rows(), mesh, mesh_file, path);
         if (kind == ValueKind::weight) require_weights(table, path);
     }
     return file;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ enum class ValueKind : int {
     weight   ///< as numbers; rows that sum to 1 do so exactly
 };
 
+/// What a table of that many rows belongs to; nothing where they are those of another mesh.
+std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh);
+
 /// The table for the other surface. A row without an image is NaN. For faces of `to`, seven of its inner
 /// points are asked. Keeps the order of the columns.
 ValueTable carry_values(const ValueTable& table, ValueKind kind, const Correspondence& map,
@@ -40,17 +44,18 @@ struct ValueFile {
     std::function<std::string(const std::vector<ValueTable>& tables, const TriangleMesh& to)> write;
 };
 
-/// Reads .npy (a row for each vertex or face), .ply (properties besides position and normal), or lines of
-/// numbers (.csv, .txt and others: split by comma, semicolon, tab or blanks; the first line may hold names,
-/// and a first column called vertex, face or index numbers the rows). Of labels, words are accepted, too.
-/// Rows are those of vertices or faces by their number. Throws InputError (another number of rows, no number,
-/// weights that do not sum to 1), IoError.
+/// Reads .npy (a row for each vertex or face), .ply (properties besides position and normal; those of a
+/// polygon are those of each of its triangles), or lines of numbers (.csv, .txt and others: split by comma,
+/// semicolon, tab or blanks; the first line may hold names, and a first column called vertex, face or index
+/// numbers the rows). Of labels, words are accepted, too. Rows are those of vertices or faces by their
+/// number. Throws InputError (another number of rows, no number, weights that do not sum to 1), IoError.
 ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMesh& mesh,
                       const std::string& mesh_file);
 
 // The readers of one format each.
-ValueFile parse_npy_values(std::string_view bytes, const std::string& path);
+ValueFile parse_npy_values(std::string_view bytes, const std::string& path, ValueKind kind);
 ValueFile parse_ply_values(std::string_view bytes, const std::string& path);
-ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind);
+ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind,
+                            const TriangleMesh& mesh);
 
 }  // namespace varimap

@@ -23,6 +23,11 @@ done
 [[ $(wc -l <carried/points.txt) == 3 ]] || fail "points"
 # Vertex i of both figures is the same point: heights agree, but for what a coarse map of coarse meshes misses.
 paste carried/heat.txt heat.txt | awk '{ d = ($1 - $2) ^ 2; s += d } END { exit !(sqrt(s / NR) < .25) }' || fail "values"
+# A first line above as many words as there are vertices names them; words keep their # and their quotes.
+{ echo label; sed 's/high/seg#1/; s/low/"arm, left"/' parts.csv; } >words.csv
+run good --labels words.csv -o carried
+[[ $(sort carried/words.csv | uniq | xargs -d '\n') == '"arm, left" label seg#1' ]] || fail "words"
+[[ $(head -n 1 carried/words.csv) == label && $(wc -l <carried/words.csv) == $((n + 1)) ]] || fail "the name of words"
 # The unchanged shape leaves the target as it is.
 "$VARIMAP_BIN/varimap-transfer" a.off b.off good/{source_to_target,target_to_source}.csv --shape a.off --out same >out.txt 2>log
 tail -c 200 same/a.ply >one; tail -c 200 carried/a.ply >other

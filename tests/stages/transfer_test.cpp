@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -130,6 +131,18 @@ class Transfer : public ::testing::Test {
             return error.what();
         }
         return "none";
+    }
+    /// A line for each vertex of the ball: `even`, `odd`, `even`, ...
+    std::string by_turns(const std::string& even, const std::string& odd) const {
+        std::string text;
+        for (int v = 0; v < ball_.vertex_count(); ++v) text += (v % 2 == 0 ? even : odd) + "\n";
+        return text;
+    }
+    /// What becomes of a file of labels that the identity carries.
+    std::string kept_labels(const std::string& name, const std::string& bytes) {
+        TransferRequest request;
+        request.labels = {write(name, bytes)};
+        return carry(request, identity(ball_)).at(name);
     }
     std::vector<int> pipes_;
     TemporaryFolder folder_;
@@ -290,6 +303,85 @@ TEST_F(Transfer, LabelsAreNeverMixedAndKeepTheirWords) {
     EXPECT_EQ(seen, pair.other.vertex_count());
 }
 
+TEST_F(Transfer, WordsOfLabelsStayAsTheyAre) {
+    for (const auto& [even, odd] :
+         {std::pair("seg#1", "seg#2"), std::pair("left arm", "head"), std::pair("\"arm, left\"", "head"),
+          std::pair("\"#1\"", "\"\""), std::pair("a,", "b,\"c \"\"d\"\"\"")}) {
+        const std::string csv = by_turns(even, odd);
+        EXPECT_EQ(kept_labels("a.csv", csv), csv);
+    }
+    EXPECT_EQ(kept_labels("a.txt", "# parts\n" + by_turns("seg#1", "seg#2")), by_turns("seg#1", "seg#2"));
+}
+
+TEST_F(Transfer, TheNumberOfRowsTellsWhetherTheFirstNamesColumns) {
+    const std::string words = by_turns("face", "leg");
+    EXPECT_EQ(kept_labels("a.csv", words), words);
+    EXPECT_EQ(kept_labels("a.csv", "label\n" + words), "label\n" + words);
+    const std::string mixed = by_turns("unknown", "7");
+    EXPECT_EQ(kept_labels("a.csv", mixed), mixed);
+    EXPECT_EQ(kept_labels("a.csv", "label\n" + mixed), "label\n" + mixed);
+    TransferRequest request;
+    request.labels = {write("a.csv", "5\n" + by_turns("7", "8"))};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv: 163 rows, but"));
+    request = {};
+    request.values = {write("a.csv", "NA\n" + by_turns("7", "8").substr(2))};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv:1: 'NA' is not a number"));
+}
+
+TEST_F(Transfer, TheFirstRowTellsWhereTheNumberOfRowsDoesNot) {
+    // Four vertices and five faces.
+    TriangleMesh mesh = shapes::square(1);
+    mesh.faces = (Faces(5, 3) << 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2).finished();
+    const auto rows = [&](const std::string& text) {
+        return read_values(write("a.csv", text), ValueKind::label, mesh, "a.obj").tables[0].values.rows();
+    };
+    EXPECT_EQ(rows("part\n1\n2\n3\n4\n"), 4);
+    EXPECT_EQ(rows("vertex,part\n0,a\n1,b\n2,a\n3,b\n"), 4);
+    EXPECT_EQ(rows("arm\nleg\narm\nleg\narm\n"), 5);
+}
+
+TEST_F(Transfer, LabelsOfAnyIntegerStayExact) {
+    const std::int64_t large = (std::int64_t(1) << 53) + 1;
+    std::vector<std::int64_t> ids;
+    std::vector<std::uint64_t> unsigned_ids;
+    for (int v = 0; v < ball_.vertex_count(); ++v) {
+        ids.push_back(v % 2 == 0 ? large : -large - v % 3);
+        unsigned_ids.push_back(~std::uint64_t(v));
+    }
+    std::string npy = to_npy("<i8", {162}, ids);
+    EXPECT_EQ(kept_labels("a.npy", npy), npy);
+    npy = to_npy("<u8", {162, 1}, unsigned_ids);
+    EXPECT_EQ(kept_labels("a.npy", npy), npy);
+    const std::string by_columns =
+        npy_header("<i8", {162, 2}, true) + npy.substr(npy.size() - 162 * 8) + std::string(162 * 8, '\x7f');
+    const std::string kept = kept_labels("a.npy", by_columns);
+    const std::string header = npy_header("<i8", {162, 2});
+    ASSERT_EQ(kept.size(), header.size() + 162 * 16);
+    for (std::size_t v = 0; v < 162; ++v) {
+        std::uint64_t row[2];
+        std::memcpy(row, kept.data() + header.size() + 16 * v, 16);
+        EXPECT_EQ(row[0], ~std::uint64_t(v));
+        EXPECT_EQ(row[1], 0x7f7f7f7f7f7f7f7fu);
+    }
+}
+
+TEST_F(Transfer, PolygonsOfAPlyFileHaveValues) {
+    // Two polygons, of four and of three corners, are three triangles.
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nproperty int part\nend_header\n"
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3 7\n3 1 4 2 8\n";
+    const TriangleMesh mesh = parse_mesh(ply, "a.ply");
+    ASSERT_EQ(mesh.face_count(), 3);
+    const ValueFile file = read_values(write("a.ply", ply), ValueKind::label, mesh, "a.ply");
+    ASSERT_EQ(file.tables.size(), 1u);
+    EXPECT_EQ(file.tables[0].place, Place::face);
+    EXPECT_EQ(file.tables[0].values, Eigen::Vector3d(7, 7, 8));
+    const ValueFile written =
+        read_values(write("b.ply", file.write(file.tables, mesh)), ValueKind::label, mesh, "a.ply");
+    EXPECT_EQ(written.tables[0].values, file.tables[0].values);
+}
+
 TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
     Correspondence map = identity(ball_);
     map.back[5] = {};
@@ -303,6 +395,14 @@ TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
     std::vector<int> truth(162, 7);
     truth[5] = 0;
     EXPECT_EQ(files.at("a.npy"), to_npy("<i4", {162}, truth));
+    request = {};
+    request.labels = {write("a.csv", by_turns("arm", "leg")),
+                      write("a.npy", to_npy("<i8", {162}, std::vector<std::int64_t>(162, 7)))};
+    const auto labels = carry(request, map);
+    EXPECT_THAT(labels.at("a.csv"), HasSubstr("arm\nleg\narm\nnan\narm"));
+    EXPECT_EQ(labels.at("a.npy"),
+              to_npy("<i8", {162}, std::vector<std::int64_t>(truth.begin(), truth.end())));
+    EXPECT_EQ(kept_labels("again.csv", labels.at("a.csv")), labels.at("a.csv"));
     request = {};
     request.points = {write("v.txt", "5\n")};
     map.there[5] = {};

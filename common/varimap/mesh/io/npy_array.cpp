@@ -87,20 +87,28 @@ NpyHeader read_header(std::string_view bytes, const std::string& path) {
     return header;
 }
 
+bool is_wide(std::string_view type) {
+    return type == "<i8" || type == "<u8";
+}
+
 }  // namespace
 
-NpyArray parse_npy(std::string_view bytes, const std::string& path) {
+NpyArray parse_npy(std::string_view bytes, const std::string& path, WideIntegers wide) {
     const NpyHeader header = read_header(bytes, path);
     const NumberType& type = types().find(header.type)->second;
     const auto available = (bytes.size() - header.bytes) / std::size_t(type.bytes);
     if (header.columns == 0 || available / std::size_t(header.columns) < std::size_t(header.rows))
         throw InputError(path + ": the file ends before its last number, or has no columns");
-    NpyArray array{header.type, header.flat, Eigen::MatrixXd(header.rows, header.columns)};
+    const bool halved = wide == WideIntegers::halved && is_wide(header.type);
+    const Eigen::Index parts = halved ? 2 : 1;
+    const NumberType& part = halved ? types().find("<u4")->second : type;
+    NpyArray array{header.type, header.flat, halved, Eigen::MatrixXd(header.rows, header.columns * parts)};
     for (Eigen::Index row = 0; row < header.rows; ++row)
         for (Eigen::Index column = 0; column < header.columns; ++column) {
             const auto at = header.column_major ? column * header.rows + row : row * header.columns + column;
-            array.values(row, column) =
-                type.read(bytes.data() + header.bytes + std::size_t(at) * std::size_t(type.bytes));
+            const char* number = bytes.data() + header.bytes + std::size_t(at) * std::size_t(type.bytes);
+            for (Eigen::Index p = 0; p < parts; ++p)
+                array.values(row, column * parts + p) = part.read(number + p * part.bytes);
         }
     return array;
 }
@@ -108,8 +116,8 @@ NpyArray parse_npy(std::string_view bytes, const std::string& path) {
 std::string to_npy(const NpyArray& array) {
     const Eigen::MatrixXd& values = array.values;
     std::vector<long long> shape{values.rows()};
-    if (!array.flat) shape.push_back(values.cols());
-    const NumberType& type = types().find(array.type)->second;
+    if (!array.flat) shape.push_back(array.halved ? values.cols() / 2 : values.cols());
+    const NumberType& type = types().find(array.halved ? "<u4" : array.type)->second;
     std::string bytes = npy_header(array.type, shape);
     for (Eigen::Index row = 0; row < values.rows(); ++row)
         for (Eigen::Index column = 0; column < values.cols(); ++column)

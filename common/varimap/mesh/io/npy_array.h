@@ -10,13 +10,18 @@ namespace varimap {
 struct NpyArray {
     std::string type;  ///< as NumPy says it: "<f8", "<i4"
     bool flat = false;
+    bool halved = false;  ///< two columns for each number: the low and the high half of a 64-bit integer
     Eigen::MatrixXd values;
 };
+
+/// What becomes of 64-bit integers, which doubles do not hold exactly.
+enum class WideIntegers : int { rounded, halved };
 
 bool is_npy(std::string_view bytes);
 /// Throws InputError, naming `path`, for more than two extents, types that are no real numbers, and files
 /// that end too early.
-NpyArray parse_npy(std::string_view bytes, const std::string& path);
+NpyArray parse_npy(std::string_view bytes, const std::string& path,
+                   WideIntegers wide = WideIntegers::rounded);
 /// The bytes of such a file, row by row.
 std::string to_npy(const NpyArray& array);
 

@@ -19,6 +19,7 @@ struct PlyColumn {
 /// The numbers of the vertices, positions among them, and of the faces. Lists are left out.
 struct PlyColumns {
     std::vector<PlyColumn> vertex, face;
+    std::vector<std::size_t> corners;  ///< how many each face has; empty where the file does not list them
 };
 /// Throws InputError naming the place in the file. `path` is for messages only.
 PlyColumns parse_ply_columns(std::string_view bytes, const std::string& path);

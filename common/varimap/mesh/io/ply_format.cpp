@@ -167,9 +167,13 @@ void read_vertices(Body& body, const Element& element, PolygonSoup& soup) {
         [&] { soup.points.push_back(point); });
 }
 
-/// Which property lists the vertices of a face or strip.
+/// Which property lists the vertices of a face or strip; -1: none.
+int corner_list(const Element& element) {
+    return std::max(element.find("vertex_indices"), element.find("vertex_index"));
+}
+
 int find_corners(const Body& body, const Element& element) {
-    const int list = std::max(element.find("vertex_indices"), element.find("vertex_index"));
+    const int list = corner_list(element);
     if (list < 0 || element.properties[list].count.bytes == 0)
         body.fail("the " + excerpt(element.name) + " have no list vertex_indices");
     return list;
@@ -225,10 +229,12 @@ void read_strips(Body& body, const Element& element, PolygonSoup& soup) {
         [] {});
 }
 
-/// The numbers of one element, a column for each property that is no list.
-std::vector<PlyColumn> read_columns(Body& body, const Element& element) {
+/// The numbers of one element, a column for each property that is no list, and how long its list of corners
+/// is each time.
+std::vector<PlyColumn> read_columns(Body& body, const Element& element, std::vector<std::size_t>& corners) {
     std::vector<PlyColumn> columns;
     std::vector<int> column_of;
+    const int list = corner_list(element);
     for (const Property& property : element.properties) {
         column_of.push_back(property.count.bytes > 0 ? -1 : int(columns.size()));
         if (property.count.bytes == 0) columns.push_back({property.name, property.type, {}});
@@ -238,6 +244,8 @@ std::vector<PlyColumn> read_columns(Body& body, const Element& element) {
         [&](std::size_t property, const std::vector<double>& values) {
             if (column_of[property] >= 0)
                 columns[std::size_t(column_of[property])].values.push_back(values[0]);
+            else if (int(property) == list)
+                corners.push_back(values.size());
         },
         [] {});
     return columns;
@@ -250,9 +258,10 @@ PlyColumns parse_ply_columns(std::string_view bytes, const std::string& path) {
     Body body(bytes.substr(header.bytes), header.format, path);
     PlyColumns columns;
     for (const Element& element : header.elements) {
-        std::vector<PlyColumn> found = read_columns(body, element);
+        std::vector<std::size_t> corners;
+        std::vector<PlyColumn> found = read_columns(body, element, corners);
         if (element.name == "vertex") columns.vertex = std::move(found);
-        if (element.name == "face") columns.face = std::move(found);
+        if (element.name == "face") columns.face = std::move(found), columns.corners = std::move(corners);
     }
     return columns;
 }
