@@ -16,6 +16,9 @@ namespace varimap {
 ///   within
 ///                     [1 / sqrt(B), sqrt(B)]
 ///   landmarks         distance of each landmark's image from its partner
+///   landmark_surroundings
+///                     of each landmark: distance, radius (definitions: quality.h), of the direction in which
+///                     the distance is more times the radius
 ///   landmark_weight   W of soft landmarks, 1 where they are pinned (cost.h); absent without landmarks
 ///   landmark_checks   per landmark: distance, energy_fall_percent, contradicted
 ///                     (definitions: landmark_check.h)
@@ -38,7 +41,8 @@ namespace varimap {
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-/// Warns where much is reversed or uncovered, so that a map that cannot be right does not pass as one.
+/// Warns where much is reversed or uncovered, and where pinned landmarks are not met or the map is elsewhere
+/// around them, so that a map that cannot be right does not pass as one.
 std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
 
 }  // namespace varimap

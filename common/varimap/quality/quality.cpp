@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {
@@ -155,6 +157,24 @@ RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, con
     return {weight > 0 ? sum / weight : 0, weighted_quantile(distances, used, 0.95)};
 }
 
+namespace {
+
+/// Those that share a face with a corner which the point lies at, but those corners; ascending.
+std::vector<int> vertices_around(const SurfacePoint& point, const TriangleMesh& mesh,
+                                 const Adjacency& faces_of_vertex) {
+    std::vector<int> at, around;
+    for (int k = 0; k < 3; ++k)
+        if (point.barycentric[k] > 0) at.push_back(mesh.faces(point.face, k));
+    for (const int v : at)
+        for (const int f : faces_of_vertex[v])
+            for (int k = 0; k < 3; ++k) around.push_back(mesh.faces(f, k));
+    make_set(around);
+    std::erase_if(around, [&](int v) { return std::find(at.begin(), at.end(), v) != at.end(); });
+    return around;
+}
+
+}  // namespace
+
 std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks,
                                        const TriangleMesh& source, const TriangleMesh& target) {
     const double length = std::sqrt(surface_area(target));
@@ -169,6 +189,31 @@ std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& la
         residuals.push_back((image - position(target, to)).norm() / length);
     }
     return residuals;
+}
+
+std::vector<LandmarkSurroundings> landmark_surroundings(const PointMap& map, const PointPairs& landmarks,
+                                                        const TriangleMesh& source,
+                                                        const TriangleMesh& target) {
+    const double length_there = std::sqrt(surface_area(target)), length = std::sqrt(surface_area(source));
+    const Adjacency faces_of_vertex = vertex_faces(source);
+    std::vector<LandmarkSurroundings> result;
+    for (const auto& [from, to] : landmarks) {
+        Vec3 mean = Vec3::Zero();
+        double radius = 0;
+        int count = 0;
+        for (const int v : vertices_around(from, source, faces_of_vertex)) {
+            if (map[v].face < 0) continue;
+            mean += position(target, map[v]);
+            radius += (source.vertex(v) - position(source, from)).norm();
+            ++count;
+        }
+        if (count == 0)
+            result.emplace_back();
+        else
+            result.push_back(
+                {(mean / count - position(target, to)).norm() / length_there, radius / count / length});
+    }
+    return result;
 }
 
 }  // namespace varimap

@@ -87,4 +87,17 @@ RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, con
 std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks,
                                        const TriangleMesh& source, const TriangleMesh& target);
 
+/// Whether a map agrees around a landmark with what it does at it. A landmark that is pinned is met exactly,
+/// but the map may be elsewhere all around it: then it ends in a spike there.
+struct LandmarkSurroundings {
+    /// From where they are taken, in the mean, to the landmark's partner; units of sqrt(area of the target).
+    double distance = 0;
+    double radius = 0;  ///< their mean distance from the landmark, in units of sqrt(area of the source)
+};
+/// The surroundings of a landmark are the vertices that share a face with a corner which it lies at, but
+/// those corners; distances are in space.
+std::vector<LandmarkSurroundings> landmark_surroundings(const PointMap& map, const PointPairs& landmarks,
+                                                        const TriangleMesh& source,
+                                                        const TriangleMesh& target);
+
 }  // namespace varimap

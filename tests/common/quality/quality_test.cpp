@@ -203,5 +203,28 @@ TEST(LandmarkResiduals, AreDistancesBySquareRootOfArea) {
     EXPECT_NEAR(residuals[1], 1, 1e-12);
 }
 
+TEST(LandmarkSurroundings, TellWhereTheMapIsElsewhereAllAroundALandmark) {
+    const TriangleMesh mesh = rectangle(2, 3, 3);
+    const int v = 4;  // in the middle
+    const auto around = [&](const PointMap& map, const SurfacePoint& from, const SurfacePoint& to) {
+        return landmark_surroundings(map, {{from, to}}, mesh, mesh)[0];
+    };
+    const PointMap same = at_vertices(mesh);
+    const SurfacePoint middle = point_at_vertex(mesh, v), corner = point_at_vertex(mesh, 0);
+    const auto right = around(same, middle, middle);
+    EXPECT_LT(right.distance, right.radius);
+    PointMap spike = same;
+    spike[v] = corner;
+    const auto wrong = around(spike, middle, corner);
+    EXPECT_NEAR(wrong.radius, right.radius, 1e-12);
+    EXPECT_GT(wrong.distance, right.distance + 0.3);
+    // Within a face, whose corners are taken along, its surroundings are the vertices beyond them.
+    const SurfacePoint inside{0, Vec3::Constant(1. / 3)};
+    EXPECT_GT(around(same, inside, inside).radius, 0);
+    PointMap nowhere = same;
+    for (SurfacePoint& point : nowhere) point.face = -1;
+    EXPECT_EQ(around(nowhere, middle, middle).radius, 0);
+}
+
 }  // namespace
 }  // namespace varimap
