@@ -30,12 +30,6 @@ struct TransferParams {
     }
 };
 
-/// A mesh that changed since the map was made is another mesh. An empty hash is not asked about.
-void require_unchanged(const std::string& path, const std::string& hash) {
-    if (!hash.empty() && file_hash(path) != hash)
-        throw ArtifactError(path + ": changed since the map was made; run varimap map again");
-}
-
 void write_results(Stage& stage, const std::string& folder, const NamedFiles& files,
                    const std::vector<std::string>& inputs) {
     std::error_code failure;

@@ -26,9 +26,10 @@ std::vector<std::string> names_of(const std::string& file, std::size_t count) {
     return names;
 }
 
-NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const Correspondence& map) {
+NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const Correspondence& map,
+                                    LandmarkSpace space) {
     NamedLandmarks result;
-    const Landmarks landmarks = read_landmarks(files, map.from, map.to);
+    const Landmarks landmarks = read_landmarks(files, map.from, map.to, space);
     result.points = landmarks.points;
     if (result.points.empty())
         for (const auto& [source, target] : landmarks.vertices)
@@ -39,10 +40,11 @@ NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const
 }
 
 /// Landmarks that went into the map, with their names; none where their files have changed beyond use.
-NamedLandmarks landmarks_of(const std::vector<std::string>& files, const Correspondence& map) {
+NamedLandmarks landmarks_of(const std::vector<std::string>& files, const Correspondence& map,
+                            LandmarkSpace space) {
     if (files.empty()) return {};
     try {
-        return read_named_landmarks(files, map);
+        return read_named_landmarks(files, map, space);
     } catch (const InputError& error) {
         warn("{}; the page shows no landmarks", error.what());
         return {};
@@ -85,7 +87,12 @@ std::vector<PageCandidate> candidates_of(const Candidates& candidates, const Cor
 }  // namespace
 
 int main(int argc, char** argv) {
+    LandmarkSpace landmark_space = LandmarkSpace::stated;
     Stage stage("view", "A page that shows a map, for any browser, without network");
+    stage.parameters([&](ParameterList& list) {
+        list.add("landmark_space", landmark_space,
+                 "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
+    });
     const auto& source = stage.input("source-mesh", "mesh the map starts from");
     const auto& target = stage.input("target-mesh", "mesh the map leads to");
     const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
@@ -100,10 +107,14 @@ int main(int argc, char** argv) {
     const auto& candidates_in = stage.input_option(
         "candidates", "of varimap-explore: where its choice was not sure, the page shows the first three");
     const auto& mirror = stage.flag("mirror", "the map reverses orientation on purpose");
+    const auto& source_hash = stage.option("source-hash", "content hash that the source's mesh must have");
+    const auto& target_hash = stage.option("target-hash", "content hash that the target's mesh must have");
     return stage.main(argc, argv, [&] {
+        require_unchanged(source, source_hash);
+        require_unchanged(target, target_hash);
         const MapFiles files{source, target, there, back};
         const Correspondence map = read_correspondence(files, false);
-        PageContent content{map, landmarks_of(landmarks, map), read_report(report), mirror};
+        PageContent content{map, landmarks_of(landmarks, map, landmark_space), read_report(report), mirror};
         content.texture = texture_of(texture, map);
         if (!candidates_in.empty())
             content.candidates =

@@ -167,6 +167,19 @@ while read -r kind job _ _ byte; do
 done <planned/batch/pending
 expect_exit 2 "$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/planned" pair a--b
 
+# Lists of pairs and of surfaces find the landmarks too; those that a list names go before them.
+landmarks_in() { cut -f 4,5 planned/batch/pairs.tsv | sed 's|[^\t]*/||g' | tr '\t\n' '  '; }
+expect_landmarks() {  # EXPECTED ARGUMENTS
+    "$varimap" batch "${@:2}" -o planned --landmarks-from points --plan >out.txt 2>log || fail "--plan ${*:2} with landmarks"
+    [[ $(landmarks_in) == "$1 " ]] || fail "landmarks of ${*:2}: $(landmarks_in)"
+}
+printf 'source,target,landmarks\nmeshes/a.off,meshes/c.off,\nmeshes/c.off,meshes/a.off,tips.txt\nmeshes/a.off,meshes/b.off,\n' >some.csv
+expect_landmarks "a.txt c.txt tips.txt - - -" some.csv
+grep -q 'no landmarks for 1 of 3 surfaces (b)' log || fail "which surface of a list has no landmarks is not said"
+printf 'mesh,landmarks\nmeshes/a.off,\nmeshes/b.off,three.txt\nmeshes/c.off,\n' >surfaces.csv
+expect_landmarks "a.txt three.txt a.txt c.txt three.txt c.txt" surfaces.csv
+expect_landmarks "three.txt a.txt three.txt c.txt" --star meshes/b.off surfaces.csv
+
 # Ended by an interrupt: all that it started ends with it, and it says so.
 setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &
 session=$!

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What the documentation names is there: linked files, functions in the files said to hold them, parameters of stages.
+# What the documentation names is there: linked files, functions in the files said to hold them, parameters of stages; and the
+# commands that are to make the map by hand make it.
 # shellcheck disable=SC2016  # backquotes are those of Markdown
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
@@ -58,8 +59,29 @@ every_stage_has_a_page() {
     done
 }
 
+# In a folder as the page has it, with small surfaces.
+commands_of_stages_make_the_map() {
+    local file
+    mkdir -p "$work"/{build/demo,pipelines}
+    cd "$work"
+    ln -s "$VARIMAP_BIN" build/bin
+    figure build/demo/bull.off 17
+    figure build/demo/cow.off 17 .5
+    landmarks_of_figure build/demo/bull.off >pipelines/bull--cow.landmarks.txt
+    sed -n '/^```$/,/^```$/p; /^cd [.][.]$/q' "$VARIMAP_SOURCE/pipelines/help/stages.md" | grep -v '^```' >commands
+    bash -euo pipefail commands >out.txt 2>log || fail "the commands of pipelines/help/stages.md"
+    "$varimap" map build/demo/bull.off build/demo/cow.off -o out --landmarks pipelines/bull--cow.landmarks.txt >out.txt 2>log ||
+        fail "varimap map (exit $?)"
+    # The same files, none more and none less, beside one another by hand.
+    cp out/*.{csv,ply,png} out/artifacts
+    for file in $(artifacts out/artifacts) out/artifacts/*.{csv,ply,png}; do same "$file" "out-hand/${file##*/}"; done
+    [[ $(artifacts out-hand | wc -l) == $(artifacts out/artifacts | wc -l) ]] || fail "pipelines/help/stages.md makes more than make"
+    cd "$VARIMAP_SOURCE"
+}
+
 links_lead_somewhere
 names_are_in_their_files
 parameters_exist
 every_stage_has_a_page
+commands_of_stages_make_the_map
 (($(wc -l <README.md) <= 250)) || { echo "README.md has more than 250 lines" >&2; exit 1; }

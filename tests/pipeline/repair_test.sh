@@ -34,6 +34,15 @@ awk 'NR == FNR { if (!($1 in first)) first[$1] = FNR - 1; next } { print first[$
 
 expect_exit 3 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair none
 expect_exit 2 "$varimap" map a-spoiled.off b-spoiled.off -o refused --repair everything
+# A list of repairs reaches every stage that reads a mesh, also of plain make.
+map a.off b.off -o listed --landmarks tips.txt --repair weld,faces "${coarse[@]}"
+map a.off b.off -o listed --mirror --repair=weld,faces --until preprocess
+make -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=a.off TARGET=b.off OUT=made PREPROCESS_FLAGS="--repair weld,faces" MIRROR=yes \
+    until-preprocess >out.txt 2>log || fail "make with a list of repairs (exit $?)"
+for surface in {listed,made}/artifacts/{a.mirrored:true,b:false}; do
+    grep -q "mirror=${surface#*:} repair=weld,faces " <<<"$("$VARIMAP_BIN/varimap-inspect" "${surface%:*}.surface" 2>log)" ||
+        fail "the repairs that were asked for are not those of ${surface%:*}"
+done
 map a-spoiled.off b-spoiled.off -o part --until preprocess
 grep -q 'warning  preprocess a-spoiled: repaired: ' out.txt || fail "what was repaired is not said before the end"
 map a-spoiled.off b-spoiled.off -o part-elsewhere --artifacts elsewhere --until preprocess

@@ -22,8 +22,49 @@ grep -q 'id="arrays"' page.html || fail "no arrays"
 expect_exit 3 "$VARIMAP_BIN/varimap-view" a.off b.off good/{source_to_target,target_to_source}.csv empty.html none.html
 [[ ! -e none.html ]] || fail "half a page"
 
+# Meshes other than the map was made of are refused.
+hash=$(jq -r .provenance.source.hash good/quality.json)
+"$VARIMAP_BIN/varimap-view" a.off b.off good/{source_to_target,target_to_source}.csv frame.html page.html --source-hash "$hash" \
+    >out.txt 2>log || fail "view of the mesh that was mapped (exit $?)"
+expect_exit 4 "$VARIMAP_BIN/varimap-view" a.off b.off good/{source_to_target,target_to_source}.csv frame.html none.html --target-hash "$hash"
+[[ ! -e none.html ]] || fail "a page of another mesh"
+
+# Points whose file states other axes than they are in.
+picked() {  # FILE OF A MESH: five of its vertices
+    echo '# CoordinateSystem = RAS'
+    landmarks_of_figure "$1" | awk 'NR == FNR { at[$1] = FNR; next } FNR - 3 in at { print at[FNR - 3] "," $1 "," $2 "," $3 ",0,0,0,1,1,1,0,tip" at[FNR - 3] ",," }' - "$1"
+}
+picked a.off >a.fcsv
+picked b.off >b.fcsv
+spaced_page() {  # OPTION...
+    "$VARIMAP_BIN/varimap-view" a.off b.off good/{source_to_target,target_to_source}.csv frame.html page.html --landmarks a.fcsv b.fcsv \
+        "$@" >out.txt 2>log || fail "view --landmarks $* (exit $?)"
+}
+spaced_page
+grep -q 'page shows no landmarks' log || fail "landmarks in other axes are shown"
+spaced_page --landmark_space as-is
+grep -q 'tip3' page.html || fail "landmarks are not shown in the axes that were said"
+
 frame=$VARIMAP_BIN/../view/frame.html
 [[ -s $frame ]] || { echo "skipped the browser: build $frame with pipelines/view/build"; exit 0; }
+# The front end tells the page what the map was made of, and in which axes.
+printf '[diffuse]\nlandmark_space = "as-is"\n[explore]\nlandmark_space = "as-is"\n[render]\nlandmark_space = "as-is"\n' >as-is.toml
+for how in --landmark-space=as-is --config=as-is.toml; do
+    map a.off b.off -o spaced --landmarks a.fcsv b.fcsv "$how"
+    "$varimap" view spaced >out.txt 2>log || fail "view of a map made with $how (exit $?)"
+    grep -q 'tip3' spaced/view.html || fail "no landmarks on the page of a map made with $how"
+done
+rm -r spaced/artifacts
+"$varimap" view spaced --landmark_space as-is >out.txt 2>log || fail "view --landmark_space (exit $?)"
+grep -q 'tip3' spaced/view.html || fail "axes that are said are not heeded"
+expect_exit 2 "$varimap" view spaced --landmark-space
+cp a.off kept.off
+awk 'NR == 2 { n = $1 } NR == 3 { first = $0; next } { print } NR == n + 2 { print first }' kept.off >a.off
+expect_exit 4 "$varimap" view spaced
+grep -q 'a.off: changed since the map was made; run varimap map again' log || fail "a changed mesh is not named"
+mv kept.off a.off
+"$varimap" view spaced >out.txt 2>log || fail "view of the mesh as it was (exit $?)"
+
 for tool in node chromium; do
     command -v $tool >/dev/null || { echo "skipped the browser: $tool is missing"; exit 0; }
 done

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
@@ -26,6 +29,7 @@ constexpr double rounding = 1e-4;  ///< of coordinates in a list, relative to th
 struct Row {
     int line;
     std::vector<double> numbers;
+    std::string name = {};  ///< of a line with commas, where it holds one
 };
 
 constexpr int no_vertex = -1;  ///< of a point that is not defined
@@ -37,23 +41,83 @@ struct Named {
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
 
-std::vector<double> numbers_of(const TextScanner& scanner) {
+bool is_number(std::string_view word) {
+    double ignored;
+    return to_number(word, ignored);
+}
+
+bool has_commas(const TextScanner& scanner) {
+    return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
+}
+
+/// What stands between the commas of a line, without blanks and quotes around it.
+std::vector<std::string> split_at_commas(const TextScanner& scanner) {
+    const std::string line = fmt::format("{}", fmt::join(scanner.words(), " "));
+    std::vector<std::string> fields;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        std::string_view field = std::string_view(line).substr(begin, end - begin);
+        while (field.starts_with(' ')) field.remove_prefix(1);
+        while (field.ends_with(' ')) field.remove_suffix(1);
+        if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+            field = field.substr(1, field.size() - 2);
+        fields.emplace_back(field);
+        begin = end + 1;
+    }
+    return fields;
+}
+
+/// Whether a column of that heading names landmarks, though they may be called 1, 2, 3. Tables are often
+/// written with a first column of row numbers that has no heading.
+bool is_heading_of_names(std::string heading) {
+    std::ranges::transform(heading, heading.begin(), [](unsigned char c) { return std::tolower(c); });
+    constexpr std::array headings{"", "name", "label", "id", "landmark", "point"};
+    return std::ranges::find(headings, heading) != headings.end();
+}
+
+std::vector<double> numbers_of(std::span<const std::string> fields, const TextScanner& scanner) {
     std::vector<double> numbers;
-    for (const auto word : scanner.words()) {
+    for (const std::string& field : fields) {
         double number;
-        if (!to_number(word, number) || !std::isfinite(number))
-            scanner.fail(fmt::format("'{}' is not a number", excerpt(word)));
+        if (!to_number(field, number) || !std::isfinite(number))
+            scanner.fail(fmt::format("'{}' is not a number", excerpt(field)));
         numbers.push_back(number);
     }
     return numbers;
 }
 
-/// The lines that hold something.
+/// A line with commas, whose first or last field may be a name.
+Row row_with_commas(std::span<const std::string> fields, bool first_is_name, const TextScanner& scanner) {
+    Row row{scanner.line(), {}};
+    if (first_is_name || !is_number(fields.front())) {
+        row.name = fields.front();
+        fields = fields.subspan(1);
+    } else if (!is_number(fields.back())) {
+        row.name = fields.back();
+        fields = fields.first(fields.size() - 1);
+    }
+    row.numbers = numbers_of(fields, scanner);
+    return row;
+}
+
+/// The lines that hold something, without the headings of a table.
 std::vector<Row> read_rows(const std::string& path) {
     const std::string bytes = read_file(path);
     TextScanner scanner(without_byte_order_mark(bytes, path), path);
     std::vector<Row> rows;
-    while (scanner.next_line()) rows.push_back({scanner.line(), numbers_of(scanner)});
+    bool first_is_name = false;
+    for (bool first = true; scanner.next_line(); first = false) {
+        if (!has_commas(scanner)) {
+            const std::vector<std::string> words(scanner.words().begin(), scanner.words().end());
+            rows.push_back({scanner.line(), numbers_of(words, scanner)});
+            continue;
+        }
+        const std::vector<std::string> fields = split_at_commas(scanner);
+        if (first && std::ranges::none_of(fields, is_number))
+            first_is_name = is_heading_of_names(fields.front());
+        else
+            rows.push_back(row_with_commas(fields, first_is_name, scanner));
+    }
     if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
     return rows;
 }
@@ -142,7 +206,7 @@ std::vector<Named> read_list(const std::string& path, IndexBase base, const Tria
     const auto rows = read_rows(path, 1, 4, "a vertex number, alone or followed by x y z");
     const int first = first_number(rows, base, mesh, path);
     std::vector<Named> list;
-    for (const Row& row : rows) list.push_back({row.line, to_vertex(row, 0, first, path, mesh)});
+    for (const Row& row : rows) list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name});
     return list;
 }
 
@@ -150,7 +214,7 @@ std::vector<Named> read_list(const std::string& path, IndexBase base, const Tria
 std::vector<Named> read_column(const std::string& path, size_t column, const TriangleMesh* mesh) {
     std::vector<Named> list;
     for (const Row& row : read_rows(path, 2, 2, "two vertex numbers, of the source and of the target"))
-        list.push_back({row.line, to_vertex(row, column, 0, path, mesh)});
+        list.push_back({row.line, to_vertex(row, column, 0, path, mesh), row.name});
     return list;
 }
 
@@ -210,7 +274,7 @@ std::vector<PickedPoint> points_of_rows(const std::vector<Row>& rows, size_t fir
     std::vector<PickedPoint> points;
     for (const Row& row : rows) {
         const double* x = row.numbers.data() + first_number;
-        points.push_back({row.line, "", {x[0], x[1], x[2]}});
+        points.push_back({row.line, row.name, {x[0], x[1], x[2]}});
     }
     return points;
 }
@@ -223,7 +287,8 @@ std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh, 
         require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
         return snapped_list(points_of_rows(rows, 0), path, mesh, space);
     }
-    return read_list(path, has_ending(path, ".vts") ? IndexBase::automatic : IndexBase::zero, &mesh);
+    const bool may_start_at_1 = has_ending(path, ".vts") || has_ending(path, ".csv");
+    return read_list(path, may_start_at_1 ? IndexBase::automatic : IndexBase::zero, &mesh);
 }
 
 /// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).

@@ -10,10 +10,12 @@
 
 namespace varimap {
 
-/// Reads a list of vertices (.vts, .pinned, plain): a line is a vertex number, which x y z may follow; `#`
-/// starts a comment. Automatic base: where the lines carry coordinates, those of the mesh decide; else 0.
-/// Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where
-/// it is given. Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
+/// Reads a list of vertices (.vts, .pinned, .csv, plain): a line is a vertex number, which x y z may follow;
+/// `#` starts a comment. Here as in all lists, a line may be split by commas instead of blanks; then its
+/// first or last field may be a name, and the first line may hold headings. Automatic base: where the lines
+/// carry coordinates, those of the mesh decide; else 0. Returns 0-based numbers, in the file's order. Numbers
+/// are checked against `mesh` where it is given. Throws IoError; InputError naming file and line (malformed,
+/// out of range) or an empty file.
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
 
 /// Whether a file holds points of one surface rather than numbers of vertices: picked points, or x y z in the
@@ -27,13 +29,14 @@ struct Landmarks {
 };
 
 /// Landmarks from one file of pairs, or from two lists matched row by row (in
-/// a .vts, coordinates decide whether numbers start at 0; in any other list they do). Instead of vertices a
-/// file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of picked
-/// points (landmark_points.h; matched by name where all have distinct ones). A point stands for the vertex
-/// nearest to where it lies on the surface where vertices are needed; its distance is logged. Points that are
-/// switched off or not defined are left out with their partners. Throws InputError also where most points lie
-/// far from the surface, naming the likely cause, for a different number of rows, a vertex that two rows name
-/// or that no face uses; UsageError for any other number of files.
+/// a .vts or .csv, coordinates decide whether numbers start at 0; in any other list they do). Instead of
+/// vertices a file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of
+/// picked points (landmark_points.h). Lists are matched by name where all rows of both have distinct ones. A
+/// point stands for the vertex nearest to where it lies on the surface where vertices are needed; its
+/// distance is logged. Points that are switched off or not defined are left out with their partners. Throws
+/// InputError also where most points lie far from the surface, naming the likely cause, for a different
+/// number of rows, a vertex that two rows name or that no face uses; UsageError for any other number of
+/// files.
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
                          const TriangleMesh& target_input, LandmarkSpace space = LandmarkSpace::stated);
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/surface_map.h"
@@ -46,6 +47,11 @@ TriangleMesh read_finite_mesh(const std::string& path, UnplacedFaces unplaced) {
 }
 
 }  // namespace
+
+void require_unchanged(const std::string& path, const std::string& hash) {
+    if (!hash.empty() && file_hash(path) != hash)
+        throw ArtifactError(path + ": changed since the map was made; run varimap map again");
+}
 
 Correspondence read_correspondence(const MapFiles& files, bool reverse, UnplacedFaces unplaced) {
     Correspondence map{files.source,

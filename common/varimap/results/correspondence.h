@@ -20,6 +20,10 @@ struct MapFiles {
     std::string source, target, source_to_target, target_to_source;
 };
 
+/// Throws ArtifactError where a mesh is no longer the one whose content had that hash (file_hash): vertices
+/// and faces of a map would be other places. An empty hash is not asked about.
+void require_unchanged(const std::string& path, const std::string& hash);
+
 /// What to do with faces that have a corner which is not finite; maps leave them out.
 enum class UnplacedFaces { refuse, collapse };
 

@@ -157,6 +157,44 @@ TEST_F(VertexList, KeepsWherePointsWerePicked) {
               1u);
 }
 
+TEST_F(VertexList, ReadsCommasWhereBlanksAreRead) {
+    const auto expected = are({{4, 7}, {2, 0}});
+    const auto vertices_of = [&](const std::string& source, const std::string& target) {
+        return read_landmarks({write("a.csv", source), write("b.csv", target)}, mesh_, mesh_).vertices;
+    };
+    const std::string points = "2,0,.4\r\n1,0,.2\r\n", partners = "3, 1, 0.7\n0, 0, 0\n";
+    EXPECT_THAT(vertices_of(points, partners), expected);
+    EXPECT_THAT(vertices_of("x,y,z\n" + points, "X, Y, Z\n" + partners), expected);
+    // Names, first or last, match in any order.
+    EXPECT_THAT(
+        vertices_of("name,x,y,z\n\"left ear\",2,0,.4\nnose,1,0,.2\n", "0,0,0,nose\n3,1,.7,left ear\n"),
+        expected);
+    EXPECT_THAT(vertices_of("id,x,y,z\n1,2,0,.4\n2,1,0,.2\n", ",x,y,z\n2,0,0,0\n1,3,1,.7\n"), expected);
+    EXPECT_THAT(vertices_of("ear,4\nnose,2\n", "nose,0\near,7\n"), expected);
+    EXPECT_THAT(read_landmarks({write("p.csv", "source,target\n4,7\n2,0\n")}, mesh_, mesh_).vertices,
+                expected);
+    EXPECT_THAT(read_landmarks({write("p.csv", "2,0,.4,3,1,.7\n1,0,.2,0,0,0\n")}, mesh_, mesh_).vertices,
+                expected);
+    // Vertex numbers from 1 with their coordinates.
+    EXPECT_THAT(vertices_of("vertex,x,y,z\n5,2,0,.4\n3,1,0,.2\n", partners), expected);
+    EXPECT_TRUE(holds_points(write("h.csv", "name,x,y,z\n1,2,0,.4\n")));
+    EXPECT_THAT(read_vertex_list(write("v.csv", "vertex,x,y,z\n5,2,0,.4\n"), IndexBase::automatic, &mesh_),
+                ElementsAre(4));
+}
+
+TEST_F(VertexList, RefusesCommasThatDoNotSeparateNumbers) {
+    const auto targets = write("b.txt", "7\n0\n");
+    const std::pair<const char*, const char*> cases[] = {
+        {"2,0,.4\n1,zero,.2\n", "bad.csv:2: 'zero' is not a number"},
+        {"2,0,.4\n1,,.2\n", "bad.csv:2: '' is not a number"},
+        {"2,0,.4\n1,0\n", "bad.csv:2: expected the three"},
+        {"2,0,.4\nx,y,z\n", "bad.csv:2: 'y' is not a number"},
+        {"0,5 1,2 3,4\n", "bad.csv:1: '5 1' is not a number"},
+        {"x,y,z\n", "bad.csv: holds no vertex numbers"}};
+    for (const auto& [text, message] : cases)
+        EXPECT_THAT(error_of({write("bad.csv", text), targets}), HasSubstr(message)) << text;
+}
+
 TEST_F(VertexList, SaysWhereRowsHaveOtherNames) {
     const auto list = [&](const char* file, const char* a, const char* b, const char* c) {
         return write(file, fmt::format(R"({{"markups": [{{"type": "Fiducial", "controlPoints": [
