@@ -99,6 +99,7 @@ struct Registration {
     NamedLandmarks landmarks;
     std::vector<std::string> names;
     std::vector<Points> points;
+    std::vector<Space> spaces;  ///< what the specimens' files say of their axes
     std::vector<TransferredLandmarks> transferred;
 };
 
@@ -157,6 +158,7 @@ Registration read_registration(const std::string& path) {
             log("{}: {} answers", text_of(specimen, "name"), answers.size());
             result.names.push_back(text_of(specimen, "name"));
             result.points.push_back(corresponding_points(answers));
+            result.spaces.push_back(answers.front().map.to.space);
             if (!landmarks.empty()) result.transferred.push_back(transfer_landmarks(answers, on_templates));
         }
     } catch (const nlohmann::json::exception& error) {
@@ -245,10 +247,10 @@ void write_points(const Folder& folder, const Registration& all, const Common& c
     folder.write("points.npy", array_of(all.points));
     for (std::size_t i = 0; i < all.names.size(); ++i) {
         folder.write("specimens/" + all.names[i] + ".csv", points_csv(all.points[i]));
-        folder.write(
-            "specimens/" + all.names[i] + ".ply",
-            to_ply({on_template(common, common.of(all.points[i]), all.first.vertex_count()), common.faces},
-                   PlyFormat::ascii));
+        folder.write("specimens/" + all.names[i] + ".ply",
+                     to_ply({on_template(common, common.of(all.points[i]), all.first.vertex_count()),
+                             common.faces, all.spaces[i]},
+                            PlyFormat::ascii));
     }
 }
 
@@ -261,7 +263,7 @@ void write_shapes(const Folder& folder, const Registration& all, const Common& c
     const Components components = principal_components(alignment, common.weights, params.components);
     const std::vector<bool> odd = outliers(alignment.distances);
     const auto mesh = [&](const Points& points) {
-        return to_ply({on_template(common, points, all.first.vertex_count()), common.faces},
+        return to_ply({on_template(common, points, all.first.vertex_count()), common.faces, all.first.space},
                       PlyFormat::ascii);
     };
     std::vector<Points> aligned;

@@ -43,7 +43,8 @@ TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surf
     const TriangleMesh file = mesh_of_file(source);
     Faces faces = faces_with_images(file.faces, map);
     if (source.mirrored != target.mirrored) faces.col(1).swap(faces.col(2));
-    return {image_positions(map, mesh_of_file(target), fallback_positions(file, source, target)), faces};
+    return {image_positions(map, mesh_of_file(target), fallback_positions(file, source, target)), faces,
+            target.input.space};
 }
 
 PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup& polygons,
@@ -51,6 +52,7 @@ PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup
     if (triangulated(polygons) != mesh_of_file(source).faces)
         throw InputError("the polygons are not those of the mesh that the surface was made from");
     PolygonSoup result;
+    result.space = moved.space;
     for (const auto vertex : moved.vertices.rowwise()) result.points.push_back(vertex.transpose());
     std::vector<long long> corners;
     const auto add = [&] {

@@ -116,7 +116,8 @@ void Transfer::add_shape(const std::string& path) {
     require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
     const Points moved = carry_shape(map_, shape.vertices);
     if (has_ending(map_.to_file, ".obj"))
-        add(stem_of(path) + ".obj", with_vertices(read_file(map_.to_file), moved, "", map_.to_file));
+        add(stem_of(path) + ".obj",
+            with_vertices(read_file(map_.to_file), moved, map_.to.space, "", map_.to_file));
     else
         add(stem_of(path) + ".ply", to_ply({moved, map_.to.faces, map_.to.space}));
 }
@@ -131,7 +132,8 @@ void Transfer::add_mesh(const std::string& path) {
     const ObjModel model = parse_obj_model(bytes, path);
     const bool painted = !model.libraries.empty();
     if (painted) add_materials(read_materials(model, path), name);
-    add(name + ".obj", with_vertices(bytes, carried_vertices(map_), painted ? name + ".mtl" : "", path));
+    add(name + ".obj",
+        with_vertices(bytes, carried_vertices(map_), map_.to.space, painted ? name + ".mtl" : "", path));
 }
 
 void Transfer::add_texture(const std::string& path) {

@@ -83,7 +83,7 @@ std::vector<Target> transfer_targets() {
                        {"f 1/1 2/2 3/-1", "vt 0 nan", "usemtl", "mtllib ", "\\\n"},
                        [](const std::string& bytes) {
                            parse_obj_model(bytes, "a.obj");
-                           with_vertices(bytes, fixture().map.to.vertices, "b.mtl", "a.obj");
+                           with_vertices(bytes, fixture().map.to.vertices, Space::ras, "b.mtl", "a.obj");
                        }};
     return {
         values("npy_values", ".npy", {npy}, {"'<i4'", "True", "(12,)", "(0, 0)", "'shape': "}),

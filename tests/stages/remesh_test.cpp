@@ -30,8 +30,11 @@ class Remesh : public ::testing::Test {
 };
 
 TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
+    pair_.A.input.space = Space::lps;
+    pair_.B.input.space = Space::ras;
     const TriangleMesh moved = cross_remesh(pair_.as_planned().A_to_B, pair_.A, pair_.B);
     EXPECT_EQ(moved.faces, pair_.A.input.faces);
+    EXPECT_EQ(moved.space, Space::ras) << "it lies where the target lies";
     EXPECT_LT((moved.vertices - pair_.B.input.vertices).norm(), 1e-12)
         << "the spare vertex keeps its relative place";
 }

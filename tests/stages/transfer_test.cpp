@@ -641,7 +641,7 @@ TEST_F(Transfer, CarriesAShapeInTheFramesOfAnotherPose) {
 }
 
 TEST_F(Transfer, CarriesTheSourcesPolygons) {
-    std::string obj = "mtllib none.mtl\n";
+    std::string obj = "# SPACE=LPS\nmtllib none.mtl\n";
     for (const auto p : ball_.vertices.rowwise())
         obj += fmt::format("v {} {} {} .5 .5 .5\n", p[0], p[1], p[2]);
     obj += "vn 0 0 1\nvt 0 0\ng head\n";
@@ -650,7 +650,8 @@ TEST_F(Transfer, CarriesTheSourcesPolygons) {
     write("none.mtl", "newmtl a\n");
     TransferRequest request;
     request.mesh = write("quads.obj", obj);
-    const Correspondence map = moved_copy(ball_);
+    Correspondence map = moved_copy(ball_);
+    map.to.space = Space::ras;
     const auto files = carry(request, map);
     const std::string& text = files.at("source_on_target.obj");
     EXPECT_THAT(text, HasSubstr("g head"));
@@ -658,6 +659,7 @@ TEST_F(Transfer, CarriesTheSourcesPolygons) {
     EXPECT_EQ(text.find("/1/1"), std::string::npos);
     const TriangleMesh mesh = parse_mesh(text, "a.obj");
     EXPECT_EQ(mesh.faces, ball_.faces);
+    EXPECT_EQ(mesh.space, Space::ras);
     const Points truth = shapes::moved(ball_, 3, 1.2, {1, -2, 3}).vertices;
     EXPECT_LT((mesh.vertices - truth).rowwise().norm().maxCoeff(), 1e-9);
 }

@@ -12,12 +12,14 @@
 #include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/obj_model.h"
 
 namespace varimap {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class MeshFile : public ::testing::Test {
   protected:
@@ -267,6 +269,24 @@ TEST_F(MeshFile, AxesThatSlicerStates) {
     EXPECT_EQ(read("e.stl", stl).space, Space::ras);
 }
 
+TEST_F(MeshFile, WritesTheAxesThatAreStated) {
+    TriangleMesh mesh = square_mesh();
+    for (const Space space : {Space::lps, Space::ras, Space::unstated})
+        for (const PlyFormat format : {PlyFormat::binary, PlyFormat::ascii}) {
+            mesh.space = space;
+            EXPECT_EQ(read("a.ply", to_ply(mesh, format)).space, space);
+            expect_equal(read("a.ply", to_ply(mesh, format)), mesh);
+            const std::string obj = to_obj({mesh, parse_obj_model(square_obj, "a.obj")}, "a.mtl");
+            EXPECT_EQ(read("a.obj", obj).space, space);
+        }
+    for (const char* stated : {"", "# 3D Slicer output. SPACE=RAS\n"}) {
+        const std::string obj =
+            with_vertices(std::string(stated) + square_obj, mesh.vertices, Space::lps, "a.mtl", "a.obj");
+        EXPECT_EQ(read("a.obj", obj).space, Space::lps);
+        EXPECT_THAT(obj, Not(HasSubstr("RAS")));
+    }
+}
+
 TEST_F(MeshFile, DoublesAreKeptAndTheLocaleDoesNotMatter) {
     const char* before = std::setlocale(LC_ALL, nullptr);
     const std::string restore = before ? before : "C";
@@ -315,6 +335,8 @@ TEST_F(MeshFile, BadFilesGetOneClearLine) {
     EXPECT_THAT(complaint("a.off", "OFF\n999999999999 1 0\n0 0 0\n1 0 0\n"), HasSubstr("ends before"));
     EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), HasSubstr("ends before"));
     EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"), HasSubstr("face 0"));
+    EXPECT_THAT(complaint("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n"),
+                HasSubstr("more follows"));
     EXPECT_THAT(complaint("a.off", "OFF BINARY\n3 1 0\n"), HasSubstr("binary"));
     EXPECT_THAT(complaint("a.off", "hello\n"), HasSubstr(":1"));
     EXPECT_THAT(complaint("a.ply", "ply\nformat ascii 1.0\n"), HasSubstr("end_header"));

@@ -62,6 +62,10 @@ Space stated_space(std::string_view comments) {
     return comments.find("SPACE=RAS") != comments.npos ? Space::ras : Space::unstated;
 }
 
+std::string_view statement_of(Space space) {
+    return space == Space::lps ? "SPACE=LPS" : space == Space::ras ? "SPACE=RAS" : "";
+}
+
 Faces triangulated(const PolygonSoup& soup) {
     const auto triangles = triangle_corners(soup);
     Faces faces(Eigen::Index(triangles.size()), 3);

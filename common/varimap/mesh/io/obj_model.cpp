@@ -106,6 +106,18 @@ std::string face_line(const std::vector<std::string_view>& words) {
     return line + "\n";
 }
 
+/// What stands first: the axes, which readers look for in front of everything else, and the materials.
+std::string head_of(Space space, const std::string& library) {
+    std::string text;
+    if (space != Space::unstated) text += fmt::format("# {}\n", statement_of(space));
+    if (!library.empty()) text += fmt::format("mtllib {}\n", library);
+    return text;
+}
+
+bool states_space(std::string_view line) {
+    return line.starts_with('#') && stated_space(line) != Space::unstated;
+}
+
 /// Faces without a material first: behind a `usemtl` every face has one.
 std::vector<int> order_of_faces(const std::vector<int>& material) {
     std::vector<int> faces(material.size());
@@ -137,11 +149,11 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
     return model;
 }
 
-std::string with_vertices(std::string_view obj, const Points& vertices, const std::string& library,
-                          const std::string& path) {
+std::string with_vertices(std::string_view obj, const Points& vertices, Space space,
+                          const std::string& library, const std::string& path) {
     if (obj.find("\\\n") != obj.npos || obj.find("\\\r\n") != obj.npos)
         throw InputError(path + ": has lines joined by a backslash; save it without");
-    std::string text = library.empty() ? "" : fmt::format("mtllib {}\n", library);
+    std::string text = head_of(space, library);
     Eigen::Index v = 0;
     while (!obj.empty()) {
         const std::string_view line = split_off_line(obj);
@@ -151,7 +163,7 @@ std::string with_vertices(std::string_view obj, const Points& vertices, const st
             text += vertex_line(words, vertices, v);
         } else if (word == "f") {
             text += face_line(words);
-        } else if (word != "vn" && word != "mtllib" && word != "v") {
+        } else if (word != "vn" && word != "mtllib" && word != "v" && !states_space(line)) {
             text += std::string(line) + "\n";
         }
         v += word == "v";
@@ -164,7 +176,7 @@ std::string with_vertices(std::string_view obj, const Points& vertices, const st
 
 std::string to_obj(const TexturedMesh& textured, const std::string& library) {
     const auto& [mesh, model] = textured;
-    std::string text = library.empty() ? "" : fmt::format("mtllib {}\n", library);
+    std::string text = head_of(mesh.space, library);
     for (const auto vertex : mesh.vertices.rowwise())
         text += fmt::format("v {} {} {}\n", vertex[0], vertex[1], vertex[2]);
     for (const Vec2& uv : model.uv) text += fmt::format("vt {} {}\n", uv[0], uv[1]);

@@ -96,6 +96,7 @@ PolygonSoup parse_off(std::string_view bytes, const std::string& path) {
     // even.
     if ((packed_vertices || packed_faces) && !words.at_end())
         words.fail("there are fewer lines than vertices and faces, and more numbers than these need");
+    if (!words.at_end()) words.fail("more follows than the vertices and faces that the header counts");
     return soup;
 }
 

@@ -20,15 +20,17 @@ class PlyWriter {
     explicit PlyWriter(PlyFormat format) : ascii_(format == PlyFormat::ascii) {}
 
     /// most_corners: of a face.
-    void header(std::size_t vertices, std::size_t faces, std::size_t most_corners,
+    void header(std::size_t vertices, std::size_t faces, std::size_t most_corners, Space space,
                 const PlyColumns& columns) {
         count_is_small_ = most_corners < 256;
         bytes_ = fmt::format(
-            "ply\nformat {} 1.0\n"
+            "ply\nformat {} 1.0\n{}"
             "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
             "element face {}\nproperty list {} int vertex_indices\n{}end_header\n",
-            ascii_ ? "ascii" : "binary_little_endian", vertices, declarations(columns.vertex), faces,
-            count_is_small_ ? "uchar" : "int", declarations(columns.face));
+            ascii_ ? "ascii" : "binary_little_endian",
+            space == Space::unstated ? "" : fmt::format("comment {}\n", statement_of(space)), vertices,
+            declarations(columns.vertex), faces, count_is_small_ ? "uchar" : "int",
+            declarations(columns.face));
     }
     void vertex(const Vec3& x, const std::vector<PlyColumn>& columns, int row) {
         if (ascii_)
@@ -112,7 +114,7 @@ PlyFormat ply_format(std::string_view bytes) {
 
 std::string to_ply(const TriangleMesh& mesh, const PlyColumns& columns, PlyFormat format) {
     PlyWriter writer(format);
-    writer.header(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()), 3, columns);
+    writer.header(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()), 3, mesh.space, columns);
     for (int v = 0; v < mesh.vertex_count(); ++v) writer.vertex(mesh.vertex(v), columns.vertex, v);
     for (int f = 0; f < mesh.face_count(); ++f)
         writer.face(std::span<const int>(mesh.faces.data() + 3 * f, 3), columns.face, f);
@@ -123,7 +125,7 @@ std::string to_ply(const PolygonSoup& soup, PlyFormat format) {
     std::size_t begin = 0, most = 0;
     for (const std::size_t end : soup.ends) most = std::max(most, end - std::exchange(begin, end));
     PlyWriter writer(format);
-    writer.header(soup.points.size(), soup.ends.size(), most, {});
+    writer.header(soup.points.size(), soup.ends.size(), most, soup.space, {});
     for (const Vec3& x : soup.points) writer.vertex(x, {}, 0);
     begin = 0;
     for (const std::size_t end : soup.ends) {

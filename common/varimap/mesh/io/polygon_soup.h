@@ -30,6 +30,8 @@ std::string to_ply(const PolygonSoup& soup, PlyFormat format);
 
 /// What 3D Slicer writes into the comments of a mesh file: SPACE=LPS or SPACE=RAS.
 Space stated_space(std::string_view comments);
+/// The same of a space; "" for an unstated one.
+std::string_view statement_of(Space space);
 
 // Readers of one format each, from the bytes of a file; `path` is for messages only. Numbers are read in
 // double precision and in the C locale's form. Throw InputError naming the place in the file.
