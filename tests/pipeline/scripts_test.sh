@@ -22,6 +22,17 @@ jq -e --arg here "$PWD" '.provenance | .source.file == $here + "/a.off" and .tar
     and (.landmarks | map(.file)) == [$here + "/list.txt", $here + "/list.txt"] and .landmarks[0].hash == .landmarks[1].hash
     and .source.hash != .target.hash and (.source | .area * .scale * .scale - 1 | fabs < 1e-9) and .schema == 1
     and (.command | startswith("varimap map ") and contains(" --landmarks=list.txt list.txt "))' out/quality.json >/dev/null || fail "provenance"
+# What other commands made of an earlier map in the folder is named.
+touch -d 2001-01-01 out/view.html
+map --out out --landmarks=list.txt list.txt --landmark-weight=.5 --set diffuse.area-bound=2 --set refine.area_bound=2 -j 1 -- a.off b.off
+grep -q '^older    out/view.html is of an earlier map: run varimap view out again$' out.txt || fail "an older page is not named"
+touch out/view.html
+map --out out --landmarks=list.txt list.txt --landmark-weight=.5 --set diffuse.area-bound=2 --set refine.area_bound=2 -j 1 -- a.off b.off
+! grep -q '^older' out.txt || fail "a page of this map is called older"
+rm out/view.html
+says "CARRYING THINGS OVER" "$varimap" transfer --help
+says "LOOKING AT A MAP" "$varimap" view -h
+says "varimap report OUT" "$varimap" report --help
 expect_exit 2 "$varimap" map a.off b.off -o out --explore=yes
 expect_exit 2 "$varimap" map a.off b.off -o out --out
 expect_exit 2 "$varimap" map a.off b.off -o out --area_bounds=2
