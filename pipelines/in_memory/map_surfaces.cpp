@@ -1,6 +1,11 @@
 #include "varimap/map_surfaces.h"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "stages/coarsen/coarsen.h"
 #include "stages/diffuse/diffuse.h"
@@ -9,20 +14,87 @@
 #include "stages/preprocess/preprocess.h"
 #include "stages/refine/refine.h"
 #include "stages/relax/relax.h"
+#include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/results/surface_map.h"
+#include "varimap/stage/parameter_text.h"
 
 namespace varimap {
 
 namespace {
 
-/// The stages of one surface.
-SurfaceData surface_data(const TriangleMesh& input, const char* name, const MapOptions& options,
+constexpr const char *name_of_A = "mesh A", *name_of_B = "mesh B";  ///< where messages name files
+
+DiffuseParams diffuse_params(const MapOptions& options) {
+    DiffuseParams params;
+    params.candidate = options.candidate;
+    params.landmark_weight = options.landmark_weight;
+    params.alternation.area_bound = options.area_bound;
+    return params;
+}
+
+/// The ranges are those of the command line.
+void require_allowed_options(const MapOptions& options) {
+    DiffuseParams params = diffuse_params(options);
+    ParameterList list;
+    params.describe(list);
+    require_allowed(list);
+    if (!options.initial_map.empty() && (options.explore || options.candidate != 1))
+        throw UsageError("initial_map is the map to refine: explore and candidate look for another");
+}
+
+/// Landmark by landmark, the vertex on one side.
+void require_landmarks(const std::vector<int>& vertices, const TriangleMesh& mesh, const char* name) {
+    std::vector<char> used(std::size_t(mesh.vertex_count()), 0);
+    for (const int v : mesh.faces.reshaped()) used[std::size_t(v)] = 1;
+    std::map<int, std::size_t> landmark_at;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const int v = vertices[i];
+        if (v < 0 || v >= mesh.vertex_count())
+            throw InputError(
+                fmt::format("landmarks[{}]: vertex {} is out of range: {} has {} vertices, counted from 0", i,
+                            v, name, mesh.vertex_count()));
+        if (!used[std::size_t(v)])
+            throw InputError(fmt::format("landmarks[{}]: vertex {} of {} belongs to no face", i, v, name));
+        const auto [other, is_new] = landmark_at.emplace(v, i);
+        if (!is_new)
+            throw InputError(fmt::format("landmarks[{}]: vertex {} of {} is already that of landmarks[{}]", i,
+                                         v, name, other->second));
+    }
+}
+
+void require_initial_map(const PointMap& map, const TriangleMesh& A, const TriangleMesh& B) {
+    if (int(map.size()) != A.vertex_count())
+        throw InputError(fmt::format("initial_map: {} points, but {} has {} vertices; give one for each",
+                                     map.size(), name_of_A, A.vertex_count()));
+    for (std::size_t v = 0; v < map.size(); ++v)
+        require_near_surface(map[v], fmt::format("initial_map[{}]", v), B.face_count());
+}
+
+/// What readers of files and of command lines see to.
+void require_inputs(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options) {
+    require_allowed_options(options);
+    require_corners(A, name_of_A);
+    require_corners(B, name_of_B);
+    std::vector<int> on_A, on_B;
+    for (const auto& [a, b] : options.landmarks) on_A.push_back(a.index), on_B.push_back(b.index);
+    require_landmarks(on_A, A, name_of_A);
+    require_landmarks(on_B, B, name_of_B);
+    if (!options.initial_map.empty()) require_initial_map(options.initial_map, A, B);
+}
+
+Surface prepared_surface(const TriangleMesh& input, const char* name, const MapOptions& options,
                          bool mirror) {
     PreprocessParams params;
     params.mirror = mirror;
+    Surface surface = preprocess(prepared(input, params, name), params);
+    return options.full_resolution ? surface : coarsened(std::move(surface), CoarsenParams{});
+}
+
+SurfaceData surface_data(Surface surface) {
     SurfaceData data;
-    data.surface = preprocess(prepared(input, params, name), params);
-    if (!options.full_resolution) data.surface = coarsened(std::move(data.surface), CoarsenParams{});
+    data.surface = std::move(surface);
     data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
     data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
     return data;
@@ -33,11 +105,7 @@ SurfaceData sketch(const Surface& surface) {
     CoarsenParams params;
     params.vertices = 1000;
     params.most_lost = 1;
-    SurfaceData data;
-    data.surface = coarsened(surface, params);
-    data.basis = compute_eigenbasis(data.surface, EigenSolverOptions{});
-    data.hierarchy = build_hierarchy(data.surface, data.basis, HierarchyOptions{});
-    return data;
+    return surface_data(coarsened(surface, params));
 }
 
 /// `given`: landmarks on the inputs.
@@ -59,12 +127,9 @@ std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, c
 Plan solve(const PairContext& context, const PointPairs& landmark_points,
            const std::optional<Candidates>& candidates, const std::optional<Correspondences>& initial_map,
            const MapOptions& options) {
-    DiffuseParams coarse;
-    coarse.candidate = options.candidate;
-    coarse.landmark_weight = options.landmark_weight;
     RefineParams fine;
-    coarse.alternation.area_bound = fine.alternation.area_bound = options.area_bound;
-    Diffusion diffusion = diffuse(context, coarse, candidates, initial_map);
+    fine.alternation.area_bound = options.area_bound;
+    Diffusion diffusion = diffuse(context, diffuse_params(options), candidates, initial_map);
     diffusion.record.landmark_points = landmark_points;
     return refine(context, diffusion, fine);
 }
@@ -86,17 +151,18 @@ void measure(MappedSurfaces& mapped, const Surface& A, const Surface& B) {
 }  // namespace
 
 MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options) {
-    SurfaceData data_A = surface_data(A, "A", options, options.mirror),
-                data_B = surface_data(B, "B", options, false);
-    const auto given = on_inputs({options.landmarks, {}}, data_A.surface, data_B.surface);
-    const auto landmarks = to_mesh_vertices(given.vertices, data_A.surface, data_B.surface);
-    const PointPairs points = landmark_points(given, data_A.surface, data_B.surface);
-    const Surface surface_A = data_A.surface, surface_B = data_B.surface;
-    const PairContext context =
-        pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
+    require_inputs(A, B, options);
+    const Surface surface_A = prepared_surface(A, name_of_A, options, options.mirror),
+                  surface_B = prepared_surface(B, name_of_B, options, false);
+    const auto given = on_inputs({options.landmarks, {}}, surface_A, surface_B);
+    const auto landmarks = to_mesh_vertices(given.vertices, surface_A, surface_B);
+    const PointPairs points = landmark_points(given, surface_A, surface_B);
     std::optional<Correspondences> initial_map;
     if (!options.initial_map.empty())
         initial_map = correspondences_of(options.initial_map, surface_A, surface_B);
+    SurfaceData data_A = surface_data(surface_A), data_B = surface_data(surface_B);
+    const PairContext context =
+        pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
     const Plan plan =
         solve(context, points, found_candidates(surface_A, surface_B, given, options), initial_map, options);
     SurfaceMap map =

@@ -20,6 +20,17 @@ struct Defect {
     }
 };
 
+void refuse_unknown_vertices(const TriangleMesh& mesh, const std::string& path) {
+    Defect defect;
+    for (int c = 0; c < 3 * mesh.face_count(); ++c)
+        if (const int v = mesh.faces.data()[c]; v < 0 || v >= mesh.vertex_count()) defect.add(c);
+    if (defect.count > 0)
+        throw InputError(fmt::format(
+            "{}: {} corners of faces name no vertex, the first is one of face {}: vertex {} of {}, counted "
+            "from 0",
+            path, defect.count, defect.first / 3, mesh.faces.data()[defect.first], mesh.vertex_count()));
+}
+
 void refuse_not_finite(const TriangleMesh& mesh, const std::string& path) {
     Defect defect;
     for (int f = 0; f < mesh.face_count(); ++f)
@@ -126,8 +137,13 @@ void require_size(const TriangleMesh& mesh, const std::string& path) {
         throw InputError(path + ": the surface has no area (are its points all on one line?)");
 }
 
-void require_plain_faces(const TriangleMesh& mesh, const std::string& path) {
+void require_corners(const TriangleMesh& mesh, const std::string& path) {
     if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
+    refuse_unknown_vertices(mesh, path);
+}
+
+void require_plain_faces(const TriangleMesh& mesh, const std::string& path) {
+    require_corners(mesh, path);
     refuse_not_finite(mesh, path);
     refuse_degenerate_faces(mesh, path);
 }

@@ -254,7 +254,7 @@ RepairedMesh Repair::result() const {
 
 RepairedMesh Repair::run() {
     const Actions actions = actions_from(options_.repair);
-    if (file_.face_count() == 0) throw InputError(path_ + ": the mesh has no faces");
+    require_corners(file_, path_);
     if (actions.faces) {
         drop_not_finite();
         drop_degenerate();

@@ -159,9 +159,6 @@ PointMap points_of_faces(const NpyArray& face, const NpyArray& barycentric, cons
             map.emplace_back();
         else
             map.push_back({int(f), barycentric.values.row(i).transpose()});
-        if (!is_near_surface(map.back()))
-            throw InputError(
-                fmt::format("{}: row {} (from 0): barycentric coordinates must sum to 1", path, i));
     }
     return map;
 }
@@ -214,13 +211,12 @@ PointMap read_map_file(const std::string& path, IndexBase base, const TriangleMe
                        const TriangleMesh* source) {
     const std::string bytes = read_file(path);
     const PointMap map = read(bytes, path, base, target, source);
+    const bool has_lines = is_csv_map(bytes);
     for (std::size_t v = 0; v < map.size(); ++v)
-        if (map[v].face >= target.face_count()) {
-            const std::string place = is_csv_map(bytes) ? fmt::format("{}:{}", path, v + 2)
-                                                        : fmt::format("{}: row {} (from 0)", path, v);
-            throw InputError(fmt::format("{}: face {}, but the target mesh has {} faces", place, map[v].face,
-                                         target.face_count()));
-        }
+        require_near_surface(
+            map[v],
+            has_lines ? fmt::format("{}:{}", path, v + 2) : fmt::format("{}: row {} (from 0)", path, v),
+            target.face_count());
     return map;
 }
 

@@ -1,5 +1,7 @@
 #include "varimap/results/surface_map.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -46,8 +48,7 @@ SurfacePoint parse_row(std::string_view line, int vertex, const std::string& pla
     if (number != vertex)
         throw InputError(place + ": vertex " + std::to_string(number) + " where vertex " +
                          std::to_string(vertex) + " should stand; rows must be in the vertices' order");
-    if (!is_near_surface(point))
-        throw InputError(place + ": needs a face of -1 or more and barycentric coordinates that sum to 1");
+    require_near_surface(point, place);
     return point;
 }
 
@@ -158,6 +159,18 @@ bool is_near_surface(const SurfacePoint& point) {
     if (point.face < -1 || !b.allFinite()) return false;
     if (point.face < 0) return true;
     return std::abs(b.sum() - 1) <= barycentric_tolerance && b.minCoeff() >= -barycentric_tolerance;
+}
+
+void require_near_surface(const SurfacePoint& point, const std::string& place, int faces) {
+    const Vec3& b = point.barycentric;
+    if (!is_near_surface(point))
+        throw InputError(
+            fmt::format("{}: barycentric coordinates {} {} {} on face {}: they must be from 0 to 1 and sum "
+                        "to 1, and the face at least -1",
+                        place, b[0], b[1], b[2], point.face));
+    if (faces >= 0 && point.face >= faces)
+        throw InputError(
+            fmt::format("{}: face {}, but the target mesh has {} faces", place, point.face, faces));
 }
 
 PointMap read_csv_map(const std::string& path) {

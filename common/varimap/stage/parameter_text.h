@@ -13,4 +13,7 @@ std::string allowed_values(const Parameter& parameter);
 /// type, not finite, out of range, not among the choices).
 void assign(const Parameter& parameter, const std::string& text);
 
+/// The same for values that a program has set itself. Throws UsageError.
+void require_allowed(const ParameterList& list);
+
 }  // namespace varimap

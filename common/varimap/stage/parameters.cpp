@@ -26,14 +26,15 @@ std::string limit_text(const Parameter& parameter, double limit) {
     return fmt::format("{}", limit);
 }
 
-[[noreturn]] void refuse(const Parameter& parameter, const std::string& text) {
-    throw UsageError(
-        fmt::format("--{}: '{}' is not {}", parameter.name, printable(text), allowed_values(parameter)));
-}
-
 struct Assign {
     const Parameter& parameter;
     const std::string& text;
+    const char* dashes = "--";  ///< before the name in messages
+
+    [[noreturn]] void refuse() const {
+        throw UsageError(fmt::format("{}{}: '{}' is not {}", dashes, parameter.name, printable(text),
+                                     allowed_values(parameter)));
+    }
 
     template <class Number>
     void operator()(Number* target) const {
@@ -41,23 +42,23 @@ struct Assign {
         // Written so that nan is refused too.
         if (!parse_number(text, value) || !(value >= parameter.minimum && value <= parameter.maximum) ||
             !std::isfinite(double(value)))
-            refuse(parameter, text);
+            refuse();
         *target = value;
     }
     void operator()(bool* target) const {
-        if (text != "true" && text != "false") refuse(parameter, text);
+        if (text != "true" && text != "false") refuse();
         *target = text == "true";
     }
     void operator()(const EnumTarget& target) const {
         const auto& choices = parameter.choices;
         const auto found = std::find(choices.begin(), choices.end(), text);
-        if (found == choices.end()) refuse(parameter, text);
+        if (found == choices.end()) refuse();
         target.write(int(found - choices.begin()));
     }
     void operator()(std::string* target) const {
         const auto& choices = parameter.choices;
         const bool listed = std::find(choices.begin(), choices.end(), text) != choices.end();
-        if ((!choices.empty() && !listed) || text.find('\n') != std::string::npos) refuse(parameter, text);
+        if ((!choices.empty() && !listed) || text.find('\n') != std::string::npos) refuse();
         *target = text;
     }
 };
@@ -97,6 +98,11 @@ std::string allowed_values(const Parameter& parameter) {
 
 void assign(const Parameter& parameter, const std::string& text) {
     std::visit(Assign{parameter, text}, parameter.value);
+}
+
+void require_allowed(const ParameterList& list) {
+    for (const auto& parameter : list.all())
+        std::visit(Assign{parameter, parameter.text(), ""}, parameter.value);
 }
 
 }  // namespace varimap

@@ -34,6 +34,15 @@ TEST(Manifold, BoundariesGenusAndUnusedVerticesAreServed) {
     EXPECT_EQ(complaint(mesh), "");
 }
 
+TEST(Manifold, FacesOfUnknownVertices) {
+    for (const int vertex : {-1, 12}) {
+        TriangleMesh mesh = shapes::ellipsoid(0);
+        mesh.faces(3, 1) = mesh.faces(5, 0) = vertex;
+        EXPECT_THAT(complaint(mesh), AllOf(HasSubstr("2 corners"),
+                                           HasSubstr("face 3: vertex " + std::to_string(vertex) + " of 12")));
+    }
+}
+
 TEST(Manifold, SeveralComponents) {
     EXPECT_THAT(complaint(together(shapes::ellipsoid(0), shapes::square(1))),
                 AllOf(HasSubstr("2 components"), HasSubstr("vertex 12")));

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "varimap/core/printable.h"
 #include "varimap/stage/known_hashes.h"
 #include "varimap/stage/nearest_name.h"
+#include "varimap/stage/parameter_text.h"
 #include "varimap/stage/stage_main.h"
 
 namespace varimap {
@@ -310,6 +312,27 @@ TEST_F(StageRun, ValuesReadBackExactlyAndTheLastOneCounts) {
         ASSERT_EQ(run_sample({in, out, "--length", "0.7", "--length", text}, {}, &params).code, 0);
         EXPECT_EQ(read_header(out).parameters.front().second, text);
         EXPECT_EQ(fmt::format("{}", params.length), text);
+    }
+}
+
+TEST(Parameters, ValuesOfProgramsAreHeldAgainstTheSameRanges) {
+    double length = 1;
+    int count = 3;
+    ParameterList list;
+    list.add("length", length, "", 0., 1.);
+    list.add("count", count, "", 1, 3);
+    EXPECT_NO_THROW(require_allowed(list));
+    for (const double bad : {std::nextafter(1, 2), -1e-300, std::nan("")}) {
+        length = bad;
+        EXPECT_THROW(require_allowed(list), UsageError);
+    }
+    length = 0;
+    count = 4;
+    try {
+        require_allowed(list);
+        ADD_FAILURE() << "was accepted";
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "count: '4' is not a whole number from 1 to 3");
     }
 }
 

@@ -24,7 +24,9 @@ std::string to_ply(const TriangleMesh& mesh, PlyFormat format = PlyFormat::binar
 // Refusals, as one line that names the defect, how many there are and the first element (0-based). Throw
 // InputError.
 
-/// No faces, faces with corners that are not finite, faces that name a vertex twice.
+/// No faces, faces that name a vertex there is none of. Read meshes have passed it; all else presupposes it.
+void require_corners(const TriangleMesh& mesh, const std::string& path);
+/// These, faces with corners that are not finite, faces that name a vertex twice.
 void require_plain_faces(const TriangleMesh& mesh, const std::string& path);
 /// Zero area, sizes outside 1e-50 to 1e50. Corners must be finite.
 void require_size(const TriangleMesh& mesh, const std::string& path);
