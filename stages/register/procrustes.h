@@ -9,6 +9,8 @@ namespace varimap {
 /// Shapes of corresponding points laid over each other (generalised Procrustes analysis, Gower 1975).
 struct Alignment {
     std::vector<Points> shapes;  ///< moved, turned and, if asked, scaled to the mean of all sizes
+    /// Their average; where they are scaled, enlarged about its centroid to their size, so that of all shapes
+    /// of that size it has the least sum of squared distances from them (the partial Procrustes mean).
     Points mean;
     std::vector<double> sizes;      ///< of the shapes given: root mean square distance from the centroid
     std::vector<double> distances;  ///< from each aligned shape to the mean: root mean square
@@ -21,7 +23,7 @@ Alignment procrustes(const std::vector<Points>& shapes, const Points& start, con
                      bool scale);
 
 /// Principal components of aligned shapes: the eigenvectors of their covariance, weighted as the alignment
-/// is.
+/// is, about their average.
 struct Components {
     Eigen::VectorXd variance;          ///< of the scores on each, largest first, in squared units of length
     double total_variance = 0;         ///< of all components, those left out too

@@ -57,7 +57,7 @@ echo nonsense >meshes/s9.off
 code=0
 "$varimap" register "${small_picture[@]}" template.off meshes -o out --landmarks-from points >out.txt 2>log || code=$?
 ((code == 1)) || fail "exit $code with a specimen that fails"
-grep -q '^left out    1 ' out.txt || fail "who is left out"
+grep -q '^left out    1 .*: s9;' out.txt || fail "who is left out"
 same out/points.npy before/points.npy
 
 # An interrupt ends what it has begun, too.
@@ -70,6 +70,50 @@ wait "$front_end" || code=$?
 ((code == 143)) || fail "exit $code when interrupted"
 grep -q 'register: error: interrupted' log || fail "an interrupt is not told"
 ! pgrep -f "$PWD/stopped" >/dev/null || fail "what an interrupted run has begun goes on"
+
+# A run with fewer specimens and without landmarks leaves nothing of the run before, but what is not register's.
+register template.off meshes/s[1-4].off -o out --landmarks-from points
+grep -q '^landmarks ' out.txt || fail "landmarks are not told"
+[[ -s out/specimens/s4.ply && -s out/component_2.png ]] || fail "results of four specimens"
+touch out/mine.csv out/specimens/mine.csv out/component_mine.ply
+register template.off meshes/s1.off meshes/s2.off -o out
+(cd out && find . -path ./maps -prune -o -type f -print | sort) >left.txt
+printf './%s\n' .lock aligned.npy component_1.png component_1_minus.ply component_1_plus.ply component_mine.ply components.csv \
+    identity.csv log.txt manifest.json mean.ply mean.png mine.csv pairs.csv points.npy specimens.csv specimens/mine.csv \
+    specimens/s{1,2}.{csv,ply} | sort | diff - left.txt >log || fail "what is there after a smaller run"
+! grep -q '^landmarks ' out.txt || fail "landmarks of the run before are told"
+! grep -q '^doubtful ' out.txt || fail "maps that are good are called doubtful"
+
+# Maps that batch says to look at are named, the worst first, with -q too.
+doubt() {  # PAIR BADNESS
+    jq -c ".badness = $2" "out/maps/pairs/$1/result.json" >result.json && mv result.json "out/maps/pairs/$1/result.json"
+}
+doubt template--s1 1.2
+doubt template--s2 1.5
+register template.off meshes/s1.off meshes/s2.off -o out -q
+grep -q '^doubtful    s2, s1: .*out/maps/status.csv' out.txt || fail "whose maps are doubtful"
+
+# More than a handful are counted.
+mkdir broken
+for i in 1 2 3 4 5 6 7; do echo nonsense >broken/b$i.off; done
+cp points/template.txt points/b7.txt
+code=0
+"$varimap" register "${small_picture[@]}" template.off meshes/s1.off broken -o out --landmarks-from points >out.txt 2>log || code=$?
+((code == 1)) || fail "exit $code where seven are left out"
+grep -q '^left out    7 .*: b1, b2, b3, b4, b5 and 2 more' out.txt || fail "the names of those left out"
+grep -q 'register: warning: points: no landmarks of 7 of the 8 .*(s1, b1, b2, b3, b4 and 2 more)' log || fail "who has no landmarks"
+
+# Landmarks of others are of no use without the template's; a template counts once.
+mkdir others
+cp points/template.txt others/s1.txt
+for folder in landmarks-from points-from; do
+    expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --$folder others
+    grep -q 'register: error: others: no landmarks of the template template.off' log || fail "--$folder without the template's"
+done
+expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --landmarks-from points --points-from others
+expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates template.off
+grep -q 'register: error: template.off: .* twice' log || fail "the template as a further one"
+expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates other.off ./other.off
 
 expect_exit 2 "$varimap" register template.off -o none
 expect_exit 2 "$varimap" register template.off meshes

@@ -50,6 +50,31 @@ TEST(Procrustes, LaysMovedCopiesOverTheStart) {
     EXPECT_LT(largest_distance(found.mean, (2 * (rest.rowwise() - centre)).rowwise() + centre), 1e-8);
 }
 
+/// The average of the aligned shapes, times `enlarged` about its centroid.
+Points average_of(const Alignment& alignment, const Eigen::VectorXd& weights, double enlarged = 1) {
+    Points average = Points::Zero(alignment.mean.rows(), 3);
+    for (const Points& shape : alignment.shapes) average += shape / double(alignment.shapes.size());
+    const Eigen::RowVector3d centre = weights.transpose() * average;
+    return (enlarged * (average.rowwise() - centre)).rowwise() + centre;
+}
+
+double size_about_centroid(const Points& points, const Eigen::VectorXd& weights) {
+    const Eigen::RowVector3d centre = weights.transpose() * points;
+    return std::sqrt(weights.dot(Eigen::VectorXd((points.rowwise() - centre).rowwise().squaredNorm())));
+}
+
+TEST(Procrustes, TheMeanIsTheAverageEnlargedToTheMeanSize) {
+    const Eigen::VectorXd weights = voronoi_masses(body()) / voronoi_masses(body()).sum();
+    const std::vector<Points> shapes{bent(-3), moved(bent(1), 2, .5, {1, 0, 0}), bent(4)};
+    const Alignment found = procrustes(shapes, body().vertices, weights, true);
+    const double size = (found.sizes[0] + found.sizes[1] + found.sizes[2]) / 3;
+    const double enlarged = size / size_about_centroid(average_of(found, weights), weights);
+    EXPECT_GT(enlarged, 1.001);
+    EXPECT_LT(largest_distance(found.mean, average_of(found, weights, enlarged)), 1e-9);
+    const Alignment sized = procrustes(shapes, body().vertices, weights, false);
+    EXPECT_LT(largest_distance(sized.mean, average_of(sized, weights)), 1e-9);
+}
+
 TEST(Procrustes, KeepsSizesWhereAsked) {
     const Eigen::VectorXd weights = voronoi_masses(body());
     const Alignment found = procrustes({body().vertices, moved(body().vertices, 3, 1, {0, 0, 1})},
