@@ -27,6 +27,7 @@ LevelPair level_with_terms(int index, const PairContext& context, const DiffuseP
     LevelPair pair = context.diffusion_level(index);
     if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
     add_shape_term(pair, context, params.shape_weight);
+    add_landmark_term(pair, context, params.vicinity_weight);
     return pair;
 }
 

@@ -262,6 +262,22 @@ bool is_disputed(const std::vector<Appraised>& list) {
     return confidence_of(ratings(list)).margin < 0;
 }
 
+/// Whether there are three landmarks far from each other. Fewer, or several at the tip of a finger, leave the
+/// rest of the body to turn or twist, and a twisted one may look as plausible as the right map.
+bool decide_the_map(const PairContext& context) {
+    constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
+    constexpr int enough = 3;
+    std::vector<int> landmarks;
+    for (const auto& [a, b] : context.landmarks()) landmarks.push_back(a.index);
+    const RowMatrix distance = distances_from_each(context.graph_A(), landmarks);
+    std::vector<int> apart;
+    for (int k = 0; k < int(landmarks.size()); ++k)
+        if (std::all_of(apart.begin(), apart.end(),
+                        [&](int other) { return distance(other, landmarks[std::size_t(k)]) > far; }))
+            apart.push_back(k);
+    return int(apart.size()) >= enough;
+}
+
 /// Whether the best map that was quickly found may do. Chosen by hand on half of the known pairs: fewer maps
 /// are wrong with landmarks, but a limb may be, which strains them.
 bool is_good(const Candidate& best, bool has_landmarks) {
@@ -316,7 +332,7 @@ SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& pa
 Candidates explore(const PairContext& context, const ExploreParams& params,
                    const std::function<SelfMaps()>& ask_for_self_maps) {
     // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
-    // to is as plausible.
+    // to is as plausible, not strained, and they decide it.
     constexpr double suffices = 0.985;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
@@ -329,7 +345,9 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
     if (if_needed) {
         finishing.finish(led_there);
         std::vector<Appraised> alone = finishing.appraised();
-        if (logged_plausibility(alone.front().candidate) >= suffices) return led(std::move(alone), context);
+        const Candidate& there = alone.front().candidate;
+        if (logged_plausibility(there) >= suffices && is_good(there, true) && decide_the_map(context))
+            return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask_for_self_maps);
     std::vector<Appraised> list = quickly_found(context, params, led_there, finishing, self_maps);

@@ -75,6 +75,7 @@ class JointDescent {
   private:
     void enter(LevelPair level) {
         add_shape_term(level, context_, options_.shape_weight);
+        add_landmark_term(level, context_, options_.vicinity_weight);
         descent_.enter(std::move(level));
     }
     void go_on(LevelPair level, const IroningOptions& ironing) {

@@ -42,6 +42,8 @@ struct ExploreParams {
         list.add("finished", finishing.most, "maps that are finished and compared at most", 1, 100);
         list.add("shape_weight", finishing.shape_weight,
                  "as in varimap-diffuse, for the maps that are finished", 0.0, 100.0);
+        list.add("vicinity_weight", finishing.vicinity_weight,
+                 "as in varimap-diffuse, for the maps that are finished", 0.0, 1000.0);
         varimap::describe(list, landmark_space);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);

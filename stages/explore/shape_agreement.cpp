@@ -120,9 +120,14 @@ double ShapeAgreement::stretch(const MapPair& maps) const {
 }
 
 double ShapeAgreement::relief(const PointMap& map, const Side& source, const Side& target) {
+    // Of right maps it is that at least; where one surface has none, it tells no map from another.
+    constexpr double without_relief = 0.75;
     double sum = 0;
     for (std::size_t k = 0; k < source.relief.size(); ++k)
-        sum += correlation(source.relief[k], pulled_back(target.relief[k], target.mesh, map), source.mass);
+        sum +=
+            source.relief[k].isZero() || target.relief[k].isZero()
+                ? without_relief
+                : correlation(source.relief[k], pulled_back(target.relief[k], target.mesh, map), source.mass);
     return sum / double(source.relief.size());
 }
 

@@ -14,7 +14,8 @@ class ShapeAgreement {
   public:
     explicit ShapeAgreement(const PairContext& context);
 
-    /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales.
+    /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales. 0.75 at a scale at which
+    /// either surface has none.
     double relief(const MapPair& maps) const;
     /// How well patches can be laid onto their images: of all rotations R of a patch, with points x of
     /// normals n and images y of normals m, relative to the patch's and the image's centres and mean square

@@ -18,6 +18,7 @@ LevelPair level_with_terms(int index, const PairContext& context, const RefinePa
     const bool last = index + 1 == context.euclidean_levels();
     LevelPair pair = context.euclidean_level(index, last ? params.last_metric_weight : params.metric_weight);
     add_shape_term(pair, context, params.shape_weight);
+    add_landmark_term(pair, context, params.vicinity_weight);
     return pair;
 }
 

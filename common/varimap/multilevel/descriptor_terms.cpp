@@ -21,7 +21,13 @@ void append(Side& side, const RowMatrix& columns) {
     side.descriptor = std::move(all);
 }
 
-void append_shape(LevelSide& side, const RowMatrix& descriptors, double scale) {
+/// What descriptors are multiplied by: a difference of 1 then costs as much as add_shape_term says.
+double scale_of(const LevelPair& pair, double weight) {
+    return std::sqrt(weight * (neighbourhood_variance(pair.A.side) + neighbourhood_variance(pair.B.side)));
+}
+
+/// `descriptors`: per vertex; samples have the means of their cells.
+void append_means(LevelSide& side, const RowMatrix& descriptors, double scale) {
     append(side.side, scale * cell_means(side.level, side.vertex_mass, descriptors));
 }
 
@@ -39,10 +45,16 @@ void add_wasserstein_term(LevelPair& pair, const PairContext& context, double we
 
 void add_shape_term(LevelPair& pair, const PairContext& context, double weight) {
     if (weight == 0) return;
-    const double scale =
-        std::sqrt(weight * (neighbourhood_variance(pair.A.side) + neighbourhood_variance(pair.B.side)));
-    append_shape(pair.A, context.A().hierarchy.shape.descriptors, scale);
-    append_shape(pair.B, context.B().hierarchy.shape.descriptors, scale);
+    const double scale = scale_of(pair, weight);
+    append_means(pair.A, context.A().hierarchy.shape.descriptors, scale);
+    append_means(pair.B, context.B().hierarchy.shape.descriptors, scale);
+}
+
+void add_landmark_term(LevelPair& pair, const PairContext& context, double weight) {
+    if (weight == 0 || context.nearness_A().size() == 0) return;
+    const double scale = scale_of(pair, weight * context.landmark_weight());
+    append_means(pair.A, context.nearness_A(), scale);
+    append_means(pair.B, context.nearness_B(), scale);
 }
 
 }  // namespace varimap

@@ -17,4 +17,9 @@ void add_wasserstein_term(LevelPair& pair, const PairContext& context, double we
 /// of places can tell.
 void add_shape_term(LevelPair& pair, const PairContext& context, double weight);
 
+/// Adds the squared differences of how near places are to the landmarks (`nearness_A`), in the same units,
+/// times the landmarks' own weight. A point has no capacity: on a fine level one pinned sample hardly costs a
+/// map that is elsewhere all around it, so that landmarks alone hold on the coarse levels only. On surfaces.
+void add_landmark_term(LevelPair& pair, const PairContext& context, double weight);
+
 }  // namespace varimap

@@ -35,11 +35,12 @@ Points smoothed(const TriangleMesh& mesh, double scale) {
     return solver.solve(mass.asDiagonal() * mesh.vertices);
 }
 
-/// Less their median, in units of 1.5 median deviations.
+/// Less their median, in units of 1.5 median deviations; zeros where these are rounding.
 Eigen::VectorXd bounded_deviations(Eigen::VectorXd values) {
+    constexpr double rounding = 1e-9;  // units of sqrt(area)
     values.array() -= upper_median(values);
     const double deviation = 1.5 * upper_median(values.cwiseAbs());
-    if (!(deviation > 0)) return Eigen::VectorXd::Zero(values.size());
+    if (!(deviation > rounding)) return Eigen::VectorXd::Zero(values.size());
     return bound * (values / (bound * deviation)).array().tanh();
 }
 

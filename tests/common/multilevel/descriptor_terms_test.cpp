@@ -63,5 +63,42 @@ TEST(ShapeTerm, AgreesBetweenPosesOfOneShape) {
     EXPECT_LT(mean_square(A.descriptor - there, A.mass), .5 * mean_square(A.descriptor - turned, A.mass));
 }
 
+TEST(LandmarkTerm, AddsNothingWithoutLandmarksOrWeight) {
+    LevelPair pair = figures().diffusion_level(3);
+    add_landmark_term(pair, figures(), 1);
+    EXPECT_EQ(pair.A.side.descriptor.size(), 0);
+    const PairContext context = shapes::figure_pair(1, true).context();
+    pair = context.diffusion_level(3);
+    add_landmark_term(pair, context, 0);
+    EXPECT_EQ(pair.A.side.descriptor.size(), 0);
+}
+
+TEST(LandmarkTerm, IsLargestAtLandmarksAndFallsAwayFromThem) {
+    const PairContext context = shapes::figure_pair(1, true).context();
+    const auto landmarks = Eigen::Index(context.landmarks().size());
+    ASSERT_GT(landmarks, 1);
+    for (Eigen::Index k = 0; k < landmarks; ++k) {
+        const auto& [a, b] = context.landmarks()[std::size_t(k)];
+        EXPECT_EQ(context.nearness_A()(a.index, k), 1);
+        EXPECT_EQ(context.nearness_B()(b.index, k), 1);
+        EXPECT_LT(context.nearness_A().col(k).minCoeff(), .01);
+        EXPECT_EQ((context.nearness_A().col(k).array() == 1).count(), 1);
+    }
+}
+
+/// Softer ones hold less.
+TEST(LandmarkTerm, GrowsWithItsWeightAndThatOfTheLandmarks) {
+    const auto descriptors = [](double weight, double landmark_weight) {
+        const PairContext context = shapes::figure_pair(1, true).context(landmark_weight);
+        LevelPair pair = context.diffusion_level(context.diffusion_levels() - 1);
+        add_landmark_term(pair, context, weight);
+        return pair.A.side.descriptor;
+    };
+    const RowMatrix once = descriptors(1, 1);
+    ASSERT_GT(once.norm(), 0);
+    EXPECT_LT((descriptors(4, 1) - 2 * once).norm(), 1e-12 * once.norm());
+    EXPECT_LT((descriptors(1, .25) - once / 2).norm(), 1e-12 * once.norm());
+}
+
 }  // namespace
 }  // namespace varimap
