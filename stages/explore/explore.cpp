@@ -262,22 +262,6 @@ bool is_disputed(const std::vector<Appraised>& list) {
     return confidence_of(ratings(list)).margin < 0;
 }
 
-/// Whether there are three landmarks far from each other. Fewer, or several at the tip of a finger, leave the
-/// rest of the body to turn or twist, and a twisted one may look as plausible as the right map.
-bool decide_the_map(const PairContext& context) {
-    constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
-    constexpr int enough = 3;
-    std::vector<int> landmarks;
-    for (const auto& [a, b] : context.landmarks()) landmarks.push_back(a.index);
-    const RowMatrix distance = distances_from_each(context.graph_A(), landmarks);
-    std::vector<int> apart;
-    for (int k = 0; k < int(landmarks.size()); ++k)
-        if (std::all_of(apart.begin(), apart.end(),
-                        [&](int other) { return distance(other, landmarks[std::size_t(k)]) > far; }))
-            apart.push_back(k);
-    return int(apart.size()) >= enough;
-}
-
 /// Whether the best map that was quickly found may do. Chosen by hand on half of the known pairs: fewer maps
 /// are wrong with landmarks, but a limb may be, which strains them.
 bool is_good(const Candidate& best, bool has_landmarks) {
@@ -294,6 +278,20 @@ Candidates led(std::vector<Appraised> list, const PairContext& context) {
 }
 
 }  // namespace
+
+bool landmarks_are_apart(const PairContext& context) {
+    constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
+    constexpr int enough = 3;
+    std::vector<int> landmarks;
+    for (const auto& [a, b] : context.landmarks()) landmarks.push_back(a.index);
+    const RowMatrix distance = distances_from_each(context.graph_A(), landmarks);
+    std::vector<int> apart;
+    for (int k = 0; k < int(landmarks.size()); ++k)
+        if (std::all_of(apart.begin(), apart.end(),
+                        [&](int other) { return distance(other, landmarks[std::size_t(k)]) > far; }))
+            apart.push_back(k);
+    return int(apart.size()) >= enough;
+}
 
 Candidates find_self_maps(const PairContext& context, const ExploreParams& params) {
     constexpr double another = 0.1;  // share of the surface that a self-map moves; chosen by hand
@@ -346,7 +344,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         finishing.finish(led_there);
         std::vector<Appraised> alone = finishing.appraised();
         const Candidate& there = alone.front().candidate;
-        if (logged_plausibility(there) >= suffices && is_good(there, true) && decide_the_map(context))
+        if (logged_plausibility(there) >= suffices && is_good(there, true) && landmarks_are_apart(context))
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask_for_self_maps);

@@ -17,6 +17,10 @@ struct SelfMaps {
 };
 SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& params);
 
+/// Whether there are three landmarks far from each other. Fewer, or several at the tip of a finger, leave the
+/// rest of a body to turn or twist, and a twisted one may look as plausible as the right map.
+bool landmarks_are_apart(const PairContext& context);
+
 /// Maps worth continuing, the best first. What exploration finds is composed with self-maps of both surfaces,
 /// so that a wrong map brings the right one with it, unless one is beyond doubt without that: `self_maps` is
 /// called where they are needed, and may be empty. All are finished at the resolution of these surfaces

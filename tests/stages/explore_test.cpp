@@ -100,6 +100,23 @@ TEST(Explore, HandsOnWhereGoodLandmarksLead) {
     EXPECT_TRUE(explore(context, params).list.empty());
 }
 
+TEST(Explore, LooksFurtherWhereLandmarksAreFewOrClose) {
+    const KnownPair pair = shapes::figure_pair(1, true, 1000);
+    const auto with = [&](const VertexPairs<MeshVertex>& landmarks) {
+        return PairContext(pair.A, pair.B, landmarks);
+    };
+    EXPECT_TRUE(landmarks_are_apart(pair.context()));
+    EXPECT_FALSE(landmarks_are_apart(with({pair.landmarks[0], pair.landmarks[1]})));
+    VertexPairs<MeshVertex> close{pair.landmarks[0]};
+    for (const int v : pair.A.surface.mesh.faces.reshaped())
+        if (close.size() < 4 && v != close[0].first.index &&
+            (pair.A.surface.mesh.vertex(v) - pair.A.surface.mesh.vertex(close[0].first.index)).norm() < .1)
+            close.push_back(
+                {{v}, {shapes::nearest_vertex(pair.B.surface.mesh, pair.A_on_B.row(v).transpose())}});
+    ASSERT_EQ(close.size(), 4u);
+    EXPECT_FALSE(landmarks_are_apart(with(close)));
+}
+
 TEST(SelfMaps, AreTheTurnsOfAnEllipsoid) {
     const TriangleMesh mesh = turnable();
     const KnownPair pair = shapes::known_pair(mesh, mesh, {}, 60, {});
@@ -439,6 +456,17 @@ TEST(ShapeAgreement, KnowsSurfacesOfOppositeHandedness) {
     const ShapeAgreement agreement(context);
     EXPECT_NEAR(agreement.alignment({same, same}), 1, 1e-9);
     EXPECT_NEAR(agreement.relief({same, same}), 1, 1e-9);
+}
+
+TEST(ShapeAgreement, LearnsNothingFromReliefWhereThereIsNone) {
+    const SurfaceData flat = shapes::surface_data(shapes::unit_surface(shapes::square(20)), 20);
+    const PairContext context(flat, flat, {});
+    const PointMap same = points_at_vertices(flat.surface.mesh);
+    PointMap other = same;
+    std::reverse(other.begin(), other.end());
+    const ShapeAgreement agreement(context);
+    EXPECT_EQ(agreement.relief({same, same}), agreement.relief({other, other}));
+    EXPECT_GT(plausibility({.relief = agreement.relief({same, same})}), .95);
 }
 
 TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
