@@ -25,7 +25,7 @@ struct DiffuseParams {
         0;  ///< share of the Wasserstein-2 cost added to Eq. (3), for aligned surfaces
     double shape_weight =
         0.25;  ///< of add_shape_term beside Eq. (3); at 0.5 the map of a bust onto another was lost
-    double vicinity_weight = 4;                 ///< of add_landmark_term
+    double vicinity_weight = 0;                 ///< of add_landmark_term
     int candidate = 1;                          ///< which of the candidates of varimap-explore is continued
     IndexBase map_base = IndexBase::automatic;  ///< of an initial map
     LandmarkSpace landmark_space = LandmarkSpace::stated;

@@ -331,7 +331,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
                    const std::function<SelfMaps()>& ask_for_self_maps) {
     // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
     // to is as plausible, not strained, and they decide it.
-    constexpr double suffices = 0.985;
+    constexpr double suffices = 0.995;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
         log("{} landmarks: nothing else is looked for", context.landmarks().size());

@@ -14,7 +14,7 @@ struct FinishingOptions {
     AlternationOptions alternation;
     IroningOptions ironing;
     double shape_weight = 0.25;  ///< of add_shape_term, as in varimap-diffuse and varimap-refine
-    double vicinity_weight = 4;  ///< of add_landmark_term, the same
+    double vicinity_weight = 0;  ///< of add_landmark_term, the same
     /// Rounds of ironing on the Euclidean levels, where mirrored limbs are placed anew in any case: left as
     /// they are, they make the right map look worse than a wrong one.
     int euclidean_rounds = 3;

@@ -23,7 +23,7 @@ struct RefineParams {
     double metric_weight = 1;       ///< mu of the mixed metric on all but the last level
     double last_metric_weight = 0;  ///< mu on the last level
     double shape_weight = 0.25;     ///< of add_shape_term beside Eq. (3), as in varimap-diffuse
-    double vicinity_weight = 4;     ///< of add_landmark_term, the same
+    double vicinity_weight = 0;     ///< of add_landmark_term, the same
     RefineStart start = RefineStart::diffusion;
     int levels = 0;  ///< stop after this many Euclidean levels; 0: all
 

@@ -226,7 +226,8 @@ void warn_of_landmarks(const std::vector<double>& residuals,
         else if (around.distance > elsewhere && times_radius(around) > times)
             warn(
                 "around landmark {} the map is elsewhere: it is met alone, and its surroundings are off by "
-                "{:.2f} sqrt(area). Is it right? Look at the picture; if it is, give more landmarks there",
+                "{:.2f} sqrt(area). Is it right? Look at the picture; if it is, give more landmarks there, "
+                "or --landmark-vicinity 4",
                 k + 1, around.distance);
     }
 }

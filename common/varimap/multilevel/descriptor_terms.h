@@ -17,9 +17,11 @@ void add_wasserstein_term(LevelPair& pair, const PairContext& context, double we
 /// of places can tell.
 void add_shape_term(LevelPair& pair, const PairContext& context, double weight);
 
-/// Adds the squared differences of how near places are to the landmarks (`nearness_A`), in the same units,
-/// times the landmarks' own weight. A point has no capacity: on a fine level one pinned sample hardly costs a
-/// map that is elsewhere all around it, so that landmarks alone hold on the coarse levels only. On surfaces.
+/// Adds the squared differences of how near places are to each landmark, exp(-d / 0.1) at a distance d along
+/// the surface, in the same units, times the landmarks' own weight. A point has no capacity: on a fine level
+/// one pinned sample hardly costs a map that is elsewhere all around it, so that landmarks alone lead on
+/// coarse levels only. With a weight of 4 half as many of right landmarks are met by a spike, on animals of
+/// other species; errors stay the same in the mean. Between surfaces.
 void add_landmark_term(LevelPair& pair, const PairContext& context, double weight);
 
 }  // namespace varimap

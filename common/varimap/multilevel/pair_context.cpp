@@ -67,13 +67,6 @@ RowMatrix sample_positions(const Domain& domain, const Level& level) {
     return domain.mesh.vertices(level.samples, Eigen::all);
 }
 
-PairContext::Side::Side(SurfaceData own, std::vector<int> vertices)
-    : data(std::move(own)), graph(data.surface), landmarks(std::move(vertices)) {
-    constexpr double reach = 0.1;
-    if (!landmarks.empty() && data.surface.is_surface())
-        nearness = (-distances_from_each(graph, landmarks).transpose().array() / reach).exp();
-}
-
 const Level& PairContext::Side::diffusion_source(int index) const {
     const Hierarchy& h = data.hierarchy;
     return h.levels[size_t(std::min(index, h.diffusion_levels() - 1))];

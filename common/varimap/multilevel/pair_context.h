@@ -23,10 +23,6 @@ class PairContext {
     const GeodesicGraph& graph_B() const { return B_.graph; }
     const VertexPairs<MeshVertex>& landmarks() const { return landmarks_; }
     double landmark_weight() const { return landmark_weight_; }
-    /// vertices x landmarks: how near a vertex is to a landmark, exp(-d / r) at a distance d along the
-    /// surface, with r = 0.1 sqrt(area). Empty without landmarks, and of other domains than surfaces.
-    const RowMatrix& nearness_A() const { return A_.nearness; }
-    const RowMatrix& nearness_B() const { return B_.nearness; }
 
     /// Number of diffusion levels of the pair; the surface with fewer stays at its last one meanwhile.
     int diffusion_levels() const;
@@ -50,9 +46,9 @@ class PairContext {
         SurfaceData data;
         GeodesicGraph graph;
         std::vector<int> landmarks;  ///< vertices of the mesh
-        RowMatrix nearness;
 
-        Side(SurfaceData own, std::vector<int> vertices);
+        Side(SurfaceData own, std::vector<int> vertices)
+            : data(std::move(own)), graph(data.surface), landmarks(std::move(vertices)) {}
         const Level& diffusion_source(int index) const;
         Level with_landmarks(const Level& source) const;
         LevelSide embedded(const Level& source, RowMatrix vertex_points) const;
