@@ -282,8 +282,7 @@ Candidates led(std::vector<Appraised> list, const PairContext& context) {
 bool landmarks_are_apart(const PairContext& context) {
     constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
     constexpr int enough = 3;
-    std::vector<int> landmarks;
-    for (const auto& [a, b] : context.landmarks()) landmarks.push_back(a.index);
+    const std::vector<int>& landmarks = context.landmarks_A();
     const RowMatrix distance = distances_from_each(context.graph_A(), landmarks);
     std::vector<int> apart;
     for (int k = 0; k < int(landmarks.size()); ++k)

@@ -120,7 +120,8 @@ double ShapeAgreement::stretch(const MapPair& maps) const {
 }
 
 double ShapeAgreement::relief(const PointMap& map, const Side& source, const Side& target) {
-    // Of right maps it is that at least; where one surface has none, it tells no map from another.
+    // About that of right maps of animals that differ; where one surface has none, it tells no map from
+    // another.
     constexpr double without_relief = 0.75;
     double sum = 0;
     for (std::size_t k = 0; k < source.relief.size(); ++k)

@@ -210,9 +210,9 @@ Json to_json(const std::vector<LandmarkSurroundings>& surroundings) {
 }
 
 /// Pinned landmarks that the map does not meet, or meets with a spike. Those between vertices are drawn, not
-/// held: by .01 they are off at most where nothing contradicts them. Of 280 ends of right landmarks on the
-/// known pairs nine in ten are within the radius, and all but 7 within 4 times; these 7, on animals of other
-/// species, are tails and feet that the map takes elsewhere.
+/// held: by .01 they are off at most where nothing contradicts them. Of the 142 right landmarks of the
+/// known pairs 101 are within the radius, and all but 7 within 4 times; these 7, on animals of other species,
+/// are parts that the map takes elsewhere.
 void warn_of_landmarks(const std::vector<double>& residuals,
                        const std::vector<LandmarkSurroundings>& surroundings) {
     constexpr double missed = 0.02, elsewhere = 0.02, times = 4;

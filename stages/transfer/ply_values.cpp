@@ -22,11 +22,12 @@ bool is_geometry(const std::string& name) {
 
 /// What a polygon has, each of the triangles has that the meshes hold in its place.
 void spread_over_triangles(PlyColumns& columns) {
+    if (columns.corners.empty()) return;
     for (PlyColumn& column : columns.face) {
         std::vector<double> values;
         for (std::size_t f = 0; f < columns.corners.size(); ++f)
             values.insert(values.end(), std::max<std::size_t>(columns.corners[f], 2) - 2, column.values[f]);
-        if (!columns.corners.empty()) column.values = std::move(values);
+        column.values = std::move(values);
     }
 }
 

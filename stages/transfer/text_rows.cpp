@@ -116,11 +116,6 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
     return text;
 }
 
-bool is_number(std::string_view word) {
-    double ignored;
-    return to_number(word, ignored);
-}
-
 std::string join(const std::vector<std::string>& words, char separator) {
     std::string line;
     for (std::size_t i = 0; i < words.size(); ++i) {

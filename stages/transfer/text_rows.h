@@ -29,7 +29,6 @@ struct TextRows {
 /// numbers that blanks separate. Throws InputError for UTF-16, for quotes that are not closed, and where
 /// there are no rows.
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content);
-bool is_number(std::string_view word);
 /// A line, without its end, of which split_rows makes these words, in quotes where they need some.
 std::string join(const std::vector<std::string>& words, char separator);
 

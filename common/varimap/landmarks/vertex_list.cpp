@@ -41,11 +41,6 @@ struct Named {
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
 
-bool is_number(std::string_view word) {
-    double ignored;
-    return to_number(word, ignored);
-}
-
 bool has_commas(const TextScanner& scanner) {
     return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
 }

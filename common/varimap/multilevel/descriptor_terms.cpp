@@ -33,7 +33,9 @@ void append_means(LevelSide& side, const RowMatrix& descriptors, double scale) {
 
 /// vertices x landmarks: exp(-d / reach) at a distance d along the surface.
 RowMatrix nearness(const GeodesicGraph& graph, const std::vector<int>& landmarks) {
-    constexpr double reach = 0.1;  // units of sqrt(area). At 0.2 as good.
+    // Units of sqrt(area). At 0.2 errors of half of the known pairs are 1.013 times those, and more is
+    // reversed.
+    constexpr double reach = 0.1;
     return (-distances_from_each(graph, landmarks).transpose().array() / reach).exp();
 }
 
@@ -58,11 +60,9 @@ void add_shape_term(LevelPair& pair, const PairContext& context, double weight) 
 
 void add_landmark_term(LevelPair& pair, const PairContext& context, double weight) {
     if (weight == 0 || context.landmarks().empty() || !context.A().surface.is_surface()) return;
-    std::vector<int> on_A, on_B;
-    for (const auto& [a, b] : context.landmarks()) on_A.push_back(a.index), on_B.push_back(b.index);
     const double scale = scale_of(pair, weight * context.landmark_weight());
-    append_means(pair.A, nearness(context.graph_A(), on_A), scale);
-    append_means(pair.B, nearness(context.graph_B(), on_B), scale);
+    append_means(pair.A, nearness(context.graph_A(), context.landmarks_A()), scale);
+    append_means(pair.B, nearness(context.graph_B(), context.landmarks_B()), scale);
 }
 
 }  // namespace varimap

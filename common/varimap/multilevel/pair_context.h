@@ -22,6 +22,9 @@ class PairContext {
     const GeodesicGraph& graph_A() const { return A_.graph; }
     const GeodesicGraph& graph_B() const { return B_.graph; }
     const VertexPairs<MeshVertex>& landmarks() const { return landmarks_; }
+    /// The landmarks of one surface, as vertices of its mesh.
+    const std::vector<int>& landmarks_A() const { return A_.landmarks; }
+    const std::vector<int>& landmarks_B() const { return B_.landmarks; }
     double landmark_weight() const { return landmark_weight_; }
 
     /// Number of diffusion levels of the pair; the surface with fewer stays at its last one meanwhile.

@@ -92,12 +92,12 @@ PolygonSoup parse_off(std::string_view bytes, const std::string& path) {
     read_vertices(words, vertices, packed_vertices, soup);
     const bool packed_faces = !words.has_lines_for(faces);
     read_faces(words, faces, packed_faces, soup);
+    if (words.at_end()) return soup;
     // A truncated file has fewer lines too; what follows its elements is read as them, and does not come out
     // even.
-    if ((packed_vertices || packed_faces) && !words.at_end())
-        words.fail("there are fewer lines than vertices and faces, and more numbers than these need");
-    if (!words.at_end()) words.fail("more follows than the vertices and faces that the header counts");
-    return soup;
+    words.fail(packed_vertices || packed_faces
+                   ? "there are fewer lines than vertices and faces, and more numbers than these need"
+                   : "more follows than the vertices and faces that the header counts");
 }
 
 }  // namespace varimap

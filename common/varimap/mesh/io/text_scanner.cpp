@@ -68,6 +68,11 @@ bool to_integer(std::string_view word, long long& value) {
     return error == std::errc() && stop == end;
 }
 
+bool is_number(std::string_view word) {
+    double ignored;
+    return to_number(word, ignored);
+}
+
 std::string_view TextScanner::take_line() {
     const std::size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
     const std::string_view line = text_.substr(position_, end - position_);

@@ -53,5 +53,6 @@ std::string_view without_byte_order_mark(std::string_view bytes, const std::stri
 /// The whole word as a number, the same in every locale; false if it is not one. "nan" and "inf" are numbers.
 bool to_number(std::string_view word, double& value);
 bool to_integer(std::string_view word, long long& value);
+bool is_number(std::string_view word);
 
 }  // namespace varimap
