@@ -44,6 +44,10 @@ same_as_before=$(mean out/source_to_target.csv)
 map a.off b.off -o out --initial-map turned.txt
 is_below .1 "$(mean out/source_to_target.csv)" || fail "the map that was given was not followed"
 
+seq 7 $((n + 6)) | sed 's/.*/7/' >constant.txt
+map a.off b.off -o out --initial-map constant.txt --map-base 0 --until diffuse
+grep -q 'to one place of the target' out/log.txt || fail "a constant map passes without a word"
+
 # What varimap wrote may be continued: a table, its arrays.
 map a.off b.off -o kept --initial-map right.txt
 cp kept/source_to_target.csv table.csv

@@ -61,4 +61,57 @@ void warn_of_inside_out(const Surface& A, const Surface& B) {
             A_is ? "source" : "target");
 }
 
+namespace {
+
+/// Root of the mean square distance from the mean.
+double spread(const Points& points) {
+    return std::sqrt((points.rowwise() - points.colwise().mean()).rowwise().squaredNorm().mean());
+}
+
+Points places(const PointPairs& pairs, const TriangleMesh& target) {
+    Points places(pairs.size(), 3);
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+        places.row(Eigen::Index(k)) = position(target, pairs[k].second).transpose();
+    return places;
+}
+
+/// Root of the mean square distance between images of vertices that are neighbours; 0 if none are.
+double step(const PointPairs& from_A, const Points& images, const TriangleMesh& source) {
+    std::vector<Eigen::Index> row(std::size_t(source.vertex_count()), -1);
+    for (std::size_t k = 0; k < from_A.size(); ++k)
+        if (const int v = vertex_of(source, from_A[k].first); v >= 0) row[std::size_t(v)] = Eigen::Index(k);
+    double sum = 0;
+    int count = 0;
+    for (int f = 0; f < source.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Index a = row[std::size_t(source.faces(f, k))],
+                               b = row[std::size_t(source.faces(f, (k + 1) % 3))];
+            if (a < 0 || b < 0) continue;
+            sum += (images.row(a) - images.row(b)).squaredNorm();
+            ++count;
+        }
+    return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+}  // namespace
+
+void warn_of_shapeless_map(const PointPairs& from_A, const Surface& A, const Surface& B) {
+    // Images of half a body spread by .5 of the whole's. Steps of a map of which a tenth is wrong at random
+    // are .44 of those of a random one, where half is .87.
+    constexpr double gathered = 0.2, scattered = 0.87;
+    if (!A.is_surface() || !B.is_surface()) return;
+    const Points images = places(from_A, B.input);
+    const double of_images = spread(images), of_target = spread(B.mesh.vertices) / B.scale;
+    if (of_images < gathered * of_target)
+        warn(
+            "the initial map takes the source to one place of the target (its images spread {:.0f}% as far "
+            "as "
+            "the target does): is it a map of these two meshes?",
+            100 * of_images / of_target);
+    else if (step(from_A, images, A.input) > scattered * std::sqrt(2.0) * of_images)
+        warn(
+            "the initial map takes neighbours to places far from each other, as a random one does: is it a "
+            "map of these two meshes, in the order of their vertices?");
+}
+
 }  // namespace varimap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "varimap/mesh/surface.h"
+#include "varimap/results/correspondences.h"
 
 namespace varimap {
 
@@ -16,5 +17,9 @@ void warn_of_genus(const Surface& A, const Surface& B);
 /// Warns where of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored:
 /// all maps that keep the orientation are then those of a mirror image.
 void warn_of_inside_out(const Surface& A, const Surface& B);
+
+/// Warns of points of A's input with images on B's (correspondences_of) that are no map to begin from: the
+/// images gather in one place, or neighbours have places far from each other, as if drawn by lot.
+void warn_of_shapeless_map(const PointPairs& from_A, const Surface& A, const Surface& B);
 
 }  // namespace varimap

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "stages/preprocess/preprocess.h"
 #include "tests/fixtures/shapes.h"
 #include "varimap/core/warnings.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {
@@ -72,6 +75,31 @@ TEST(UnlikeSurfaces, OneInsideOutIsSaid) {
     // --mirror is the user's word on it.
     EXPECT_EQ(warnings_of(ball(true, true), out), 0u);
     EXPECT_EQ(warnings_of(ball(false, true), out), 0u);
+}
+
+/// A ball onto itself, vertex v to `image(v, random)`.
+template <class Image>
+std::size_t warnings_of_map(const Surface& ball, Image image) {
+    std::mt19937 random(1);
+    PointPairs pairs;
+    for (int v = 0; v < ball.input.vertex_count(); ++v)
+        pairs.emplace_back(point_at_vertex(ball.input, v), point_at_vertex(ball.input, image(v, random)));
+    return warnings_of(ball, ball,
+                       [&](const Surface& A, const Surface& B) { warn_of_shapeless_map(pairs, A, B); });
+}
+
+TEST(UnlikeSurfaces, MapsWithoutShapeAreSaid) {
+    const Surface ball = preprocess(shapes::ellipsoid(3), {});
+    const int count = ball.input.vertex_count();
+    const auto any = [&](std::mt19937& random) { return int(random() % unsigned(count)); };
+    EXPECT_EQ(warnings_of_map(ball, [](int v, std::mt19937&) { return v; }), 0u);
+    EXPECT_EQ(warnings_of_map(ball, [](int v, std::mt19937&) { return v - v % 20; }), 0u);
+    EXPECT_EQ(warnings_of_map(ball, [&](int v, std::mt19937& random) { return v % 5 ? v : any(random); }),
+              0u);
+    ASSERT_EQ(warnings_of_map(ball, [](int, std::mt19937&) { return 7; }), 1u);
+    EXPECT_NE(logged_warnings().back().find("to one place of the target"), std::string::npos);
+    ASSERT_EQ(warnings_of_map(ball, [&](int, std::mt19937& random) { return any(random); }), 1u);
+    EXPECT_NE(logged_warnings().back().find("as a random one does"), std::string::npos);
 }
 
 }  // namespace
