@@ -108,9 +108,9 @@ SurfaceData sketch(const Surface& surface) {
     return surface_data(coarsened(surface, params));
 }
 
-/// `given`: landmarks on the inputs.
-std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, const Landmarks& given,
-                                           const MapOptions& options) {
+/// `surfaces`: what the map is solved for on; `given`: landmarks on the inputs.
+std::optional<Candidates> found_candidates(const PairContext& surfaces, const Surface& A, const Surface& B,
+                                           const Landmarks& given, const MapOptions& options) {
     if (!options.initial_map.empty()) return {};
     ExploreParams params;
     params.only_if_needed = !options.explore;
@@ -119,8 +119,10 @@ std::optional<Candidates> found_candidates(const Surface& A, const Surface& B, c
     const PointPairs points = landmark_points(given, sketch_A.surface, sketch_B.surface);
     const PairContext context =
         pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
-    if (!options.landmarks.empty()) return explore(context, params);
-    return explore(context, params, [&] { return find_self_maps_of_both(context, params); });
+    OnDemand ask;
+    if (!options.full_resolution) ask.surfaces = [&] { return surfaces; };
+    if (options.landmarks.empty()) ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
+    return explore(context, params, ask);
 }
 
 /// The stages that solve for a plan.
@@ -163,8 +165,8 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     SurfaceData data_A = surface_data(surface_A), data_B = surface_data(surface_B);
     const PairContext context =
         pair_context(std::move(data_A), std::move(data_B), landmarks, points, options.landmark_weight);
-    const Plan plan =
-        solve(context, points, found_candidates(surface_A, surface_B, given, options), initial_map, options);
+    const Plan plan = solve(context, points, found_candidates(context, surface_A, surface_B, given, options),
+                            initial_map, options);
     SurfaceMap map =
         relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B), plan.plan.area_bound);
     MappedSurfaces mapped;

@@ -124,14 +124,20 @@ class Finishing {
 
     /// Those that have joined the pool since the last time, but for those that become what is there already.
     void finish(const std::vector<PooledMap>& pool) {
-        const size_t before = origins_.size();
-        if (pool.size() == before) return;
-        const Timer timer("finishing");
-        std::vector<VertexImages> starts;
-        for (size_t n = before; n < pool.size(); ++n) {
-            starts.push_back(pool[n].images);
-            origins_.push_back(pool[n].origin);
+        std::vector<MapStart> starts;
+        std::vector<Candidate> origins;
+        for (size_t n = origins_.size(); n < pool.size(); ++n) {
+            starts.push_back(
+                [&images = pool[n].images](const LevelPair& level) { return matching_of(images, level); });
+            origins.push_back(pool[n].origin);
         }
+        if (!starts.empty()) finish(starts, origins);
+    }
+    /// More maps, and where they come from.
+    void finish(const std::vector<MapStart>& starts, const std::vector<Candidate>& origins) {
+        const Timer timer("finishing");
+        const size_t before = origins_.size();
+        origins_.insert(origins_.end(), origins.begin(), origins.end());
         for (FinishedMap& map : varimap::finish(context_, appraisal_, starts, options_, maps_)) {
             map.start += int(before);
             measured_.push_back(origins_[std::size_t(map.start)]);
@@ -257,6 +263,44 @@ Candidates candidates_of(const std::vector<Appraised>& list, const PairContext& 
     return found;
 }
 
+Candidates with_previews(const std::vector<Appraised>& list, const PairContext& context) {
+    constexpr std::size_t shown = 3;
+    Candidates found = candidates_of(list, context);
+    if (confidence_of(found.list).confident) return found;
+    for (std::size_t k = 0; k < std::min(list.size(), shown); ++k)
+        found.previews.push_back(preview(list[k].map.maps.B_to_A, context.B().surface, context.A().surface));
+    return found;
+}
+
+/// Those that may be the right map as well as the best: not mirrored, and not much worse.
+std::vector<Appraised> finalists(std::vector<Appraised> list, const FinishingOptions& options) {
+    const double worst = list.front().candidate.score + options.gap;
+    std::erase_if(list, [&](const Appraised& one) {
+        return is_mirrored(one.candidate) || one.candidate.score > worst;
+    });
+    if (int(list.size()) > options.most) list.resize(std::size_t(options.most));
+    return list;
+}
+
+/// Maps of sketches, finished anew on the surfaces that were sketched, where more shows.
+std::vector<Appraised> finished_on(const PairContext& surfaces, const std::vector<Appraised>& list,
+                                   const PairContext& sketches, const ExploreParams& params) {
+    log("{} maps are too close to choose among on sketches: finishing them on the surfaces", list.size());
+    std::vector<MapStart> starts;
+    std::vector<Candidate> origins;
+    for (const auto& [map, found] : list) {
+        const Correspondences points = correspondences(map.maps, sketches.A().surface, sketches.B().surface);
+        starts.push_back([at = at_vertices(points, surfaces.A().surface, surfaces.B().surface)](
+                             const LevelPair& level) { return matching_of(at, level); });
+        origins.push_back(
+            {.explored = found.explored, .self_map_A = found.self_map_A, .self_map_B = found.self_map_B});
+    }
+    const Appraisal appraisal(surfaces);
+    Finishing finishing(surfaces, quick_finishing(params), appraisal);
+    finishing.finish(starts, origins);
+    return finishing.appraised();
+}
+
 /// Whether another map scores better than the first, to which landmarks lead: then both are shown.
 bool is_disputed(const std::vector<Appraised>& list) {
     return confidence_of(ratings(list)).margin < 0;
@@ -326,11 +370,12 @@ SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& pa
             find_self_maps({pair.B(), pair.B(), {}}, params)};
 }
 
-Candidates explore(const PairContext& context, const ExploreParams& params,
-                   const std::function<SelfMaps()>& ask_for_self_maps) {
+Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
     // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
     // to is as plausible, not strained, and they decide it.
     constexpr double suffices = 0.995;
+    // Above .9, from which on choices are called sure: of nine animals onto a lion one was wrong by .92.
+    constexpr double decided = 0.95;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
         log("{} landmarks: nothing else is looked for", context.landmarks().size());
@@ -346,7 +391,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         if (logged_plausibility(there) >= suffices && is_good(there, true) && landmarks_are_apart(context))
             return led(std::move(alone), context);
     }
-    LazySelfMaps self_maps(context, ask_for_self_maps);
+    LazySelfMaps self_maps(context, ask.self_maps);
     std::vector<Appraised> list = quickly_found(context, params, led_there, finishing, self_maps);
     if (!is_good(list.front().candidate, if_needed)) {
         log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "
@@ -357,13 +402,11 @@ Candidates explore(const PairContext& context, const ExploreParams& params,
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }
-    Candidates found = candidates_of(list, context);
-    constexpr std::size_t shown = 3;
-    if (!confidence_of(found.list).confident)
-        for (std::size_t k = 0; k < std::min(list.size(), shown); ++k)
-            found.previews.push_back(
-                preview(list[k].map.maps.B_to_A, context.B().surface, context.A().surface));
-    return found;
+    const std::vector<Appraised> last = finalists(list, params.finishing);
+    if (!ask.surfaces || last.size() < 2 || confidence_of(ratings(list)).probability >= decided)
+        return with_previews(list, context);
+    const PairContext surfaces = ask.surfaces();
+    return with_previews(finished_on(surfaces, last, context, params), surfaces);
 }
 
 }  // namespace varimap

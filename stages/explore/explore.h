@@ -21,11 +21,17 @@ SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& pa
 /// rest of a body to turn or twist, and a twisted one may look as plausible as the right map.
 bool landmarks_are_apart(const PairContext& context);
 
+/// What is asked for only where it is needed; either may be empty.
+struct OnDemand {
+    std::function<SelfMaps()> self_maps;    ///< of both surfaces
+    std::function<PairContext()> surfaces;  ///< what was sketched, with the same landmarks
+};
+
 /// Maps worth continuing, the best first. What exploration finds is composed with self-maps of both surfaces,
-/// so that a wrong map brings the right one with it, unless one is beyond doubt without that: `self_maps` is
-/// called where they are needed, and may be empty. All are finished at the resolution of these surfaces
-/// (meant to be sketches), and compared as finished maps (candidate.h).
-Candidates explore(const PairContext& context, const ExploreParams& params,
-                   const std::function<SelfMaps()>& self_maps = {});
+/// so that a wrong map brings the right one with it, unless one is beyond doubt without that. All are
+/// finished at the resolution of these surfaces (meant to be sketches), and compared as finished maps
+/// (candidate.h). Where the choice is not sure, those that may be right are finished once more on the
+/// surfaces that were sketched, and compared there.
+Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask = {});
 
 }  // namespace varimap

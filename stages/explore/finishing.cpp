@@ -50,12 +50,12 @@ class JointDescent {
           descent_(context, options.alternation, options.ironing),
           euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
-    std::vector<Pursued> run(const std::vector<VertexImages>& starts) {
+    std::vector<Pursued> run(const std::vector<MapStart>& starts) {
         for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}});
         const int first = first_level_for_a_map(context_);
         enter(context_.diffusion_level(first));
         solve_all(options_.ironing, [&](const Pursued& one) {
-            return Start{centres_of(level(), matching_of(starts[std::size_t(one.start)], level())), {}};
+            return Start{centres_of(level(), starts[std::size_t(one.start)](level())), {}};
         });
         keep_best(options_.gap_at_first);
         // A map that is by itself, as that which landmarks lead to, has no other to be chosen instead.
@@ -181,7 +181,7 @@ bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context
 }  // namespace
 
 std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& appraisal,
-                                const std::vector<VertexImages>& starts, const FinishingOptions& options,
+                                const std::vector<MapStart>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known) {
     JointDescent descent(context, appraisal, options, known);
     std::vector<FinishedMap> finished;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "stages/explore/appraisal.h"
@@ -39,12 +40,15 @@ struct FinishingOptions {
     }
 };
 
+/// A map to be finished: what it matches on a level.
+using MapStart = std::function<Matching(const LevelPair&)>;
+
 /// Continues maps side by side through a diffusion level and the Euclidean ones, drops the worse ones on the
 /// way, and relaxes the rest: only finished maps can be compared with confidence. That of the best rough
 /// score comes first. Those that become what is in `known` already are left out. Deterministic for any number
 /// of threads.
 std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& appraisal,
-                                const std::vector<VertexImages>& starts, const FinishingOptions& options,
+                                const std::vector<MapStart>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known = {});
 
 }  // namespace varimap

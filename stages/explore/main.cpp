@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "stages/explore/explore.h"
 #include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/spectral/spectral_check.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;
@@ -45,6 +48,57 @@ Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::str
     return std::move(self_maps.value);
 }
 
+/// The surfaces that were sketched, with their bases and hierarchies: recorded as inputs in any case, read
+/// where they are asked for.
+class SketchedSurfaces {
+  public:
+    SketchedSurfaces(Stage& stage, const std::vector<std::string>& files) : files_(files) {
+        for (std::size_t k = 0; k < files.size(); ++k) {
+            headers_.push_back(read_header(files[k]));
+            stage.record_input(
+                {std::string("surfaces.") + char('A' + k), headers_[k].kind, headers_[k].payload_hash});
+        }
+        if (files.empty()) return;
+        for (const std::size_t surface : {0, 3}) {
+            require_lineage(surface + 1, "surface", surface);
+            require_lineage(surface + 2, "surface", surface);
+            require_lineage(surface + 2, "basis", surface + 1);
+        }
+    }
+    bool are_given() const { return !files_.empty(); }
+    /// Refuses surfaces of which those read are no sketches.
+    void require_sketches(const PairInputs& sketches) const {
+        for (const auto& [side, surface] : {std::pair("A", 0), std::pair("B", 3)})
+            if (are_given() && sketches.sketched(side) != headers_[std::size_t(surface)].payload_hash)
+                throw ArtifactError(
+                    fmt::format("'{}' is not the surface that was sketched; rerun varimap-coarsen",
+                                files_[std::size_t(surface)]));
+    }
+    SurfaceData read_A() const { return read(0); }
+    SurfaceData read_B() const { return read(3); }
+
+  private:
+    void require_lineage(std::size_t child, const char* role, std::size_t parent) const {
+        Stage::require_lineage(headers_[child], files_[child], role, headers_[parent], files_[parent]);
+    }
+    template <class T>
+    T read_one(std::size_t k) const {
+        Artifact<T> artifact = read_artifact<T>(files_[k]);
+        if (artifact.header.payload_hash != headers_[k].payload_hash)
+            throw IoError("'" + files_[k] + "' changed since this stage began; run again");
+        return std::move(artifact.value);
+    }
+    SurfaceData read(std::size_t first) const {
+        SurfaceData data{read_one<Surface>(first), read_one<Basis>(first + 1),
+                         read_one<Hierarchy>(first + 2)};
+        require_fit(data);
+        return data;
+    }
+
+    const std::vector<std::string>& files_;
+    std::vector<Header> headers_;
+};
+
 /// Maps are judged by how they carry faces.
 void require_surface(const Surface& surface) {
     if (!surface.is_surface())
@@ -52,6 +106,13 @@ void require_surface(const Surface& surface) {
             "varimap-explore looks for maps between surfaces only; for other domains give varimap-diffuse "
             "landmarks, "
             "or --start wasserstein");
+}
+
+PairContext with_landmarks(SurfaceData A, SurfaceData B, const Landmarks& landmarks,
+                           const ExploreParams& params) {
+    const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
+    const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
+    return pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
 }
 
 }  // namespace
@@ -71,6 +132,11 @@ int main(int argc, char** argv) {
                                 "beyond doubt are composed with "
                                 "them (default: they are looked for then, but with landmarks)",
                                 2, 2);
+    const auto& surface_files = stage.input_list_option(
+        "surfaces",
+        "what was sketched: surface, basis and hierarchy of A, then of B; where the choice is not sure, maps "
+        "that may be right are finished and compared on these, too",
+        6, 6);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         require_surface(A.surface);
@@ -79,19 +145,21 @@ int main(int argc, char** argv) {
         if (!self_map_files.empty())
             given = {read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input),
                      read_self_maps(stage, inputs, "B", self_map_files[1], B.surface.input)};
+        const SketchedSurfaces surfaces(stage, surface_files);
+        surfaces.require_sketches(inputs);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
-        const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
-        const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
-        const PairContext context =
-            pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-        std::function<SelfMaps()> self_maps;
+        const PairContext context = with_landmarks(std::move(A), std::move(B), landmarks, params);
+        OnDemand ask;
         if (given)
-            self_maps = [&] { return *given; };
+            ask.self_maps = [&] { return *given; };
         else if (landmark_files.empty())
-            self_maps = [&] { return find_self_maps_of_both(context, params); };
-        Candidates found =
-            params.self_maps ? find_self_maps(context, params) : explore(context, params, self_maps);
+            ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
+        if (surfaces.are_given())
+            ask.surfaces = [&] {
+                return with_landmarks(surfaces.read_A(), surfaces.read_B(), landmarks, params);
+            };
+        Candidates found = params.self_maps ? find_self_maps(context, params) : explore(context, params, ask);
         if (params.self_maps)
             report_self_maps(found.list);
         else if (landmarks_decide(found))

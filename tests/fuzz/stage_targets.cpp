@@ -170,9 +170,10 @@ void require_fit(const Artifacts& all) {
 void run_explore(const Artifacts& all, const std::string&) {
     require_fit(all);
     require_surfaces(all.candidates, all.A.surface.input, all.A.surface.input);
-    encode(explore(PairContext(all.A, all.B, {}), explore_params(), [&] {
-        return SelfMaps{all.candidates, {}};
-    }));
+    OnDemand ask;
+    ask.self_maps = [&] { return SelfMaps{all.candidates, {}}; };
+    ask.surfaces = [&] { return PairContext(all.A, all.B, {}); };
+    encode(explore(PairContext(all.A, all.B, {}), explore_params(), ask));
 }
 
 void run_diffuse(const Artifacts& all, const std::string&) {

@@ -33,6 +33,14 @@ Candidates explored(const PairContext& context) {
     return explore(context, ExploreParams());
 }
 
+std::vector<FinishedMap> finish_from(const PairContext& context, const std::vector<VertexImages>& images,
+                                     const FinishingOptions& options) {
+    std::vector<MapStart> starts;
+    for (const VertexImages& one : images)
+        starts.push_back([&one](const LevelPair& level) { return matching_of(one, level); });
+    return finish(context, Appraisal(context), starts, options);
+}
+
 /// The pair with its target reflected in space, which makes it of the other handedness.
 KnownPair reflected(KnownPair pair) {
     Surface& B = pair.B.surface;
@@ -146,12 +154,11 @@ TEST(SelfMaps, BringTheRightMapToAWrongOne) {
     options.gap = options.gap_at_first = 1000;
     double least = 1;
     const Points& truth = surface.mesh.vertices;
-    for (const FinishedMap& map : finish(context, Appraisal(context), starts, options))
+    for (const FinishedMap& map : finish_from(context, starts, options))
         least = std::min(least, shapes::mean_error(map.maps.A_to_B, surface.mesh, truth));
     EXPECT_LT(least, .05);  // one of them is a half turn done twice: the identity
     starts.resize(1);
-    EXPECT_GT(shapes::mean_error(finish(context, Appraisal(context), starts, options)[0].maps.A_to_B,
-                                 surface.mesh, truth),
+    EXPECT_GT(shapes::mean_error(finish_from(context, starts, options)[0].maps.A_to_B, surface.mesh, truth),
               .2);
 }
 
@@ -180,7 +187,7 @@ TEST(Finishing, IsBestForTheRightMap) {
     const VertexImages wrong = shifted(right, 300, A.mesh, B.mesh);
     FinishingOptions options;
     options.gap = options.gap_at_first = 1000;
-    const std::vector<FinishedMap> finished = finish(context, Appraisal(context), {wrong, right}, options);
+    const std::vector<FinishedMap> finished = finish_from(context, {wrong, right}, options);
     ASSERT_FALSE(finished.empty());
     EXPECT_EQ(finished.front().start, 1);
     EXPECT_LT(shapes::mean_error(finished.front().maps.A_to_B, B.mesh, pair.A_on_B), .03);
@@ -207,13 +214,13 @@ TEST(Finishing, DropsWhatIsClearlyWorseButForOneMapThatIsElsewhere) {
     FinishingOptions options;
     options.distinct = 0;
     options.gap = options.gap_at_first = 0;
-    const std::vector<FinishedMap> finished = finish(context, Appraisal(context), starts, options);
+    const std::vector<FinishedMap> finished = finish_from(context, starts, options);
     ASSERT_EQ(finished.size(), 2u);
     EXPECT_EQ(finished[0].start, 2);
     EXPECT_LT(shapes::mean_error(finished[0].maps.A_to_B, B, pair.A_on_B), .03);
     EXPECT_GT(shapes::mean_error(finished[1].maps.A_to_B, B, pair.A_on_B), .3);
     options.gap = options.gap_at_first = 1000;
-    EXPECT_EQ(finish(context, Appraisal(context), starts, options).size(), std::size_t(options.most));
+    EXPECT_EQ(finish_from(context, starts, options).size(), std::size_t(options.most));
 }
 
 /// The right map but for the limb that ends farthest from the centre, which it mirrors.
@@ -243,7 +250,7 @@ TEST(Finishing, PlacesAMirroredLimbAnew) {
     const VertexImages start = with_a_mirrored_limb(true_images(pair), context.A().surface.mesh);
     const auto reversed = [&](const FinishingOptions& options) {
         Candidate candidate;
-        Appraisal(context).measure(finish(context, Appraisal(context), {start}, options).front(), candidate);
+        Appraisal(context).measure(finish_from(context, {start}, options).front(), candidate);
         return candidate.reversed_mass;
     };
     FinishingOptions options;
@@ -252,12 +259,18 @@ TEST(Finishing, PlacesAMirroredLimbAnew) {
     EXPECT_GT(reversed(options), .02);
 }
 
-TEST(Explore, PreviewsMapsWhereItIsNotSure) {
-    // Symmetry leaves four maps of an ellipsoid, which keep or reverse coordinates.
+/// Symmetry leaves four maps of an ellipsoid, which keep or reverse coordinates.
+KnownPair ellipsoids(int vertices) {
     const TriangleMesh mesh = shapes::ellipsoid(3, {1, .7, .5});
     TriangleMesh other = shapes::moved(shapes::ellipsoid(3), 1, 1, Vec3::Zero());  // tessellated otherwise
     other.vertices *= Vec3(1, .7, .5).asDiagonal();
-    const Candidates found = explored(shapes::known_pair(mesh, other, {}, 60, {}).context());
+    return shapes::known_pair(mesh, other, {}, 60, {}, vertices);
+}
+
+TEST(Explore, PreviewsMapsWhereItIsNotSure) {
+    const KnownPair pair = ellipsoids(1000);
+    const TriangleMesh &mesh = pair.A.surface.input, &other = pair.B.surface.input;
+    const Candidates found = explored(pair.context());
     ASSERT_EQ(found.previews.size(), std::min(found.list.size(), size_t(3)));
     for (const PointMap& map : found.previews) {
         ASSERT_EQ(int(map.size()), other.vertex_count());
@@ -266,6 +279,32 @@ TEST(Explore, PreviewsMapsWhereItIsNotSure) {
             sum += (position(mesh, map[size_t(v)]).cwiseAbs() - other.vertex(v).cwiseAbs()).norm();
         EXPECT_LT(sum / other.vertex_count(), .2);  // a vertex's distance from the next is .1
     }
+}
+
+TEST(Explore, FinishesWhatIsTooCloseOnTheSurfacesThatWereSketched) {
+    const KnownPair sketches = ellipsoids(300), surfaces = ellipsoids(1000);
+    const int vertices = surfaces.A.surface.mesh.vertex_count();
+    ASSERT_LT(sketches.A.surface.mesh.vertex_count(), vertices);
+    OnDemand ask;
+    ask.surfaces = [&] { return surfaces.context(); };
+    const Candidates found = explore(sketches.context(), ExploreParams(), ask);
+    ASSERT_GE(found.list.size(), 2u);
+    EXPECT_FALSE(confidence_of(found.list).confident);
+    EXPECT_EQ(found.list[0].moved_mass, 0);
+    for (std::size_t k = 0; k < found.list.size(); ++k) {
+        EXPECT_EQ(int(found.maps[k].from_A.size()), vertices);
+        EXPECT_GE(found.list[k].explored, 1);
+        if (k > 0) {
+            EXPECT_GE(found.list[k].score, found.list[k - 1].score);
+        }
+    }
+    EXPECT_EQ(found.previews.size(), std::min(found.list.size(), size_t(3)));
+}
+
+TEST(Explore, LeavesTheSurfacesAloneWhereSketchesDecide) {
+    OnDemand ask;
+    ask.surfaces = []() -> PairContext { throw std::logic_error("asked for"); };
+    EXPECT_FALSE(explore(figures().context(), ExploreParams(), ask).list.empty());
 }
 
 TEST(Starts, SpectralMatchingsHoldTheTrueOne) {
