@@ -10,6 +10,9 @@ def direction($words):
     (.verification.reversed_area_percent // .flipped_area_percent) as $reversed
     | check("area reversed, \($words)"; "\($reversed | fixed(2)) %"; $reversed; 0.1; 1),
       check("area covered, \($words)"; "\(100 * .coverage | fixed(1)) %"; 1 - .coverage; 0.03; 0.1),
+      # A limb that the other surface has not, or that the map misses.
+      ((.uncovered // [])[0] // empty | check("largest part not reached, \($words)";
+          "\(.area_percent | fixed(1)) %, vertex \(.vertex)"; .area_percent; 0.5; 2)),
       (.conformal_distortion | check("change of angles, \($words)"; "\(.p50 | fixed(2)) (median), \(.p95 | fixed(2)) (95 %)";
           .p95; 3; 6)),
       (.verification.degree // empty | check("how often covered, \($words)"; fixed(2); fabs - 1 | fabs; 0.02; 0.1));
@@ -20,7 +23,9 @@ def direction($words):
         if .continued > 1 then "candidate \(.continued), as asked" elif .confident then "sure" else "not sure" end;
         if .confident or .continued > 1 then 0 else 2 - (.probability // 0) end; 1; 1))] as $checks
 | (.exploration.continued // 1) as $continued
-| [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not)) | "\(.stage): \(.message)"] as $warnings
+# Every textured mesh is welded at its seams: nothing to look at.
+| [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not))
+    | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not) | "\(.stage): \(.message)"] as $warnings
 | {verdict: (if any($checks[]; .grade == "look here") or ($warnings | length > 0) then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),
     warnings: $warnings, checks: $checks, command: (.provenance.command // ""), version: (.provenance.version // ""),

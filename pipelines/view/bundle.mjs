@@ -1,8 +1,9 @@
 // Puts page.html, style.css and the program with all it uses into one file: node bundle.mjs OUTPUT
 import { build } from 'esbuild';
 import { readFileSync, writeFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
 
-const here = new URL('.', import.meta.url).pathname;
+const here = fileURLToPath(new URL('.', import.meta.url));
 const { outputFiles } = await build({
   entryPoints: [`${here}src/main.js`],
   bundle: true,

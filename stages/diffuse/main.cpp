@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
         warn_of_part(A.surface, B.surface);
         warn_of_genus(A.surface, B.surface);
         warn_of_inside_out(A.surface, B.surface);
-        if (initial_map) warn_of_shapeless_map(initial_map->from_A, A.surface, B.surface);
+        if (initial_map) warn_of_bad_initial_map(initial_map->from_A, A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "varimap/artifact/artifact.h"
@@ -34,6 +35,14 @@ std::string read_rows(const std::string& path) {
     return text;
 }
 
+/// A heading without its quotes, in lower case.
+std::string plain_heading(std::string_view word) {
+    std::string heading;
+    for (const char c : word)
+        if (c != '"') heading += char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    return heading;
+}
+
 /// Rows of numbers, from the second on where the first are names.
 class Rows {
   public:
@@ -43,9 +52,12 @@ class Rows {
         double number;
         const bool names = first_ && !to_number(scanner.words()[0], number);
         first_ = false;
-        return !names || scanner.next_line();
+        if (!names) return true;
+        for (const std::string_view word : scanner.words()) headings.push_back(plain_heading(word));
+        return scanner.next_line();
     }
     TextScanner scanner;
+    std::vector<std::string> headings;  ///< empty where there are none
 
   private:
     bool first_ = true;
@@ -70,6 +82,28 @@ Points to_points(const std::vector<Vec3>& list) {
     return points;
 }
 
+/// The columns called x, y and, where there is one, z; none where the first two are not there.
+std::vector<std::size_t> columns_of_axes(const std::vector<std::string>& headings) {
+    std::vector<std::size_t> columns;
+    for (const char* axis : {"x", "y", "z"}) {
+        const auto found = std::find(headings.begin(), headings.end(), axis);
+        if (found != headings.end()) columns.push_back(std::size_t(found - headings.begin()));
+        if (columns.size() < 2 && found == headings.end()) return {};
+    }
+    return columns;
+}
+
+Vec3 point_of_columns(const Rows& rows, const std::vector<std::size_t>& columns) {
+    const TextScanner& row = rows.scanner;
+    if (row.words().size() != rows.headings.size())
+        row.fail(fmt::format("{} values, where the first row names {} columns", row.words().size(),
+                             rows.headings.size()));
+    Vec3 point = Vec3::Zero();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        point[Eigen::Index(k)] = finite(row, columns[k], "coordinate");
+    return point;
+}
+
 /// Coordinates along axes that a row does not name are 0.
 std::vector<Vec3> rows_of_points(const std::string& path) {
     const std::string text = read_rows(path);
@@ -77,6 +111,10 @@ std::vector<Vec3> rows_of_points(const std::string& path) {
     std::vector<Vec3> points;
     std::size_t columns = 0;
     while (rows.next()) {
+        if (const auto axes = columns_of_axes(rows.headings); !axes.empty()) {
+            points.push_back(point_of_columns(rows, axes));
+            continue;
+        }
         const std::size_t words = rows.scanner.words().size();
         if (words != 2 && words != 3) rows.scanner.fail("a point needs two or three coordinates");
         if (columns != 0 && words != columns)
@@ -200,6 +238,18 @@ DomainFile graph_from_rows(const std::string& path) {
     return {DomainKind::graph, count, {}, edges.edges(), false};
 }
 
+using Entries = std::set<std::pair<int, int>>;
+
+void require_both_halves(const Entries& entries, const std::string& path) {
+    for (const auto& [row, column] : entries)
+        if (entries.count({column, row}) == 0)
+            throw InputError(
+                fmt::format("{}: a general matrix with an entry at {} {} (from 1), but none at {} {}; a "
+                            "graph needs equal "
+                            "halves, or 'symmetric' in the first line where one half stands for both",
+                            path, row + 1, column + 1, column + 1, row + 1));
+}
+
 /// Not Eigen's unsupported MarketIO: it goes on after lines it cannot read, whose values it makes up.
 DomainFile graph_from_matrix_market(const std::string& path) {
     const std::string bytes = read_file(path);
@@ -215,7 +265,8 @@ DomainFile graph_from_matrix_market(const std::string& path) {
     const bool pattern = row.words()[3] == "pattern";
     if (!pattern && row.words()[3] != "real" && row.words()[3] != "integer")
         row.fail("entries of a graph are real, integer or pattern");
-    if (row.words()[4] != "symmetric" && row.words()[4] != "general")
+    const bool general = row.words()[4] == "general";
+    if (row.words()[4] != "symmetric" && !general)
         row.fail("the matrix of a graph is symmetric, or general with equal halves");
     if (!next_row() || row.words().size() != 3)
         row.fail("the numbers of rows, columns and entries are missing");
@@ -223,13 +274,16 @@ DomainFile graph_from_matrix_market(const std::string& path) {
     if (count != row.integer(1, "number of columns")) row.fail("the matrix of a graph is square");
     if (count < 1 || count > 10'000'000) row.fail(fmt::format("{} points are none or too many", count));
     EdgeCollector edges;
+    Entries given;
     long long read = 0;
     for (; next_row(); ++read) {
         if (row.words().size() != (pattern ? 2 : 3)) row.fail("an entry needs row, column and value");
         const int a = point_number(row, 0, 1, count), b = point_number(row, 1, 1, count);
         if (a != b) edges.add(row, a, b, pattern ? 1 : finite(row, 2, "weight"));
+        if (general) given.emplace(a, b);
     }
     if (read != entries) row.fail(fmt::format("{} entries, where its head promises {}", read, entries));
+    require_both_halves(given, path);
     return {DomainKind::graph, int(count), {}, edges.edges(), false};
 }
 

@@ -24,16 +24,17 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
 
 Appraisal::Appraisal(const PairContext& context) : context_(context), agreement_(context) {}
 
-void Appraisal::measure_agreement(const MapPair& maps, Candidate& candidate) const {
+void Appraisal::measure_roughly(const MapPair& maps, Candidate& candidate) const {
     candidate.relief = agreement_.relief(maps);
     candidate.alignment = agreement_.alignment(maps);
     candidate.stretch = agreement_.stretch(maps);
+    candidate.score = score_of(candidate);
 }
 
 double Appraisal::rough_score(const MapPair& maps) const {
     Candidate candidate;
-    measure_agreement(maps, candidate);
-    return score_of(candidate);
+    measure_roughly(maps, candidate);
+    return candidate.score;
 }
 
 void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
@@ -42,9 +43,8 @@ void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
                      back = measure_distortion(map.maps.B_to_A, B, A);
     candidate.energy = map.energy;
     candidate.dirichlet = std::sqrt(there.dirichlet_energy * back.dirichlet_energy);
-    measure_agreement(map.maps, candidate);
     candidate.reversed_mass = (there.flipped_area_percent + back.flipped_area_percent) / 200;
-    candidate.score = score_of(candidate);
+    measure_roughly(map.maps, candidate);
 }
 
 void compare(const FinishedMap& best, const FinishedMap& other, const PairContext& context,

@@ -24,13 +24,13 @@ class Appraisal {
 
     /// Fills in what is known of the map by itself, and its score.
     void measure(const FinishedMap& map, Candidate& candidate) const;
-    /// What the score of a map that is not finished will be, but for strain, which tells nothing as long as a
-    /// map has folds.
+    /// Of a map that is not finished: all but energy, strain and what it reverses, which tell nothing as long
+    /// as a map has folds. The score goes by the strain that is there already.
+    void measure_roughly(const MapPair& maps, Candidate& candidate) const;
+    /// What the score of such a map will be, but for strain.
     double rough_score(const MapPair& maps) const;
 
   private:
-    void measure_agreement(const MapPair& maps, Candidate& candidate) const;
-
     const PairContext& context_;
     ShapeAgreement agreement_;
 };

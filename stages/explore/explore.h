@@ -31,7 +31,7 @@ struct OnDemand {
 /// so that a wrong map brings the right one with it, unless one is beyond doubt without that. All are
 /// finished at the resolution of these surfaces (meant to be sketches), and compared as finished maps
 /// (candidate.h). Where the choice is not sure, those that may be right are finished once more on the
-/// surfaces that were sketched, and compared there.
+/// surfaces that were sketched, and put into the order in which they come out there.
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask = {});
 
 }  // namespace varimap

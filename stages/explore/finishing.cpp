@@ -38,6 +38,11 @@ IroningOptions euclidean_ironing(IroningOptions options, int rounds) {
     return options;
 }
 
+MapPair to_maps(const VertexImages& images, const PairContext& context) {
+    return {images_at(images.A_to_B, context.B().surface.mesh),
+            images_at(images.B_to_A, context.A().surface.mesh)};
+}
+
 /// The way down of all starts, level by level.
 class JointDescent {
   public:
@@ -51,28 +56,48 @@ class JointDescent {
           euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
     std::vector<Pursued> run(const std::vector<MapStart>& starts) {
-        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}});
-        const int first = first_level_for_a_map(context_);
-        enter(context_.diffusion_level(first));
-        solve_all(options_.ironing, [&](const Pursued& one) {
-            return Start{centres_of(level(), starts[std::size_t(one.start)](level())), {}};
-        });
+        const int first = begin(starts);
         keep_best(options_.gap_at_first);
         // A map that is by itself, as that which landmarks lead to, has no other to be chosen instead.
         // Without this level the hands of one of 14 isometric pairs ended twisted.
         if (const int last = context_.diffusion_levels() - 1; starts.size() == 1 && last > first)
             go_on(context_.diffusion_level(last), options_.ironing);
-        const int levels = context_.euclidean_levels();
-        for (int l = std::max(0, levels - 2); l < levels; ++l) {
-            go_on(context_.euclidean_level(l, l + 1 == levels ? 0 : 1), euclidean_ironing_);
+        for (int l = first_euclidean_level(); l < context_.euclidean_levels(); ++l) {
+            go_on_in_space(l);
             keep_best(options_.gap);
             if (int(pursued_.size()) > options_.most) pursued_.resize(std::size_t(options_.most));
+        }
+        return std::move(pursued_);
+    }
+    /// All of them, none dropped, until the first is clearly the best.
+    std::vector<Pursued> run_until_first_is_best(const std::vector<MapStart>& starts) {
+        begin(starts);
+        for (int l = first_euclidean_level(); l < context_.euclidean_levels() && !first_is_clearly_best();
+             ++l) {
+            go_on_in_space(l);
+            judge_all();
         }
         return std::move(pursued_);
     }
     const LevelPair& level() const { return descent_.level(); }
 
   private:
+    /// Solves the first level, and returns its index.
+    int begin(const std::vector<MapStart>& starts) {
+        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}});
+        const int first = first_level_for_a_map(context_);
+        enter(context_.diffusion_level(first));
+        solve_all(options_.ironing, [&](const Pursued& one) {
+            return Start{centres_of(level(), starts[std::size_t(one.start)](level())), {}};
+        });
+        return first;
+    }
+    /// The last but one, that of every vertex being the last.
+    int first_euclidean_level() const { return std::max(0, context_.euclidean_levels() - 2); }
+    void go_on_in_space(int index) {
+        const bool is_last = index + 1 == context_.euclidean_levels();
+        go_on(context_.euclidean_level(index, is_last ? 0 : 1), euclidean_ironing_);
+    }
     void enter(LevelPair level) {
         add_shape_term(level, context_, options_.shape_weight);
         add_landmark_term(level, context_, options_.vicinity_weight);
@@ -98,7 +123,7 @@ class JointDescent {
         if (pursued_.empty())
             throw ConvergenceError(
                 "no map was found between these surfaces; give landmarks, and look at both meshes");
-        parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) { judge(pursued_[n]); });
+        judge_all();
         std::stable_sort(pursued_.begin(), pursued_.end(),
                          [](const Pursued& a, const Pursued& b) { return a.score() < b.score(); });
         const double worst = std::min(pursued_.front().score(), best_known_score()) + gap;
@@ -122,11 +147,19 @@ class JointDescent {
             if (level < map.rough_scores.size()) best = std::min(best, map.rough_scores[level]);
         return best;
     }
+    void judge_all() {
+        parallel_for_each_index(pursued_.size(), std::size_t(1), [&](std::size_t n) { judge(pursued_[n]); });
+    }
+    bool first_is_clearly_best() const {
+        constexpr double clearly = 1;
+        const double first = pursued_.front().rough_scores.empty() ? 0 : pursued_.front().score();
+        return std::all_of(pursued_.begin() + 1, pursued_.end(), [&](const Pursued& other) {
+            return !other.rough_scores.empty() && other.score() > first + clearly;
+        });
+    }
     void judge(Pursued& one) const {
         one.images = vertex_images(one.solution, level(), context_);
-        const TriangleMesh &A = context_.A().surface.mesh, &B = context_.B().surface.mesh;
-        one.rough_scores.push_back(
-            appraisal_.rough_score({images_at(one.images.A_to_B, B), images_at(one.images.B_to_A, A)}));
+        one.rough_scores.push_back(appraisal_.rough_score(to_maps(one.images, context_)));
     }
     /// On most of the surfaces.
     bool differ(const Pursued& a, const Pursued& b) const {
@@ -207,6 +240,16 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
                  untangling);
     });
     return finished;
+}
+
+std::vector<MapPair> solved(const PairContext& context, const Appraisal& appraisal,
+                            const std::vector<MapStart>& starts, const FinishingOptions& options) {
+    const std::vector<FinishedMap> none;
+    JointDescent descent(context, appraisal, options, none);
+    std::vector<MapPair> maps;
+    for (const Pursued& one : descent.run_until_first_is_best(starts))
+        maps.push_back(to_maps(one.images, context));
+    return maps;
 }
 
 }  // namespace varimap

@@ -51,4 +51,9 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
                                 const std::vector<MapStart>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known = {});
 
+/// The same for all starts, in their order, of which none is dropped and none relaxed; only to the level
+/// where the first is clearly the best.
+std::vector<MapPair> solved(const PairContext& context, const Appraisal& appraisal,
+                            const std::vector<MapStart>& starts, const FinishingOptions& options);
+
 }  // namespace varimap

@@ -3,73 +3,12 @@
 
 #include "stages/import/source_meshes.h"
 #include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/io/xml_tags.h"
 
 namespace varimap {
 namespace {
 
 struct NotUnderstood {};
-
-/// One tag of an XML text, and the text up to the next one.
-struct Tag {
-    std::string_view name;  ///< without a namespace's prefix; closing ones begin with /
-    std::string_view attributes, text;
-    bool closes_itself = false;
-
-    /// Empty where there is none.
-    std::string_view attribute(std::string_view key) const {
-        for (std::size_t at = attributes.find(key); at != attributes.npos;
-             at = attributes.find(key, at + 1)) {
-            const std::size_t end = at + key.size();
-            const bool begins = at == 0 || std::string_view(" \t\r\n").find(attributes[at - 1]) != key.npos;
-            const std::size_t equals = attributes.find_first_not_of(" \t\r\n", end);
-            if (!begins || equals == attributes.npos || attributes[equals] != '=') continue;
-            const std::size_t quote = attributes.find_first_of("\"'", equals);
-            if (quote == attributes.npos) return {};
-            const std::size_t last = attributes.find(attributes[quote], quote + 1);
-            return last == attributes.npos ? std::string_view()
-                                           : attributes.substr(quote + 1, last - quote - 1);
-        }
-        return {};
-    }
-};
-
-class Tags {
-  public:
-    explicit Tags(std::string_view text) : text_(text) {}
-    bool next(Tag& tag) {
-        for (;;) {
-            at_ = text_.find('<', at_);
-            if (at_ == text_.npos) return false;
-            if (text_.substr(at_).starts_with("<!--"))
-                skip("-->");
-            else if (text_.substr(at_).starts_with("<![CDATA["))
-                skip("]]>");
-            else
-                break;
-        }
-        const std::size_t end = text_.find('>', at_);
-        if (end == text_.npos) return false;
-        std::string_view inside = text_.substr(at_ + 1, end - at_ - 1);
-        tag.closes_itself = inside.ends_with('/');
-        if (tag.closes_itself) inside.remove_suffix(1);
-        const std::size_t blank = std::min(inside.find_first_of(" \t\r\n"), inside.size());
-        tag.name = inside.substr(0, blank);
-        tag.attributes = inside.substr(blank);
-        if (const std::size_t colon = tag.name.find(':'); colon != tag.name.npos)
-            tag.name.remove_prefix(colon + 1);
-        at_ = end + 1;
-        tag.text = text_.substr(at_, std::min(text_.find('<', at_), text_.size()) - at_);
-        return true;
-    }
-
-  private:
-    void skip(std::string_view mark) {
-        const std::size_t end = text_.find(mark, at_);
-        at_ = end == text_.npos ? text_.size() : end + mark.size();
-    }
-    std::string_view text_;
-    std::size_t at_ = 0;
-};
 
 template <class T, class Convert>
 std::vector<T> numbers(std::string_view text, Convert convert) {
@@ -101,7 +40,7 @@ std::string_view without_mark(std::string_view reference) {
 /// What is read of one <mesh>.
 class MeshReader {
   public:
-    void read(const Tag& tag) {
+    void read(const XmlTag& tag) {
         const std::string_view name = tag.name;
         if (name == "source") {
             source_ = tag.attribute("id");
@@ -136,7 +75,7 @@ class MeshReader {
     }
 
   private:
-    void read_input(const Tag& tag) {
+    void read_input(const XmlTag& tag) {
         const std::string_view semantic = tag.attribute("semantic");
         if (in_vertices_ && semantic == "POSITION") positions_ = without_mark(tag.attribute("source"));
         if (in_vertices_ || primitive_.empty()) return;
@@ -177,8 +116,8 @@ class MeshReader {
 
 std::vector<PolygonSoup> collada_meshes(std::string_view text) {
     std::vector<PolygonSoup> result;
-    Tags tags(text);
-    Tag tag;
+    XmlTags tags(text);
+    XmlTag tag;
     while (tags.next(tag)) {
         if (tag.name != "mesh" || tag.closes_itself) continue;
         MeshReader mesh;

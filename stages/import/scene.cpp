@@ -12,6 +12,8 @@
 #include <map>
 #include <set>
 
+#include "stages/import/model_parts.h"
+#include "stages/import/plain_gltf.h"
 #include "stages/import/source_meshes.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
@@ -26,10 +28,14 @@ std::string ending_of(const std::string& path) {
     return ending;
 }
 
+bool is_gltf(const std::string& ending) {
+    return ending == ".gltf" || ending == ".glb" || ending == ".vrm";
+}
+
 /// Formats whose vertices are the file's own; of others assimp may give every corner one.
 bool has_vertices_of_its_own(const std::string& ending) {
-    constexpr const char* endings[] = {".gltf", ".glb", ".vrm", ".3mf", ".ply", ".off", ".stl"};
-    return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
+    constexpr const char* endings[] = {".3mf", ".ply", ".off", ".stl"};
+    return is_gltf(ending) || std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
 }
 
 std::vector<PolygonSoup> source_meshes(const std::string& ending, const std::string& path) {
@@ -71,9 +77,51 @@ bool have_same_vertices(const aiMesh& a, const aiMesh& b) {
                       [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; });
 }
 
+/// Where nodes stand, by their names.
+using Places = std::map<std::string, Affine>;
+
+void find_places(const aiNode& node, const Affine& parent, Places& places) {
+    const Affine here = composed(parent, to_affine(node.mTransformation));
+    places.emplace(node.mName.C_Str(), here);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) find_places(*node.mChildren[i], here, places);
+}
+
+std::vector<Vec3> vertices_of(const aiMesh& mesh) {
+    std::vector<Vec3> points;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) points.push_back(to_vec3(mesh.mVertices[v]));
+    return points;
+}
+
+/// Where the joints take the vertices of a skin; as they stand in the file if a joint is none of the nodes.
+std::vector<Vec3> skinned_vertices_of(const aiMesh& mesh, const Places& joints) {
+    const std::vector<Vec3> points = vertices_of(mesh);
+    std::vector<Vec3> sum(points.size(), Vec3::Zero());
+    std::vector<double> weights(points.size(), 0);
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+        const aiBone& bone = *mesh.mBones[b];
+        const auto joint = joints.find(bone.mName.C_Str());
+        if (joint == joints.end()) return points;
+        const Affine motion = composed(joint->second, to_affine(bone.mOffsetMatrix));
+        for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+            const std::size_t v = bone.mWeights[w].mVertexId;
+            if (v >= points.size()) throw InputError("a joint names a vertex that is not there");
+            const auto weight = double(bone.mWeights[w].mWeight);
+            sum[v] += weight * (motion * points[v].homogeneous());
+            weights[v] += weight;
+        }
+    }
+    for (std::size_t v = 0; v < points.size(); ++v) sum[v] = weights[v] > 0 ? sum[v] / weights[v] : points[v];
+    return sum;
+}
+
+bool has_skin(const aiScene& scene, const aiNode& node) {
+    return std::any_of(node.mMeshes, node.mMeshes + node.mNumMeshes,
+                       [&](unsigned mesh) { return scene.mMeshes[mesh]->HasBones(); });
+}
+
 /// As assimp has them: vertices of several meshes one after the other; those that several share (primitives
-/// of one accessor) once.
-Object object_of(const aiScene& scene, const aiNode& node) {
+/// of one accessor) once. Skins stand where `joints`, if there are any, take them.
+Object object_of(const aiScene& scene, const aiNode& node, const Places& joints) {
     Object object;
     bool has_uv = true;
     const aiMesh* last = nullptr;
@@ -83,8 +131,8 @@ Object object_of(const aiScene& scene, const aiNode& node) {
         has_uv = has_uv && mesh.HasTextureCoords(0);
         if (last == nullptr || !have_same_vertices(*last, mesh)) {
             first = static_cast<long long>(object.soup.points.size());
-            for (unsigned v = 0; v < mesh.mNumVertices; ++v)
-                object.soup.points.push_back(to_vec3(mesh.mVertices[v]));
+            const auto points = joints.empty() ? vertices_of(mesh) : skinned_vertices_of(mesh, joints);
+            object.soup.points.insert(object.soup.points.end(), points.begin(), points.end());
         }
         last = &mesh;
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
@@ -300,6 +348,7 @@ class SceneReader {
           materials_(scene, path, result_) {}
 
     ImportedScene read() {
+        if (is_gltf(ending_)) find_places(*scene_.mRootNode, Affine::Identity(), places_);
         add(*scene_.mRootNode, Affine::Identity());
         if (!has_uv_) result_.uv.clear();
         return std::move(result_);
@@ -309,11 +358,13 @@ class SceneReader {
     void add(const aiNode& node, const Affine& parent) {
         const Affine here = composed(parent, to_affine(node.mTransformation));
         if (node.mNumMeshes > 0) {
-            Object object = object_of(scene_, node);
+            // The joints of a glTF's skin alone say where it stands.
+            const bool is_skin = is_gltf(ending_) && has_skin(scene_, node);
+            Object object = object_of(scene_, node, is_skin ? places_ : Places());
             if (!has_vertices_of_its_own(ending_) && !take_from(meshes_, object) &&
                 every_corner_has_a_vertex(object.soup))
                 join_corners(object.soup);
-            place(object, here);
+            place(object, is_skin ? Affine(Affine::Identity()) : here);
         }
         for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], here);
     }
@@ -344,6 +395,7 @@ class SceneReader {
     const aiScene& scene_;
     std::string ending_;
     std::vector<PolygonSoup> meshes_;
+    Places places_;  ///< of all nodes, where skins may need them
     ImportedScene result_;
     MaterialReader materials_;
     bool has_uv_ = true;
@@ -356,17 +408,50 @@ bool is_importable(const std::string& path) {
     return ending.size() > 1 && Assimp::Importer().IsExtensionSupported(ending);
 }
 
+namespace {
+
+/// Assimp's, which lives as long as `importer`; as assimp reads it right.
+const aiScene* assimp_scene(const std::string& path, Assimp::Importer& importer,
+                            std::vector<std::string>& warnings) {
+    // Else a file of nodes alone gets a mesh that stands for them.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    if (!is_gltf(ending_of(path))) return importer.ReadFile(path, 0);
+    PlainGltf plain = plain_gltf(path);
+    warnings = std::move(plain.warnings);
+    if (plain.glb.empty()) return importer.ReadFile(path, 0);
+    return importer.ReadFileFromMemory(plain.glb.data(), plain.glb.size(), 0, "glb");
+}
+
+bool has_colours(const aiScene& scene) {
+    return std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                       [](const aiMesh* mesh) { return mesh->HasVertexColors(0); });
+}
+
+/// Assimp would look for such parts among those of the same number in the one file that it reads.
+void refuse_other_parts(const std::string& path) {
+    if (ending_of(path) == ".3mf" && model_parts_in_3mf(read_file(path)) > 1)
+        throw InputError(path +
+                         ": it has parts in files of their own inside it (the production extension of 3MF), "
+                         "which are not read; export it as STL or OBJ");
+}
+
+}  // namespace
+
 ImportedScene read_scene(const std::string& path) {
+    refuse_other_parts(path);
     Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(path, 0);
+    std::vector<std::string> warnings;
+    const aiScene* scene = assimp_scene(path, importer, warnings);
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw InputError(fmt::format("{}: cannot be read: {}", path, importer.GetErrorString()));
+    if (has_colours(*scene)) warnings.emplace_back("colours of vertices are left out");
     ImportedScene result;
     try {
         result = SceneReader(*scene, path).read();
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
+    result.warnings = std::move(warnings);
     if (result.soup.ends.empty()) throw InputError(path + ": the file holds no faces");
     return result;
 }

@@ -30,6 +30,7 @@ struct ImportedScene {
     std::vector<SceneMaterial> materials;  ///< with names of their own
     std::vector<SceneImage> images;
     std::vector<std::string> missing_images;  ///< as the file names them
+    std::vector<std::string> warnings;        ///< what else is left out, in words
     int objects = 0;
 };
 
@@ -38,8 +39,8 @@ struct ImportedScene {
 /// COLLADA have points besides, which many corners share (source_meshes.h). Of formats that tell neither,
 /// corners of an object in the same place are one vertex, numbered as they first appear. Polygons stay
 /// polygons, with their materials' names, colours and base textures; points and lines are left out; nodes
-/// that mirror turn polygons, so that outside stays outside. Bones and animations are not looked at. Throws
-/// InputError that names `path`.
+/// that mirror turn polygons, so that outside stays outside. Skins of glTF stand as their joints do, since
+/// that format says so; else bones and animations are not looked at. Throws InputError that names `path`.
 ImportedScene read_scene(const std::string& path);
 
 /// A scene as files beside each other, of which the first is the OBJ.

@@ -108,8 +108,8 @@ void log_untangling(const std::string& name, const UntanglingReport& report) {
         report.parts_tried, report.disagreeing_after, report.disagreeing_before);
     if (report.mirrored_parts > 0)
         warn(
-            "{}: {} parts with {:.1f}% of the area are mirrored and were left as they are; rerun "
-            "varimap-diffuse with landmarks on them",
+            "{}: {} parts with {:.1f}% of the area are mirrored and were left as they are; give landmarks on "
+            "them (--landmarks)",
             name, report.mirrored_parts, report.gated_area_percent);
 }
 

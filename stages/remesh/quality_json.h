@@ -41,8 +41,8 @@ namespace varimap {
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-/// Warns where much is reversed or uncovered, and where pinned landmarks are not met or the map is elsewhere
-/// around them, so that a map that cannot be right does not pass as one.
+/// Warns where much is reversed or uncovered, and where pinned landmarks are not met, look exchanged, or the
+/// map is elsewhere around them, so that a map that cannot be right does not pass as one.
 std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
 
 }  // namespace varimap

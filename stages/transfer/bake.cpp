@@ -8,6 +8,7 @@
 
 #include "stages/transfer/seams.h"
 #include "varimap/core/error.h"
+#include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 
 namespace varimap {
@@ -15,6 +16,7 @@ namespace varimap {
 namespace {
 
 constexpr double square_tolerance = 1e-3;
+constexpr double grey_tolerance = .01;  ///< many programs write a grey Kd beside every image
 
 /// Colours of the source's faces by their materials.
 class Paint {
@@ -28,18 +30,24 @@ class Paint {
     Rgba operator()(const SurfacePoint& point) const {
         const int material = atlas_.material(point.face);
         const Entry none, &entry = material < 0 ? none : paints_[std::size_t(material)];
-        return entry.image.width > 0 ? sample_image(entry.image, atlas_(point)) : entry.colour;
+        if (entry.image.width == 0) return entry.colour;
+        const Vec2 uv = entry.scale.cwiseProduct(atlas_(point)) + entry.offset;
+        return sample_image(entry.image, uv);
     }
 
   private:
     struct Entry {
         Rgba colour{204, 204, 204, 255};
         TextureImage image;
+        Vec2 scale = Vec2::Ones(), offset = Vec2::Zero();  ///< of texture coordinates
     };
     static Entry entry_of(const Material& material) {
         const Vec3 rgb = 255 * material.colour.cwiseMax(0).cwiseMin(1);
-        Entry entry{{rgb[0], rgb[1], rgb[2], 255}, {}};
-        if (!material.texture.empty()) entry.image = read_png(material.texture);
+        Entry entry{{rgb[0], rgb[1], rgb[2], 255}, {}, material.texture_scale, material.texture_offset};
+        if (material.texture.empty()) return entry;
+        entry.image = read_png(material.texture);
+        if (material.colour.maxCoeff() - material.colour.minCoeff() > grey_tolerance)
+            warn("{}: is baked as it is, not times the colour Kd of its material", material.texture);
         return entry;
     }
     Atlas atlas_;
@@ -108,8 +116,8 @@ void require_square(const ObjModel& target, const std::string& path) {
 }  // namespace
 
 TextureImage bake(const Correspondence& map, const PointCarrier& back, const Texture& texture,
-                  const ObjModel& target, const BakeSize& size) {
-    require_square(target, map.to_file);
+                  const ObjModel& target, const std::string& target_file, const BakeSize& size) {
+    require_square(target, target_file);
     const Paint paint(map.from, texture);
     const auto on = faces_on_pixels(target, size.pixels);
     TextureImage image(size.pixels, size.pixels);

@@ -18,9 +18,9 @@ struct BakeSize {
 };
 
 /// The texture of `map.from` drawn onto the texture coordinates that `map.to` has of its own; transparent
-/// where no face lies. Where faces overlap the first counts. Throws InputError where `target`'s coordinates
-/// leave the square from 0 to 1 or an image is no PNG; IoError.
+/// where no face lies. Where faces overlap the first counts. Throws InputError where the coordinates of
+/// `target`, which is read from `target_file`, leave the square from 0 to 1, or an image is no PNG; IoError.
 TextureImage bake(const Correspondence& map, const PointCarrier& back, const Texture& texture,
-                  const ObjModel& target, const BakeSize& size);
+                  const ObjModel& target, const std::string& target_file, const BakeSize& size);
 
 }  // namespace varimap

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "varimap/artifact/artifact.h"
-#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/image/png_file.h"
 
 namespace varimap {
 
@@ -39,7 +40,8 @@ class Glb {
     }
     std::string bytes() {
         json_["buffers"] = Json::array({Json{{"byteLength", data_.size()}}});
-        std::string text = json_.dump();
+        // Names in another encoding than UTF-8 would make the file invalid.
+        std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
         text.append((4 - text.size() % 4) % 4, ' ');
         std::string out = "glTF" + word(2) + word(12 + 8 + text.size() + 8 + data_.size());
         out += word(text.size()) + "JSON" + text;
@@ -55,25 +57,65 @@ class Glb {
     std::string data_;
 };
 
-void add_material(Glb& glb, const std::string& name, const Material* material) {
-    Json surface{{"metallicFactor", 0}, {"roughnessFactor", .8}};
-    if (material != nullptr && !material->texture.empty()) {
-        const std::string image = read_file(material->texture);
-        const std::string type = media_type(image);
-        if (type.empty())
-            throw InputError(material->texture +
-                             ": glTF takes PNG and JPEG images only; save the texture as one");
-        const int view = glb.add_view(image);
-        glb.json()["images"].push_back({{"bufferView", view}, {"mimeType", type}});
-        glb.json()["textures"].push_back({{"source", glb.json()["images"].size() - 1}});
-        surface["baseColorTexture"] = {{"index", glb.json()["textures"].size() - 1}};
-    } else if (material != nullptr) {
-        const Vec3& c = material->colour;
-        surface["baseColorFactor"] = {c[0], c[1], c[2], 1};
+/// The materials of a file and their images.
+class MaterialList {
+  public:
+    explicit MaterialList(Glb& glb) : glb_(glb) {}
+
+    void add(const std::string& name, const Material* material) {
+        Json surface{{"metallicFactor", 0}, {"roughnessFactor", .8}};
+        Json entry{{"name", name}, {"doubleSided", true}};
+        const Texture texture = material == nullptr ? Texture{} : texture_of(material->texture);
+        const double opacity = material == nullptr ? 1 : material->opacity;
+        if (texture.index >= 0) surface["baseColorTexture"] = placed(texture.index, *material);
+        if (material != nullptr && (texture.index < 0 || opacity < 1)) {
+            const Vec3 c = texture.index < 0 ? material->colour : Vec3(1, 1, 1);
+            surface["baseColorFactor"] = {c[0], c[1], c[2], opacity};
+        }
+        if (texture.transparent || opacity < 1) entry["alphaMode"] = "BLEND";
+        entry["pbrMetallicRoughness"] = surface;
+        glb_.json()["materials"].push_back(entry);
     }
-    glb.json()["materials"].push_back(
-        {{"name", name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
-}
+
+  private:
+    struct Texture {
+        int index = -1;
+        bool transparent = false;
+    };
+    /// The texture where the material puts it; glTF counts v downwards.
+    Json placed(int texture, const Material& material) {
+        Json json{{"index", texture}};
+        const Vec2 &scale = material.texture_scale, &offset = material.texture_offset;
+        if (scale == Vec2::Ones() && offset == Vec2::Zero()) return json;
+        const char* extension = "KHR_texture_transform";
+        glb_.json()["extensionsUsed"] = {extension};
+        json["extensions"][extension] = {{"offset", {offset[0], 1 - scale[1] - offset[1]}},
+                                         {"scale", {scale[0], scale[1]}}};
+        return json;
+    }
+    /// Of an image that several materials have, the same.
+    Texture texture_of(const std::string& path) {
+        if (path.empty()) return {};
+        const auto [known, added] = textures_.try_emplace(path);
+        if (added) known->second = add_texture(path);
+        return known->second;
+    }
+    Texture add_texture(const std::string& path) {
+        const std::string image = read_file(path);
+        const std::string type = media_type(image);
+        if (type.empty()) {
+            warn("{}: glTF takes PNG and JPEG images only; the .glb has the material's colour instead", path);
+            return {};
+        }
+        const int view = glb_.add_view(image);
+        glb_.json()["images"].push_back({{"bufferView", view}, {"mimeType", type}});
+        glb_.json()["textures"].push_back({{"source", glb_.json()["images"].size() - 1}});
+        return {int(glb_.json()["textures"].size()) - 1, has_transparent_pixels(image)};
+    }
+
+    Glb& glb_;
+    std::map<std::string, Texture> textures_;  ///< by the images' paths
+};
 
 /// One primitive: the faces of one material, a vertex for each pair of position and texture coordinates.
 struct Primitive {
@@ -117,7 +159,9 @@ std::string to_glb(const TexturedMesh& textured, const Materials& materials) {
     glb.json()["scene"] = 0;
     glb.json()["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
     glb.json()["nodes"] = Json::array({Json{{"mesh", 0}}});
-    for (const std::string& name : textured.model.materials) add_material(glb, name, materials.find(name));
+    MaterialList list_of_materials(glb);
+    for (const std::string& name : textured.model.materials)
+        list_of_materials.add(name, materials.find(name));
     std::map<int, Primitive> primitives;
     for (int f = 0; f < textured.mesh.face_count(); ++f)
         for (int k = 0; k < 3; ++k)

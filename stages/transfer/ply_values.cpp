@@ -8,7 +8,10 @@
 
 #include "stages/transfer/values.h"
 #include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/core/printable.h"
 #include "varimap/mesh/io/ply_columns.h"
+#include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
 
@@ -18,6 +21,38 @@ namespace {
 bool is_geometry(const std::string& name) {
     static const std::array names{"x", "y", "z", "nx", "ny", "nz"};
     return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_colour(const std::string& name) {
+    static const std::array names{"red", "green", "blue", "alpha"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A colour is one label: its channels, elected each by itself, would make one that nowhere was.
+std::vector<int> label_columns(const std::vector<PlyColumn>& columns) {
+    std::vector<int> widths;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const bool goes_on = c > 0 && is_colour(columns[c].name) && is_colour(columns[c - 1].name);
+        if (goes_on)
+            ++widths.back();
+        else
+            widths.push_back(1);
+    }
+    return widths;
+}
+
+/// Lists, which are not carried, besides the corners of faces.
+void warn_of_lists(std::string_view bytes, const std::string& path) {
+    std::string names;
+    TextScanner header(bytes.substr(0, bytes.find("end_header")), path, LineStyle::plain);
+    while (header.next_line()) {
+        const auto& words = header.words();
+        const std::string_view name = words.back();
+        if (words.size() != 5 || words[0] != "property" || words[1] != "list") continue;
+        if (name == "vertex_indices" || name == "vertex_index") continue;
+        names += (names.empty() ? "" : ", ") + printable(std::string(name));
+    }
+    if (!names.empty()) warn("{}: lists are not carried: {}", path, names);
 }
 
 /// What a polygon has, each of the triangles has that the meshes hold in its place.
@@ -33,15 +68,22 @@ void spread_over_triangles(PlyColumns& columns) {
 
 ValueTable to_table(const std::vector<PlyColumn>& columns) {
     const Eigen::Index rows = Eigen::Index(columns[0].values.size());
-    ValueTable table{Place::vertex, Eigen::MatrixXd(rows, Eigen::Index(columns.size()))};
+    ValueTable table{Place::vertex, Eigen::MatrixXd(rows, Eigen::Index(columns.size())),
+                     label_columns(columns)};
     for (std::size_t c = 0; c < columns.size(); ++c)
         table.values.col(Eigen::Index(c)) = Eigen::Map<const Eigen::VectorXd>(columns[c].values.data(), rows);
     return table;
 }
 
-std::vector<PlyColumn> to_columns(const std::vector<PlyColumn>& like, const ValueTable& table) {
+bool holds_fractions(const std::string& type) {
+    return type.starts_with("float") || type == "double";
+}
+
+std::vector<PlyColumn> to_columns(const std::vector<PlyColumn>& like, const ValueTable& table,
+                                  ValueKind kind) {
     std::vector<PlyColumn> columns = like;
     for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (kind == ValueKind::weight && !holds_fractions(columns[c].type)) columns[c].type = "double";
         const auto column = table.values.col(Eigen::Index(c));
         columns[c].values.assign(column.begin(), column.end());
     }
@@ -50,8 +92,9 @@ std::vector<PlyColumn> to_columns(const std::vector<PlyColumn>& like, const Valu
 
 }  // namespace
 
-ValueFile parse_ply_values(std::string_view bytes, const std::string& path) {
+ValueFile parse_ply_values(std::string_view bytes, const std::string& path, ValueKind kind) {
     PlyColumns columns = parse_ply_columns(bytes, path);
+    warn_of_lists(bytes, path);
     std::erase_if(columns.vertex, [](const PlyColumn& column) { return is_geometry(column.name); });
     spread_over_triangles(columns);
     ValueFile file;
@@ -59,12 +102,12 @@ ValueFile parse_ply_values(std::string_view bytes, const std::string& path) {
         if (!of->empty()) file.tables.push_back(to_table(*of));
     if (file.tables.empty())
         throw InputError(path + ": holds no properties besides positions, normals and faces");
-    file.write = [columns, format = ply_format(bytes)](const std::vector<ValueTable>& tables,
-                                                       const TriangleMesh& to) {
+    file.write = [columns, kind, format = ply_format(bytes)](const std::vector<ValueTable>& tables,
+                                                             const TriangleMesh& to) {
         PlyColumns out;
         auto next = tables.begin();
-        if (!columns.vertex.empty()) out.vertex = to_columns(columns.vertex, *next++);
-        if (!columns.face.empty()) out.face = to_columns(columns.face, *next);
+        if (!columns.vertex.empty()) out.vertex = to_columns(columns.vertex, *next++, kind);
+        if (!columns.face.empty()) out.face = to_columns(columns.face, *next, kind);
         return to_ply(to, out, format);
     };
     return file;

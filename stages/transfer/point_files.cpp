@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/io/xml_tags.h"
 
 namespace varimap {
 
@@ -52,30 +54,32 @@ std::string slicer_fcsv(std::string_view bytes, const std::vector<PickedPoint>& 
     return text;
 }
 
-/// Replaces the value of ` name="value"` in a tag.
-void set_attribute(std::string& tag, char name, double value) {
-    for (const char blank : {' ', '\n', '\t'}) {
-        const std::size_t at = tag.find(fmt::format("{}{}=\"", blank, name));
-        if (at == tag.npos) continue;
-        const std::size_t begin = at + 4;
-        tag.replace(begin, tag.find('"', begin) - begin, fmt::format("{}", value));
-        return;
+/// The coordinates of a point as its tag holds them, in the order in which they stand there.
+std::map<std::string_view::const_iterator, std::pair<std::string_view, double>> coordinates_in(
+    const XmlTag& tag, const Vec3& position) {
+    std::map<std::string_view::const_iterator, std::pair<std::string_view, double>> found;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string_view text = tag.attribute(std::string(1, "xyz"[axis]));
+        found[text.begin()] = {text, position[axis]};
     }
+    return found;
 }
 
 std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& points) {
     std::string text;
-    std::size_t done = 0;
-    for (const PickedPoint& point : points) {
-        const std::size_t begin = bytes.find("<point ", done);
-        const std::size_t end = std::min(bytes.find('>', begin), bytes.find("<point ", begin + 1));
-        std::string tag(bytes.substr(begin, end - begin));
-        for (int axis = 0; axis < 3 && point.defined; ++axis)
-            set_attribute(tag, "xyz"[axis], point.position[axis]);
-        text += std::string(bytes.substr(done, begin - done)) + tag;
-        done = std::min(end, bytes.size());
+    auto done = bytes.begin();
+    auto point = points.begin();
+    XmlTags tags(bytes);
+    for (XmlTag tag; tags.next(tag);) {
+        if (tag.name != "point") continue;
+        const PickedPoint& now = *point++;
+        if (!now.defined) continue;
+        for (const auto& [begin, coordinate] : coordinates_in(tag, now.position)) {
+            text += std::string(done, begin) + fmt::format("{}", coordinate.second);
+            done = coordinate.first.end();
+        }
     }
-    return text + std::string(bytes.substr(done));
+    return text + std::string(done, bytes.end());
 }
 
 }  // namespace

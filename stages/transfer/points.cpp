@@ -65,6 +65,9 @@ std::string carry_picked(const std::string& path, const std::string& bytes, Land
     for (const PickedPoint& point : points)
         if (point.defined) positions.push_back(in_axes_of(map.from, point, space));
     if (positions.empty()) throw InputError(path + ": none of its points is defined");
+    if (positions.size() < points.size())
+        warn("{}: {} of {} points are not defined, or switched off; they stay as they are", path,
+             points.size() - positions.size(), points.size());
     auto next = carried(positions, path, map, there);
     const std::vector<Vec3> images = require_images(next, path);
     auto image = images.begin();
@@ -77,6 +80,17 @@ std::string carry_picked(const std::string& path, const std::string& bytes, Land
     return with_positions(path, bytes, points);
 }
 
+/// A list of numbers may have a name.
+bool has_name(const TextRows& list) {
+    const std::string& first = list.rows[0].words[0];
+    return list.rows.size() > 1 && !first.empty() && is_index_name(first);
+}
+
+/// The name of a list as a line, if it has one.
+std::string name_line(const TextRows& list) {
+    return has_name(list) ? join(list.rows[0].words, list.separator) + "\n" : "";
+}
+
 int vertex_number(const TextRow& row, const std::string& path, int count, const char* what) {
     long long number = -1;
     if (!to_integer(row.words[0], number) || number < 0 || number >= count)
@@ -87,8 +101,9 @@ int vertex_number(const TextRow& row, const std::string& path, int count, const 
 
 std::string carry_vertices(const TextRows& rows, const std::string& path, const Correspondence& map,
                            const PointCarrier& there) {
-    std::string text;
-    for (const TextRow& row : rows.rows) {
+    std::string text = name_line(rows);
+    for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
+        const TextRow& row = rows.rows[i];
         const int v = vertex_number(row, path, map.from.vertex_count(), "vertices");
         const SurfacePoint image = there(point_at_vertex(map.from, v));
         if (image.face < 0) throw InputError(fmt::format("{}:{}: vertex {} has no image", path, row.line, v));
@@ -129,12 +144,14 @@ std::string carry_points(const std::string& path, LandmarkSpace space, const Cor
 
 std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back) {
     std::vector<bool> inside(std::size_t(map.from.face_count()), false);
-    for (const TextRow& row : split_rows(read_file(path), path, Content::numbers).rows) {
+    const TextRows rows = split_rows(read_file(path), path, Content::numbers);
+    for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
+        const TextRow& row = rows.rows[i];
         if (row.words.size() != 1)
             throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
         inside[std::size_t(vertex_number(row, path, map.from.face_count(), "faces"))] = true;
     }
-    std::string text;
+    std::string text = name_line(rows);
     for (int f = 0; f < map.to.face_count(); ++f) {
         const SurfacePoint at = back({f, Vec3::Constant(1 / 3.)});
         if (at.face >= 0 && inside[std::size_t(at.face)]) text += fmt::format("{}\n", f);

@@ -9,15 +9,15 @@ namespace varimap {
 
 /// A file of points of one surface as it is for the other: the same text with other positions, so that names,
 /// order, colours and what else the program wrote stay. Reads 3D Slicer's .mrk.json and .fcsv, MeshLab's .pp,
-/// and lines (.txt, .csv and others) that hold a vertex number from 0, or x y z and perhaps names, or whose
-/// first line names columns x, y and z. A vertex number becomes that of the nearest vertex. Axes are those of
-/// `space` (landmark_points.h) on either side. Points that are not defined stay as they are. Throws
-/// InputError, also where most points lie far from the surface; IoError.
+/// and lines (.txt, .csv and others) that hold a vertex number from 0 (the first may name them), or x y z and
+/// perhaps names, or whose first line names columns x, y and z. A vertex number becomes that of the nearest
+/// vertex. Axes are those of `space` (landmark_points.h) on either side. Points that are not defined stay as
+/// they are. Throws InputError, also where most points lie far from the surface; IoError.
 std::string carry_points(const std::string& path, LandmarkSpace space, const Correspondence& map,
                          const PointCarrier& there);
 
-/// A list of faces (a number from 0 in each line) as that of the other mesh's faces whose centroids lie on
-/// them. Throws InputError, IoError.
+/// A list of faces (a number from 0 in each line, of which the first may name them) as that of the other
+/// mesh's faces whose centroids lie on them. Throws InputError, IoError.
 std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back);
 
 }  // namespace varimap

@@ -272,7 +272,8 @@ bool Atlas::joined(int f, int g) const {
     bool touch = false;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            if (mesh_.faces(f, i) != mesh_.faces(g, j)) continue;
+            const int v = mesh_.faces(f, i), w = mesh_.faces(g, j);
+            if (v != w && mesh_.vertices.row(v) != mesh_.vertices.row(w)) continue;
             touch = true;
             const Vec2 difference =
                 model_.uv[std::size_t(model_.uv_of(f, i))] - model_.uv[std::size_t(model_.uv_of(g, j))];

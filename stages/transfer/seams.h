@@ -12,7 +12,8 @@ class Atlas {
     Atlas(const TriangleMesh& mesh, const ObjModel& model) : mesh_(mesh), model_(model) {}
     Vec2 operator()(const SurfacePoint& point) const;
     /// Whether one goes from a face into the other without leaving their neighbourhood or crossing a seam:
-    /// they are the same, or share vertices and have the same coordinates there, and the same material.
+    /// they are the same, or share places of vertices and have the same coordinates there, and the same
+    /// material. Files often list a vertex once for each of its faces.
     bool joined(int f, int g) const;
     int material(int f) const { return model_.material[std::size_t(f)]; }
 

@@ -1,7 +1,10 @@
 #include "stages/transfer/shape.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <vector>
 
 #include "varimap/core/parallel.h"
@@ -15,6 +18,8 @@ namespace {
 
 using Frame = Eigen::Matrix3d;
 constexpr int smoothing_rounds = 5;
+constexpr std::size_t anchors_of_vertex = 32;                   ///< that a vertex without an image follows
+constexpr std::size_t most_anchors = 10'000, most_asked = 200;  ///< of a mesh, and of a part: to save time
 
 /// Sums that the best similarity at a vertex follows from.
 struct Moments {
@@ -84,6 +89,89 @@ std::vector<Frame> frames_of(const Correspondence& map) {
     return frames;
 }
 
+std::vector<char> with_image(const PointMap& map) {
+    std::vector<char> known;
+    for (const SurfacePoint& image : map) known.push_back(image.face >= 0);
+    return known;
+}
+
+/// Vertices, of those that are not known: in one list those that hang together without known ones.
+std::vector<std::vector<int>> unknown_parts(const TriangleMesh& mesh, const std::vector<char>& known) {
+    std::vector<int> unknown_faces;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (!known[std::size_t(mesh.faces(f, 0))] && !known[std::size_t(mesh.faces(f, 1))] &&
+            !known[std::size_t(mesh.faces(f, 2))])
+            unknown_faces.push_back(f);
+    const std::vector<int> component =
+        vertex_components({mesh.vertices, mesh.faces(unknown_faces, Eigen::all)});
+    std::map<int, std::vector<int>> joined;
+    std::vector<std::vector<int>> parts;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        if (known[std::size_t(v)]) continue;
+        if (component[std::size_t(v)] < 0)
+            parts.push_back({v});
+        else
+            joined[component[std::size_t(v)]].push_back(v);
+    }
+    for (auto& [number, part] : joined) parts.push_back(std::move(part));
+    return parts;
+}
+
+/// At most so many, evenly.
+std::vector<int> thinned(const std::vector<int>& vertices, std::size_t most) {
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < vertices.size(); i += 1 + (vertices.size() - 1) / most)
+        kept.push_back(vertices[i]);
+    return kept;
+}
+
+/// Of the known vertices, those nearest to v; fewer where there are not as many.
+std::vector<int> nearest_known(int v, const Points& places, std::vector<int> known) {
+    const std::size_t count = std::min(anchors_of_vertex, known.size());
+    const auto nearer = [&](int a, int b) {
+        return (places.row(a) - places.row(v)).squaredNorm() < (places.row(b) - places.row(v)).squaredNorm();
+    };
+    std::nth_element(known.begin(), known.begin() + std::ptrdiff_t(count), known.end(), nearer);
+    known.resize(count);
+    return known;
+}
+
+Vec3 mean_of(const Points& places, const std::vector<int>& vertices) {
+    return places(vertices, Eigen::all).colwise().mean().transpose();
+}
+
+/// Puts a part where the best similarity from anchors to their images takes it.
+void move_part(const std::vector<int>& part, const std::vector<int>& anchors, const Points& places,
+               bool mirrored, Points& images) {
+    const Vec3 from = mean_of(places, anchors), to = mean_of(images, anchors);
+    Moments sums;
+    for (const int v : anchors) {
+        const Vec3 source = places.row(v).transpose() - from, target = images.row(v).transpose() - to;
+        sums.covariance += target * source.transpose();
+        sums.from += source.squaredNorm();
+        sums.to += target.squaredNorm();
+    }
+    const Frame frame = sums.from > 0 ? similarity(sums, mirrored) : Frame(Frame::Identity());
+    for (const int v : part) images.row(v) = (to + frame * (places.row(v).transpose() - from)).transpose();
+}
+
+/// Images of all vertices, of which those of the known ones are given.
+Points follow_known(const TriangleMesh& mesh, const std::vector<char>& known, bool mirrored, Points images) {
+    std::vector<int> choice;
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+        if (known[std::size_t(v)]) choice.push_back(v);
+    if (choice.empty()) return images;
+    choice = thinned(choice, most_anchors);
+    const auto parts = unknown_parts(mesh, known);
+    parallel_for_each_index(int(parts.size()), 1, [&](int p) {
+        std::vector<int> anchors;
+        for (const int v : thinned(parts[std::size_t(p)], most_asked))
+            for (const int anchor : nearest_known(v, mesh.vertices, choice)) anchors.push_back(anchor);
+        move_part(parts[std::size_t(p)], anchors, mesh.vertices, mirrored, images);
+    });
+    return images;
+}
+
 }  // namespace
 
 Points carry_shape(const Correspondence& map, const Points& shape) {
@@ -95,17 +183,28 @@ Points carry_shape(const Correspondence& map, const Points& shape) {
         if (image.face >= 0)
             moved.row(v) += (frames[std::size_t(v)] * position(displacements, image)).transpose();
     }
-    return moved;
+    return follow_known(map.to, with_image(map.back), false, moved);
 }
 
 Points carried_vertices(const Correspondence& map) {
-    const Box from = bounding_box(map.from), to = bounding_box(map.to);
-    const double scale = std::sqrt(surface_area(map.to) / surface_area(map.from));
-    Points fallback = map.from.vertices;
-    fallback.rowwise() -= ((from.low + from.high) / 2).transpose();
-    fallback *= scale;
-    fallback.rowwise() += ((to.low + to.high) / 2).transpose();
-    return image_positions(map.there, map.to, fallback);
+    const Points images = image_positions(map.there, map.to, map.from.vertices);
+    return follow_known(map.from, with_image(map.there), reverses_orientation(map), images);
+}
+
+bool reverses_orientation(const Correspondence& map) {
+    const TriangleMesh carried{image_positions(map.there, map.to, map.from.vertices), map.from.faces};
+    double front = 0;
+    for (int f = 0; f < carried.face_count(); ++f) {
+        Vec3 below = Vec3::Zero();  // the sum of the target's unit normals under the corners
+        bool mapped = true;
+        for (int k = 0; k < 3; ++k) {
+            const int face = map.there[std::size_t(carried.faces(f, k))].face;
+            mapped = mapped && face >= 0;
+            if (mapped) below += face_normal(map.to, face).normalized();
+        }
+        if (mapped) front += face_normal(carried, f).dot(below);
+    }
+    return front < 0;
 }
 
 }  // namespace varimap

@@ -7,11 +7,16 @@ namespace varimap {
 /// Positions of the vertices of `map.to` moved as `shape` moves those of `map.from`: displacements, linear on
 /// faces, turned and scaled as the map turns and scales the surroundings of each vertex. These frames are the
 /// best similarities from a vertex's neighbours' images to the neighbours, smoothed over the surface.
-/// Vertices without an image stay.
+/// Vertices without an image follow those near them, as in carried_vertices.
 Points carry_shape(const Correspondence& map, const Points& shape);
 
-/// The vertices of `map.from` at their images on `map.to`; those without an image keep their place beside the
-/// others, scaled alike.
+/// The vertices of `map.from` at their images on `map.to`. Those without an image follow the vertices nearest
+/// to them that have one: by the best similarity from these to their images, one for all vertices that hang
+/// together, so that a small part that was left out of the map keeps its form.
 Points carried_vertices(const Correspondence& map);
+
+/// Whether the images of most of the faces of `map.from`, by area, show their back where the faces of
+/// `map.to` show their front.
+bool reverses_orientation(const Correspondence& map);
 
 }  // namespace varimap

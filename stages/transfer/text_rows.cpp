@@ -1,6 +1,7 @@
 #include "stages/transfer/text_rows.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
@@ -114,6 +115,13 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
     }
     if (text.rows.empty()) throw InputError(path + ": holds no rows");
     return text;
+}
+
+bool is_index_name(std::string_view name) {
+    std::string lower(name);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    return lower == "vertex" || lower == "face" || lower == "index" || lower == "id" || lower.empty();
 }
 
 std::string join(const std::vector<std::string>& words, char separator) {

@@ -29,6 +29,8 @@ struct TextRows {
 /// numbers that blanks separate. Throws InputError for UTF-16, for quotes that are not closed, and where
 /// there are no rows.
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content);
+/// Whether a column of that name numbers the rows, or holds numbers of vertices or faces.
+bool is_index_name(std::string_view name);
 /// A line, without its end, of which split_rows makes these words, in quotes where they need some.
 std::string join(const std::vector<std::string>& words, char separator);
 

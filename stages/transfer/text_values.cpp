@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -16,15 +15,13 @@ namespace varimap {
 
 namespace {
 
-bool is_index_name(std::string_view name) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return lower == "vertex" || lower == "face" || lower == "index" || lower == "id" || lower.empty();
-}
-
 bool any_number(const TextRow& row) {
     return std::any_of(row.words.begin(), row.words.end(), is_number);
+}
+
+/// Whether the row begins with the number of the first, and goes on.
+bool is_first_number(const TextRow& row) {
+    return row.words.size() > 1 && row.words[0] == "0";
 }
 
 /// Words stand for numbers where values are labels.
@@ -51,6 +48,8 @@ bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh) {
     if (rows.size() < 2) return false;
     const bool names_rows = is_index_name(rows[0].words[0]);
     if (!names_rows && any_number(rows[0])) return false;
+    // No number is called so, and nothing else stands above rows that are numbered.
+    if (names_rows && (kind != ValueKind::label || is_first_number(rows[1]))) return true;
     const bool all_fit = place_of(rows.size(), mesh).has_value();
     const bool others_fit = place_of(rows.size() - 1, mesh).has_value();
     if (all_fit != others_fit) return others_fit;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <set>
 
 #include "stages/transfer/gltf.h"
+#include "stages/transfer/obj_text.h"
 #include "stages/transfer/points.h"
 #include "stages/transfer/seams.h"
 #include "stages/transfer/shape.h"
@@ -15,6 +17,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
+#include "varimap/core/printable.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/ply_columns.h"
 
@@ -46,9 +49,38 @@ bool same_vertices(const TriangleMesh& a, const TriangleMesh& b) {
 void require_same_mesh(bool same, const std::string& path, const TriangleMesh& found,
                        const std::string& mesh_file, const TriangleMesh& mesh) {
     if (same) return;
+    if (found.vertex_count() == mesh.vertex_count() && found.face_count() == mesh.face_count())
+        throw InputError(
+            fmt::format("{}: is not the mesh {} of the map: it has as many vertices and triangles, "
+                        "but in another order, or other places and polygons",
+                        path, mesh_file));
     throw InputError(fmt::format(
         "{}: is not the mesh {} of the map in the same order: {} vertices and {} triangles, there {} and {}",
         path, mesh_file, found.vertex_count(), found.face_count(), mesh.vertex_count(), mesh.face_count()));
+}
+
+/// Options that change nothing would hide that something else was meant.
+void require_effect(const TransferRequest& request) {
+    if (request.bake.pixels > 0 && request.texture.empty())
+        throw UsageError("--bake draws what --texture carries: give --texture an OBJ of the source, too");
+    if (!request.onto.empty() && request.bake.pixels == 0)
+        throw UsageError("--onto says what to bake onto: give --bake a number of pixels, too");
+}
+
+/// Vertices without an image go where those near them went; that is a guess.
+void warn_of_followers(const PointMap& map, const std::string& path) {
+    const auto count =
+        std::count_if(map.begin(), map.end(), [](const SurfacePoint& image) { return image.face < 0; });
+    if (count > 0)
+        warn("{}: {} vertices have no image; they follow the nearest vertices that have one", path, count);
+}
+
+/// Materials that faces have and no library describes.
+void warn_of_unknown_materials(const ObjModel& model, const Materials& materials, const std::string& path) {
+    std::string names;
+    for (const std::string& name : model.materials)
+        if (materials.find(name) == nullptr) names += (names.empty() ? "" : ", ") + printable(name);
+    if (!names.empty()) warn("{}: no library (mtllib) describes the materials {}", path, names);
 }
 
 /// One run: what is asked for, between what, and what came of it so far.
@@ -87,6 +119,7 @@ class Transfer {
     void add_cut(const Texture& texture, const std::string& name);
     void add_baked(const Texture& texture, const std::string& name);
     void add_materials(const Materials& materials, const std::string& name);
+    TextureImage baked(const Texture& texture, const ObjModel& target, const std::string& target_file) const;
 
     const TransferRequest& request_;
     const Correspondence& map_;
@@ -115,6 +148,7 @@ void Transfer::add_shape(const std::string& path) {
     const TriangleMesh shape = read_mesh(path);
     require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
     const Points moved = carry_shape(map_, shape.vertices);
+    warn_of_followers(map_.back, map_.to_file);
     if (has_ending(map_.to_file, ".obj"))
         add(stem_of(path) + ".obj",
             with_vertices(read_file(map_.to_file), moved, map_.to.space, "", map_.to_file));
@@ -131,9 +165,15 @@ void Transfer::add_mesh(const std::string& path) {
     const std::string name = reverse_ ? "target_on_source" : "source_on_target";
     const ObjModel model = parse_obj_model(bytes, path);
     const bool painted = !model.libraries.empty();
-    if (painted) add_materials(read_materials(model, path), name);
-    add(name + ".obj",
-        with_vertices(bytes, carried_vertices(map_), map_.to.space, painted ? name + ".mtl" : "", path));
+    if (painted) {
+        const Materials materials = read_materials(model, path);
+        warn_of_unknown_materials(model, materials, path);
+        add_materials(materials, name);
+    }
+    warn_of_followers(map_.there, path);
+    const std::string carried =
+        with_vertices(bytes, carried_vertices(map_), map_.to.space, painted ? name + ".mtl" : "", path);
+    add(name + ".obj", reverses_orientation(map_) ? with_turned_polygons(carried) : carried);
 }
 
 void Transfer::add_texture(const std::string& path) {
@@ -144,6 +184,7 @@ void Transfer::add_texture(const std::string& path) {
     const ObjModel model = parse_obj_model(bytes, path);
     if (!model.has_uv()) throw InputError(path + ": has faces without texture coordinates (vt)");
     const Materials materials = read_materials(model, path);
+    warn_of_unknown_materials(model, materials, path);
     const std::string name = stem_of(map_.to_file) + "_textured";
     if (request_.bake.pixels > 0)
         add_baked({model, materials}, name);
@@ -167,6 +208,17 @@ void Transfer::add_cut(const Texture& texture, const std::string& name) {
     add_materials(texture.materials, name);
 }
 
+TextureImage Transfer::baked(const Texture& texture, const ObjModel& target,
+                             const std::string& target_file) const {
+    try {
+        return bake(map_, back_, texture, target, target_file, request_.bake);
+    } catch (const std::bad_alloc&) {
+        throw Error(ExitCode::internal,
+                    fmt::format("out of memory; use a smaller --bake than {}, or a machine with more",
+                                request_.bake.pixels));
+    }
+}
+
 void Transfer::add_baked(const Texture& texture, const std::string& name) {
     const std::string& onto = request_.onto.empty() ? map_.to_file : request_.onto;
     if (!has_ending(onto, ".obj"))
@@ -181,7 +233,7 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
         throw InputError(onto +
                          ": has no texture coordinates to bake onto; leave out --bake to have the "
                          "source's cut onto it");
-    const TextureImage image = bake(map_, back_, texture, target.model, request_.bake);
+    const TextureImage image = baked(texture, target.model, onto);
     target.model.materials = {"baked"};
     std::fill(target.model.material.begin(), target.model.material.end(), 0);
     add(name + ".obj", to_obj(target, name + ".mtl"));
@@ -192,6 +244,7 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
 }  // namespace
 
 NamedFiles transfer(const TransferRequest& request, const Correspondence& map, bool reverse) {
+    require_effect(request);
     return Transfer(request, map, reverse).run();
 }
 

@@ -29,8 +29,8 @@ struct TransferRequest {
 /// Names and bytes of files.
 using NamedFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// Carries everything, or nothing: throws InputError, IoError, UsageError (two results of one name) before
-/// anything is written.
+/// Carries everything, or nothing: throws InputError, IoError, UsageError (two results of one name, or what
+/// would have no effect) before anything is written.
 NamedFiles transfer(const TransferRequest& request, const Correspondence& map, bool reverse);
 
 }  // namespace varimap

@@ -64,8 +64,8 @@ Eigen::RowVectorXd mixed(const Shares& shares, const Eigen::MatrixXd& values) {
     return row;
 }
 
-/// The row whose equals have the largest share; among equal shares the first.
-int elected(const Shares& shares, const Eigen::MatrixXd& values) {
+/// The row whose equals in these columns have the largest share; among equal shares the first.
+int elected(const Shares& shares, const Eigen::Ref<const Eigen::MatrixXd>& values) {
     int best = -1;
     double most = -1;
     for (const Share& candidate : shares) {
@@ -75,6 +75,18 @@ int elected(const Shares& shares, const Eigen::MatrixXd& values) {
         if (votes > most + 1e-12) most = votes, best = candidate.row;
     }
     return best;
+}
+
+Eigen::RowVectorXd elected_labels(const Shares& shares, const ValueTable& table) {
+    Eigen::RowVectorXd row(table.values.cols());
+    const std::vector<int> singly(std::size_t(row.size()), 1);
+    Eigen::Index begin = 0;
+    for (const int width : table.label_columns.empty() ? singly : table.label_columns) {
+        const auto label = table.values.middleCols(begin, width);
+        row.segment(begin, width) = label.row(elected(shares, label));
+        begin += width;
+    }
+    return row;
 }
 
 void normalise_rows(Eigen::MatrixXd& weights) {
@@ -114,14 +126,15 @@ std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh) {
 ValueTable carry_values(const ValueTable& table, ValueKind kind, const Correspondence& map,
                         const PointCarrier& back) {
     const int rows = table.place == Place::vertex ? map.to.vertex_count() : map.to.face_count();
-    ValueTable carried{table.place, Eigen::MatrixXd::Constant(rows, table.values.cols(),
-                                                              std::numeric_limits<double>::quiet_NaN())};
+    ValueTable carried{
+        table.place,
+        Eigen::MatrixXd::Constant(rows, table.values.cols(), std::numeric_limits<double>::quiet_NaN()),
+        table.label_columns};
     parallel_for_each_index(rows, grain, [&](int row) {
         const Shares shares = shares_of(row, table.place, map, back);
         if (shares.empty()) return;
-        carried.values.row(row) = kind == ValueKind::label
-                                      ? Eigen::RowVectorXd(table.values.row(elected(shares, table.values)))
-                                      : mixed(shares, table.values);
+        carried.values.row(row) =
+            kind == ValueKind::label ? elected_labels(shares, table) : mixed(shares, table.values);
     });
     if (kind == ValueKind::weight) normalise_rows(carried.values);
     return carried;
@@ -142,7 +155,7 @@ ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMes
                       const std::string& mesh_file) {
     const std::string bytes = read_file(path);
     ValueFile file = has_ending(path, ".npy")   ? parse_npy_values(bytes, path, kind)
-                     : has_ending(path, ".ply") ? parse_ply_values(bytes, path)
+                     : has_ending(path, ".ply") ? parse_ply_values(bytes, path, kind)
                                                 : parse_text_values(bytes, path, kind, mesh);
     for (ValueTable& table : file.tables) {
         table.place = require_place(table.values.rows(), mesh, mesh_file, path);

@@ -17,12 +17,13 @@ enum class Place : int { vertex, face };
 struct ValueTable {
     Place place = Place::vertex;
     Eigen::MatrixXd values;
+    std::vector<int> label_columns = {};  ///< how many each label takes, such as a colour; empty: one each
 };
 
 /// How values are carried to places between those that have some.
 enum class ValueKind : int {
     number,  ///< interpolated at vertices; of faces, the mean over the place
-    label,   ///< never mixed: that with the largest share
+    label,   ///< never mixed: that with the largest share, each by itself where a row holds several
     weight   ///< as numbers; rows that sum to 1 do so exactly
 };
 
@@ -54,7 +55,7 @@ ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMes
 
 // The readers of one format each.
 ValueFile parse_npy_values(std::string_view bytes, const std::string& path, ValueKind kind);
-ValueFile parse_ply_values(std::string_view bytes, const std::string& path);
+ValueFile parse_ply_values(std::string_view bytes, const std::string& path, ValueKind kind);
 ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind,
                             const TriangleMesh& mesh);
 

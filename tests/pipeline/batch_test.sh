@@ -37,6 +37,75 @@ for surface in a b c; do seq 0 145 >lists_of/$surface.txt; done
 [[ $(column errors.csv pair | grep -c -- --) == 3 ]] || fail "errors of three pairs"
 grep -q '^6 of 6 maps are right' errors.csv || fail "the maps are wrong: $(tail -n 3 errors.csv)"
 expect_exit 6 "$VARIMAP_SOURCE/pipelines/batch/errors" all meshes
+expect_exit 6 env VARIMAP_BIN="$PWD/nowhere" "$VARIMAP_SOURCE/pipelines/batch/errors" all lists_of
+
+# Who holds OUT is told to whoever waits for it.
+flock all/.lock sleep 1 &
+sleep .3
+batch --all-pairs meshes -o all -j 1
+grep -q '^batch: the other run is process [0-9]* on .*, kill -- -[0-9]* ends these$' log || fail "who holds OUT: $(cat log)"
+wait $!
+
+# What is replaced while a batch runs is not done, and told.
+mkdir moving
+cp meshes/a.off meshes/b.off moving
+batch --all-pairs moving -o moved --plan
+cp meshes/c.off moving/b.off
+"$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/moved" surface b >out.txt 2>log || fail "the job of a changed surface (exit $?)"
+[[ ! -e moved/batch/surfaces/b/result ]] || fail "a changed surface is called done"
+"$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/moved" pair a--b >out.txt 2>log || fail "the job of a changed pair (exit $?)"
+jq -e --arg file "$(readlink -f moving/b.off)" '.status == "failed" and .code == 4
+    and .message == "batch: error: \($file): changed while the batch ran; start it again"' moved/pairs/a--b/result.json >/dev/null ||
+    fail "a mesh that changed: $(<moved/pairs/a--b/result.json)"
+
+# A pair whose folder cannot be made has failed, and says why.
+rm -r moved/pairs/a--b
+touch moved/pairs/a--b
+code=0
+"$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs moving -o moved -j 1 >out.txt 2>log || code=$?
+((code == 1)) || fail "exit $code with a folder that cannot be made"
+[[ $(column moved/status.csv status) == failed && $(column moved/status.csv code) == 6 ]] || fail "a folder that cannot be made: $(<moved/status.csv)"
+grep -q '^failed   a--b: batch: error: .*/moved/pairs/a--b: cannot be written' out.txt || fail "a folder that cannot be made is not said"
+rm moved/pairs/a--b
+batch --all-pairs moving -o moved -j 1
+same moved/pairs/a--b/source_to_target.csv all/pairs/a--c/source_to_target.csv
+
+# gltf OFF NAME: the mesh as scenes/NAME.gltf, with its numbers in scenes/parts/NAME.bin.
+gltf() {
+    local vertices faces
+    read -r vertices faces _ < <(sed -n 2p "$1")
+    mkdir -p scenes/parts
+    printf '%b' "$(awk '
+        function bytes(number, n) { for (; n--; number = int(number / 256)) printf "\\0%03o", number % 256 }
+        function float(x,    sign, e) {
+            sign = x < 0; if (sign) x = -x
+            if (!x) return 0
+            e = int(log(x) / log(2) + 200) - 200
+            return sign * 2 ^ 31 + (e + 127) * 2 ^ 23 + int((x / 2 ^ e - 1) * 2 ^ 23)
+        }
+        NR > 2 && NF == 3 { for (i = 1; i <= 3; i++) bytes(float($i), 4) }
+        NR > 2 && NF == 4 { for (i = 2; i <= 4; i++) bytes($i, 2) }' "$1")" >"scenes/parts/$2.bin"
+    jq -n --argjson v "$vertices" --argjson f "$faces" --arg name "$2" '{asset: {version: "2.0"}, scene: 0, scenes: [{nodes: [0]}],
+        nodes: [{mesh: 0}], meshes: [{primitives: [{attributes: {POSITION: 0}, indices: 1}]}],
+        buffers: [{uri: "parts/\($name).bin", byteLength: (12 * $v + 6 * $f)}],
+        bufferViews: [{buffer: 0, byteLength: (12 * $v)}, {buffer: 0, byteOffset: (12 * $v), byteLength: (6 * $f)}],
+        accessors: [{bufferView: 0, componentType: 5126, count: $v, type: "VEC3", min: [-9, -9, -9], max: [9, 9, 9]},
+            {bufferView: 1, componentType: 5123, count: (3 * $f), type: "SCALAR"}]}' >"scenes/$2.gltf"
+}
+# A mesh whose points are in a file beside it, under another name, and that file changed.
+if [[ -x $VARIMAP_BIN/varimap-import ]]; then
+    gltf meshes/a.off a
+    gltf meshes/b.off b
+    printf 'mesh,name\nscenes/a.gltf,one\nscenes/b.gltf,\n' >scenes.csv
+    batch scenes.csv -o imported -j 1
+    [[ $(column imported/status.csv name) == one--b && $(column imported/status.csv status) == "done" ]] || fail "scenes: $(<imported/status.csv)"
+    jq -e '.provenance.source.imported_from | endswith("/one.gltf")' imported/pairs/one--b/quality.json >/dev/null || fail "what was imported"
+    batch scenes.csv -o imported --plan
+    ! grep -q . imported/batch/pending || fail "a batch of scenes is not known to be done"
+    gltf meshes/c.off b
+    batch scenes.csv -o imported --plan
+    [[ $(cut -d ' ' -f 1,2 imported/batch/pending | xargs) == "pair one--b surface b" ]] || fail "a changed buffer: $(<imported/batch/pending)"
+fi
 
 # As far as a stage, and then on.
 map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse
@@ -130,6 +199,18 @@ expect_exit 2 "$varimap" batch
 expect_exit 2 "$varimap" batch lists/pairs.csv
 expect_exit 2 "$varimap" batch --star meshes/a.off -o none
 expect_exit 2 "$varimap" batch lists/pairs.csv -o none --memory much
+# Options of maps are looked at before anything is done.
+printf '[eigen]\ncuont = 3\n' >bad.toml
+for option in --set=eigen.cout=3 --set=eigen.count=many --area-bound=0.5 --config=bad.toml --fill-holes=some --landmark-weight=2; do
+    expect_exit 2 "$varimap" batch --all-pairs meshes -o none --plan $option
+done
+grep -q '^batch: error: .*landmark_weight' log || fail "a wrong option is not said: $(<log)"
+printf 'source,target,name\nmeshes/a.off,meshes/b.off,%0201d\n' 1 >long.csv
+expect_exit 3 "$varimap" batch long.csv -o none
+mkdir own
+cp -r meshes own
+expect_exit 2 "$varimap" batch --all-pairs own/meshes -o own --plan
+same own/meshes/a.off meshes/a.off
 expect_exit 6 "$varimap" batch absent.csv -o none
 expect_exit 6 "$varimap" batch lists/pairs.csv -o none
 printf 'a,b\n1,2\n' >columns.csv
@@ -157,6 +238,24 @@ grep -q 'no landmarks for . of . surfaces' log || fail "who has no landmarks is 
 "$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
 grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"
 [[ -z $(ls planned/pairs) ]] || fail "--plan runs something"
+"$varimap" batch --all-pairs meshes -o planned --plan --consistent >out.txt 2>log || fail "--plan --consistent"
+grep -q '^batch: warning: --consistent with --plan: .* run this command once more without --plan' log || fail "what comes after --plan --consistent"
+if ! command -v sbatch >/dev/null; then
+    expect_exit 6 "$VARIMAP_SOURCE/pipelines/batch/slurm" planned
+    grep -q 'apt-get install slurm-client' log || fail "which package has sbatch"
+fi
+# Files that are not links of its own stay; who is called otherwise than asked for is told.
+touch planned/meshes/a.txt planned/meshes/a.ply
+printf 'name,mesh,source,target\nz.1,meshes/a.off,,\nz_1,meshes/b.off,,\nx,meshes/a.off,,\n' >names.csv
+"$varimap" batch names.csv -o planned --plan >out.txt 2>log || fail "--plan with names"
+grep -q '^batch: warning: other names, .*: z.1 is z_1, z_1 is z_1-2;' log || fail "other names are not told: $(<log)"
+grep -q '^batch: warning: .* twice have one name: x is z_1$' log || fail "a second name is not told: $(<log)"
+[[ $(sed -n 3p planned/surfaces.csv) == "z_1-2,\"$PWD/meshes/b.off\"" ]] || fail "surfaces.csv: $(<planned/surfaces.csv)"
+echo ,,meshes/a.off,meshes/c.off >>names.csv
+"$varimap" batch names.csv -o planned --plan >out.txt 2>log || fail "--plan with rows of both kinds"
+grep -q '^batch: warning: names.csv: rows of a mesh alone, beside rows of pairs: 3,' log || fail "rows that count for nothing: $(<log)"
+"$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
+[[ -e planned/meshes/a.txt && ! -L planned/meshes/a.ply && -L planned/meshes/a.off ]] || fail "files in OUT/meshes"
 "$varimap" batch --star meshes/b.off meshes -o planned --landmarks-from points --plan --cut-handles none --fill-holes=30 >out.txt 2>log ||
     fail "--plan with landmarks"
 tr '\n' ' ' <planned/batch/options | grep -q -- '--cut-handles none --fill-holes 30 ' || fail "repairs of all surfaces of a batch"
@@ -184,7 +283,8 @@ expect_landmarks "three.txt a.txt three.txt c.txt" --star meshes/b.off surfaces.
 setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &
 session=$!
 for ((i = 0; i < 600; ++i)); do
-    ! pgrep -s $session 'varimap-(eigen|explore|diffuse|refine|relax|remesh)' >/dev/null || break  # the first stage may be asked for the version alone
+    # Stages are asked for versions and parameters before jobs run.
+    [[ ! -s stopped/batch/running ]] || ! pgrep -s $session 'varimap-(eigen|explore|diffuse|refine|relax|remesh)' >/dev/null || break
     sleep .1
 done
 kill -TERM $session

@@ -46,6 +46,9 @@ list nineteen pairs.txt -o nineteen.csv
 grep -q 'pairs: 2, 1 without known points' out.txt || fail "missing points: $(cat out.txt)"
 [[ $(field nineteen.csv 1 7) == 1 && -z $(field nineteen.csv 2 5) ]] || fail "nineteen.csv: $(cat nineteen.csv)"
 same "$(field nineteen.csv 1 5)" nineteen/corres/1_2.map
+list nineteen pairs.txt -o nineteen.csv --landmarks 2
+grep -q 'pairs: 2, 1 without known points' out.txt || fail "missing points with --landmarks: $(cat out.txt)"
+[[ -s $(field nineteen.csv 1 4) && -z $(field nineteen.csv 2 4) ]] || fail "landmarks where points are known"
 seq 0 145 >nineteen/corres/1_2.map
 list nineteen pairs.txt -o nineteen.csv
 [[ $(field nineteen.csv 1 7) == 0 ]] || fail "numbers from 0: $(cat nineteen.csv)"
@@ -105,3 +108,12 @@ bench ren.csv -o benched --compare was
 grep -q 'of 2 pairs 2 better, 0 worse, 0 the same (within .003); sign test: p = 0.5$' out.txt || fail "compared: $(tail -n 1 out.txt)"
 [[ $(grep -c '^  better cats' out.txt) == 2 ]] || fail "by pair: $(cat out.txt)"
 expect_exit 6 "$varimap" bench ren.csv -o benched --compare nowhere
+
+# Groups that no pair has; maps that cannot be evaluated.
+cp benched/list.csv list.csv
+expect_exit 2 "$varimap" bench ren.csv -o benched --group cats --group dogs
+grep -q 'bench: error: --group dogs: no pair has that group; there are: cats$' log || fail "an unknown group: $(cat log)"
+same list.csv benched/list.csv
+head -n 2 ren.csv | sed 's/[01]$/0/' >wrong.csv
+expect_exit 1 "$varimap" bench wrong.csv -o benched "${coarse[@]}" --set render.width=64 --set render.samples=1
+grep -q 'bench: error: no pair was evaluated' log || fail "maps that cannot be evaluated: $(cat log)"

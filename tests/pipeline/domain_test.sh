@@ -62,6 +62,7 @@ refuse two.mtx '%%%%MatrixMarket matrix coordinate real symmetric\n4 4 2\n2 1 1\
 refuse two.obj 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nl 1 2\nl 3 4\n' '2 edges cannot join 4 points'
 refuse negative.edges '0 1\n1 2 -1\n' 'the weight -1 is not positive'
 refuse negative.mtx '%%%%MatrixMarket matrix coordinate real symmetric\n4 4 3\n2 1 1\n3 2 -2\n4 3 1\n' 'the weight -2 is not positive'
+refuse half.mtx '%%%%MatrixMarket matrix coordinate pattern general\n4 4 3\n2 1\n3 2\n4 3\n' 'but none at 1 2'
 refuse same.xyz '0 0\n1 0\n0 0\n2 2\n' 'points 0 and 2 .* lie at the same place'
 refuse same.obj 'v 0 0 0\nv 1 0 0\nv 0 0 0\nv 1 1 0\nl 1 2 3 4\n' 'points 0 and 2 .* lie at the same place'
 refuse nan.xyz '0 0\n1 nan\n0 0\n2 2\n' 'coordinate nan is not finite'

@@ -58,3 +58,21 @@ same_results good disk/out
 map a.off b.off -o disk/out
 expect_ran ""
 echo "the disk was full $refusals times"
+
+# Scripts around the stages: 6 and one line of their own, and no half of a table.
+mkdir meshes
+cp a.off b.off meshes
+one_line() {  # COMMAND...
+    rm -rf disk/*
+    mkdir disk/out
+    leave_free $free
+    expect_exit 6 "$varimap" "$@" -o disk/out -q -j 1 "${small_picture[@]}"
+    [[ $(wc -l <log) == 1 && $(<log) =~ ^(batch|register)": error: "[^:]*disk/out[^:]*": cannot be written; is the disk full?"$ ]] ||
+        fail "$1 with $free kB free: $(cat log)"
+    nothing_left disk/out
+}
+for free in 0 12 40 200; do
+    one_line batch --all-pairs meshes
+    one_line register a.off b.off
+done
+echo "so it was for scripts"

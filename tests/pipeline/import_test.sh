@@ -109,6 +109,18 @@ expect_exit 3 "$varimap" map what.ever b.off -o refused
 expect_exit 3 "$VARIMAP_BIN/varimap-verify" a.dae b.off out/source_to_target.csv
 grep -q "varimap import" log || fail "verify does not say how to import"
 
+# What is left out of a file is said, and what a file needs is named.
+triangle='{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"buffers":[{"byteLength":36,
+    "uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":0}}]}]}'
+echo "$triangle" >colours.gltf
+"$VARIMAP_BIN/varimap-import" colours.gltf colours.obj 2>log || fail "colours.gltf: $(tail -n 1 log)"
+grep -q "warning: colours.gltf: colours of vertices are left out" log || fail "colours are left out without a word"
+jq '.extensionsRequired = ["FOO_bar"]' colours.gltf >needs.gltf
+expect_exit 3 "$VARIMAP_BIN/varimap-import" needs.gltf needs.obj
+grep -q "error: needs.gltf: .*FOO_bar" log || fail "FOO_bar is not named"
+
 # Built without assimp: one line that says so.
 mkdir without
 ln -s "$VARIMAP_BIN"/varimap-* without/

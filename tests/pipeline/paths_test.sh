@@ -37,3 +37,27 @@ same plain/artifacts/plain--bent.map made/artifacts/plain--bent.map
 make -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=plain.off TARGET=bent.off OUT=made LANDMARKS=tips.txt \
     RENDER_FLAGS="--width 64 --samples 1" 2>log
 expect_ran ""
+
+# A folder whose name begins with a dash, and results that were damaged.
+cp -r plain ./-dash
+"$varimap" report -dash >out.txt 2>log || fail "report of a folder with a dash"
+grep -q '^picture  -dash/picture.png' out.txt || fail "report of a folder with a dash: $(<out.txt)"
+"$varimap" transfer -dash --mesh plain.off >out.txt 2>log || true
+! grep -q 'internal\|usage' log || fail "transfer of a folder with a dash"
+if [[ -w /dev/full ]]; then
+    code=0
+    "$varimap" report plain >/dev/full 2>log || code=$?
+    ((code == 6)) || fail "report onto a full disk: exit $code"
+    grep -q 'error: cannot write' log || fail "report onto a full disk: no reason"
+fi
+for text in '' '{}' '{'; do
+    echo "$text" >./-dash/quality.json
+    expect_exit 4 "$varimap" report -dash
+    grep -q 'quality.json: damaged' log || fail "what is damaged is not said"
+done
+
+# Results that were moved with the meshes of their batch.
+mkdir meshes && cp plain.off bent.off meshes
+"$varimap" batch --all-pairs meshes -o many "${coarse[@]}" -q >out.txt 2>log || fail "batch"
+mv many moved
+"$varimap" report moved/pairs/bent--plain >out.txt 2>log || fail "report of a batch that was moved"

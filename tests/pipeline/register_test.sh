@@ -48,6 +48,17 @@ register template.off meshes -o out --landmarks-from points -j 1
 grep -q '4 done already' log || fail "maps were made again"
 for file in points.npy aligned.npy landmarks.csv specimens.csv components.csv mean.ply; do same "out/$file" "before/$file"; done
 
+# What cannot be done leaves the results as they are.
+for modes in five -1 1.5 1001; do
+    expect_exit 2 "$varimap" register "${small_picture[@]}" template.off meshes -o out --landmarks-from points --modes $modes
+    grep -q "^register: error: --modes $modes: " log || fail "--modes $modes is not said"
+done
+mkdir beyond
+echo 402 >beyond/template.txt
+expect_exit 3 "$varimap" register "${small_picture[@]}" template.off meshes -o out --landmarks-from points --points-from beyond
+diff -r -x log.txt -x maps out before >log || fail "results of the run before"
+nothing_left out
+
 # Several templates: the median of their answers; a specimen that cannot be mapped is left out, and said.
 register template.off meshes/s1.off meshes/s4.off -o several --landmarks-from points --templates other.off meshes/s2.off -j 2
 [[ $(jq '.specimens | map(.answers | length) | unique[]' several/manifest.json) == 3 ]] || fail "answers of three templates"
@@ -76,7 +87,8 @@ register template.off meshes/s[1-4].off -o out --landmarks-from points
 grep -q '^landmarks ' out.txt || fail "landmarks are not told"
 [[ -s out/specimens/s4.ply && -s out/component_2.png ]] || fail "results of four specimens"
 touch out/mine.csv out/specimens/mine.csv out/component_mine.ply
-register template.off meshes/s1.off meshes/s2.off -o out
+ln -s meshes linked
+register template.off meshes/s1.off linked/s1.off meshes/s2.off -o out
 (cd out && find . -path ./maps -prune -o -type f -print | sort) >left.txt
 printf './%s\n' .lock aligned.npy component_1.png component_1_minus.ply component_1_plus.ply component_mine.ply components.csv \
     identity.csv log.txt manifest.json mean.ply mean.png mine.csv pairs.csv points.npy specimens.csv specimens/mine.csv \
@@ -114,6 +126,15 @@ expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --landmarks
 expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates template.off
 grep -q 'register: error: template.off: .* twice' log || fail "the template as a further one"
 expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates other.off ./other.off
+
+# Options of maps are looked at first; what a run writes is not what the next one reads.
+for option in --set=eigen.cout=3 --area-bound=0.5 --mirror; do
+    expect_exit 2 "$varimap" register template.off meshes -o none $option
+done
+expect_exit 2 "$varimap" register template.off meshes -o meshes
+grep -q 'register: error: meshes: its results would be taken for specimens' log || fail "OUT that holds the specimens"
+expect_exit 2 "$varimap" register template.off out/specimens -o out
+expect_exit 2 "$varimap" register out/mean.ply meshes -o out
 
 expect_exit 2 "$varimap" register template.off -o none
 expect_exit 2 "$varimap" register template.off meshes

@@ -86,6 +86,10 @@ check_front_end() {  # VARIMAP
 }
 check_front_end "$varimap"
 
+mkdir empty
+expect_exit 6 "$varimap" survey empty
+grep -q 'survey: error: empty: no mesh there' log || fail "a folder without meshes"
+
 # From an installed prefix, and through a link to it.
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin

@@ -51,6 +51,8 @@ refuse 6 "no such folder" absent --values heat.txt
 mkdir empty
 refuse 6 "holds no finished map" empty --values heat.txt
 refuse 2 "has no texture coordinates to bake onto" good --texture a.obj --bake 64
+refuse 2 "give --texture" good --values heat.txt --bake 64
+refuse 2 "give --bake" good --texture a.obj --onto a.obj
 rm a.mtl
 refuse 6 "its materials a.mtl are missing" good --texture a.obj
 printf 'newmtl skin\nmap_Kd skin.png\n' >a.mtl

@@ -98,6 +98,27 @@ TEST_F(DomainFiles, EdgesAndMatrixMarketGiveTheSameGraph) {
     EXPECT_NEAR(other.edges[1].length / other.edges[0].length, .5, 1e-12);
 }
 
+TEST_F(DomainFiles, ARowOfNamesTellsWhichColumnsAreCoordinates) {
+    const Domain plain = make("a.csv", "0,0\n1,0\n1,2\n0,3\n");
+    EXPECT_EQ(encode(make("b.csv", "id,X,\"y\"\n0,0,0\n1,1,0\n2,1,2\n3,0,3\n")), encode(plain));
+    EXPECT_EQ(encode(make("c.csv", "name;y;x;z\na;0;0;0\nb;0;1;0\nc;2;1;0\nd;3;0;0\n")), encode(plain));
+    EXPECT_EQ(encode(make("d.csv", "lon,lat\n0,0\n1,0\n1,2\n0,3\n")), encode(plain));
+    // The first column of a table often has no name.
+    EXPECT_THAT(refusal("e.csv", ",x,y\n0,0,0\n1,1,0\n2,1,2\n3,0,3\n"),
+                HasSubstr("e.csv:2: 3 values, where the first row names 2"));
+}
+
+TEST_F(DomainFiles, AGeneralMatrixHasEqualHalves) {
+    const std::string head = "%%MatrixMarket matrix coordinate real general\n";
+    const std::string half = "2 1 1\n3 2 1\n4 3 1\n1 1 9\n";
+    const Domain list = make("a.edges", "0 1\n1 2\n2 3\n");
+    EXPECT_EQ(encode(make("b.mtx", head + "4 4 7\n" + half + "1 2 1\n2 3 1\n3 4 1\n")), encode(list));
+    EXPECT_THAT(refusal("c.mtx", head + "4 4 6\n" + half + "1 2 1\n2 3 1\n"),
+                HasSubstr("an entry at 4 3 (from 1), but none at 3 4"));
+    EXPECT_THAT(refusal("d.mtx", head + "4 4 7\n" + half + "1 2 1\n2 3 2\n3 4 1\n"),
+                HasSubstr("has weight 2 here and 1 before"));
+}
+
 TEST_F(DomainFiles, AMeshIsAGraphOfItsEdges) {
     DomainParams params;
     params.kind = DomainKind::graph;

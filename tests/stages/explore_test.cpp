@@ -16,6 +16,8 @@
 #include "stages/explore/pool.h"
 #include "stages/explore/starts.h"
 #include "stages/explore/tips.h"
+#include "stages/generate/level_set.h"
+#include "varimap/core/warnings.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {
@@ -162,6 +164,55 @@ TEST(SelfMaps, BringTheRightMapToAWrongOne) {
               .2);
 }
 
+/// A person with a front and a back, left and right alike, and landmarks at both hands and both feet.
+KnownPair person() {
+    struct Limb {
+        Vec3 from, to;
+        double radius;
+    };
+    std::vector<Limb> limbs{
+        {{0, 0, 0}, {0, 0, 1}, .22}, {{0, 0, 1.3}, {0, .05, 1.4}, .17}, {{0, .25, .15}, {0, .25, .3}, .22}};
+    std::vector<Vec3> tips;
+    for (const double side : {-1., 1.}) {
+        limbs.push_back({{side * .2, 0, .9}, {side * .8, .15, .6}, .09});
+        limbs.push_back({{side * .13, 0, -.1}, {side * .2, 0, -1}, .11});
+        limbs.push_back({{side * .2, 0, -1}, {side * .2, .35, -1.05}, .08});
+        tips.push_back({side * .9, .15, .6});
+        tips.push_back({side * .2, .45, -1.05});
+    }
+    const auto f = [&](const Vec3& p) {
+        double sum = 0;  // of exponentials: a smooth union
+        for (const Limb& limb : limbs) {
+            const Vec3 along = limb.to - limb.from;
+            const double t = std::clamp((p - limb.from).dot(along) / along.squaredNorm(), 0., 1.);
+            sum += std::exp(-30 * ((p - limb.from - t * along).norm() - limb.radius));
+        }
+        return -std::log(sum) / 30;
+    };
+    const TriangleMesh mesh = shapes::level_set(f, {-1.2, -.6, -1.4}, {1.2, .8, 1.8}, .09),
+                       other = shapes::level_set(f, {-1.25, -.63, -1.42}, {1.2, .8, 1.8}, .09);
+    return shapes::known_pair(mesh, other, {}, 60, tips, 1000);
+}
+
+/// Warnings of exploring where landmarks may decide.
+std::size_t warnings_with(const KnownPair& pair, const VertexPairs<MeshVertex>& landmarks) {
+    ExploreParams params;
+    params.only_if_needed = true;
+    const std::size_t before = logged_warnings().size();
+    explore(PairContext(pair.A, pair.B, landmarks), params);
+    return logged_warnings().size() - before;
+}
+
+TEST(Explore, SaysWhichLandmarksAreExchanged) {
+    const KnownPair pair = person();
+    EXPECT_EQ(warnings_with(pair, pair.landmarks), 0u);
+    VertexPairs<MeshVertex> exchanged;  // hand, foot; hand, foot
+    for (std::size_t k = 0; k < 4; ++k)
+        exchanged.emplace_back(pair.landmarks[k].first, pair.landmarks[(k + 2) % 4].second);
+    ASSERT_EQ(warnings_with(pair, exchanged), 1u);
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 1 and 3, 2 and 4 look exchanged"));
+}
+
 VertexImages true_images(const KnownPair& pair) {
     const TriangleMesh &A = pair.A.surface.mesh, &B = pair.B.surface.mesh;
     VertexImages images;
@@ -281,18 +332,18 @@ TEST(Explore, PreviewsMapsWhereItIsNotSure) {
     }
 }
 
-TEST(Explore, FinishesWhatIsTooCloseOnTheSurfacesThatWereSketched) {
+TEST(Explore, ComparesWhatIsTooCloseOnTheSurfacesThatWereSketched) {
     const KnownPair sketches = ellipsoids(300), surfaces = ellipsoids(1000);
-    const int vertices = surfaces.A.surface.mesh.vertex_count();
-    ASSERT_LT(sketches.A.surface.mesh.vertex_count(), vertices);
+    int asked = 0;
     OnDemand ask;
-    ask.surfaces = [&] { return surfaces.context(); };
+    ask.surfaces = [&] { return ++asked, surfaces.context(); };
     const Candidates found = explore(sketches.context(), ExploreParams(), ask);
+    EXPECT_EQ(asked, 1);
     ASSERT_GE(found.list.size(), 2u);
     EXPECT_FALSE(confidence_of(found.list).confident);
     EXPECT_EQ(found.list[0].moved_mass, 0);
     for (std::size_t k = 0; k < found.list.size(); ++k) {
-        EXPECT_EQ(int(found.maps[k].from_A.size()), vertices);
+        EXPECT_EQ(int(found.maps[k].from_A.size()), sketches.A.surface.mesh.vertex_count());
         EXPECT_GE(found.list[k].explored, 1);
         if (k > 0) {
             EXPECT_GE(found.list[k].score, found.list[k - 1].score);
@@ -513,15 +564,24 @@ TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
     const double found = confidence_of(candidates).probability;
     double last = found;
     for (const double dirichlet : {1.05, 1.15, 1.25, 1.35, 2.}) {
-        const double probability = confidence_of(candidates, dirichlet).probability;
+        const double probability = confidence_of(candidates, InTheEnd{dirichlet, 1}).probability;
         EXPECT_LT(probability, last);
         last = probability;
     }
-    EXPECT_TRUE(confidence_of(candidates, 1.15).confident);
-    EXPECT_EQ(doubt(candidates, 1.15), "");
-    EXPECT_FALSE(confidence_of(candidates, 1.35).confident);
-    EXPECT_THAT(doubt(candidates, 1.35), testing::HasSubstr("a Dirichlet energy of 1.35"));
-    EXPECT_NEAR(confidence_of(candidates, .99).probability, found, 1e-3);
+    EXPECT_TRUE(confidence_of(candidates, InTheEnd{1.15, 1}).confident);
+    EXPECT_EQ(doubt(candidates, InTheEnd{1.15, .94}), "");
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1.35, 1}).confident);
+    EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1}), testing::HasSubstr("a Dirichlet energy of 1.35"));
+    EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1}).probability, found, 1e-3);
+}
+
+TEST(Confidence, FallsWithWhatTheFinishedMapLeavesOut) {
+    const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
+    const Confidence whole = confidence_of(candidates, InTheEnd{1, 1});
+    EXPECT_NEAR(confidence_of(candidates, InTheEnd{1, .96}).probability, whole.probability, .01);
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1, .89}).confident);
+    EXPECT_LT(confidence_of(candidates, InTheEnd{1, .81}).probability, .1);
+    EXPECT_THAT(doubt(candidates, InTheEnd{1, .81}), testing::HasSubstr("leaves out 19% of a surface"));
 }
 
 }  // namespace

@@ -6,10 +6,12 @@
 #include <csignal>
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "fixtures/scenes.h"
 #include "fixtures/temporary_folder.h"
 #include "stages/import/isolated.h"
+#include "stages/import/model_parts.h"
 #include "stages/import/scene.h"
 #include "stages/import/source_meshes.h"
 #include "varimap/artifact/artifact.h"
@@ -169,6 +171,286 @@ TEST(Import, ObjReadsBackTheSame) {
     ASSERT_EQ(mesh.vertex_count(), 7);
     for (int v = 0; v < 7; ++v) EXPECT_EQ(mesh.vertex(v), scene.soup.points[std::size_t(v)]);
     EXPECT_EQ(mesh.face_count(), 5);
+}
+
+/// A glTF file piece by piece: one triangle, in one node, without positions yet.
+struct Gltf {
+    nlohmann::json json = nlohmann::json::parse(
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{}}]}],"accessors":[],"bufferViews":[]})");
+    std::string data;
+
+    nlohmann::json& primitive() { return json["meshes"][0]["primitives"][0]; }
+    template <class T>
+    int accessor(const std::vector<T>& values, const std::string& type, int component_type,
+                 bool normalized = false) {
+        data.append((4 - data.size() % 4) % 4, '\0');
+        const std::size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type[3] - '0';
+        const std::size_t size = values.size() * sizeof(T);
+        json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", data.size()}, {"byteLength", size}});
+        data += raw(values);
+        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                     {"componentType", component_type},
+                                     {"count", values.size() / components},
+                                     {"type", type}});
+        if (normalized) json["accessors"].back()["normalized"] = true;
+        return int(json["accessors"].size()) - 1;
+    }
+    template <class T>
+    void attribute(const char* name, const std::vector<T>& values, const std::string& type,
+                   int component_type, bool normalized = false) {
+        const int number = accessor(values, type, component_type, normalized);
+        primitive()["attributes"][name] = number;
+    }
+    std::string bytes() {
+        json["buffers"] = {{{"byteLength", data.size()}}};
+        return glb_file(json.dump(), data);
+    }
+};
+
+constexpr int of_bytes = 5121, of_shorts = 5122, of_ushorts = 5123, of_floats = 5126;
+const std::vector<float> corner_places{0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+Gltf triangle() {
+    Gltf gltf;
+    gltf.attribute("POSITION", corner_places, "VEC3", of_floats);
+    return gltf;
+}
+
+/// The triangle's texture coordinates, v downwards as in the file.
+void expect_uv(const ImportedScene& scene, const std::vector<double>& expected) {
+    ASSERT_EQ(scene.uv.size(), expected.size() / 2);
+    for (std::size_t k = 0; k < scene.uv.size(); ++k) {
+        EXPECT_NEAR(scene.uv[k][0], expected[2 * k], 1e-6);
+        EXPECT_NEAR(1 - scene.uv[k][1], expected[2 * k + 1], 1e-6);
+    }
+}
+
+std::string refusal(const std::string& name, const std::string& bytes) {
+    const TemporaryFolder folder;
+    try {
+        import(folder, name, bytes);
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr(name));
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Import, IntegersOfGltfBecomeWhatTheyStandFor) {
+    const TemporaryFolder folder;
+    Gltf gltf;
+    // Four shorts a vertex, of which the last fills up.
+    gltf.attribute("POSITION", std::vector<std::int16_t>{0, 0, -32768, 7, 32767, 0, 0, 7, 0, -32767, 0, 7},
+                   "VEC3", of_shorts, true);
+    gltf.json["accessors"][0]["count"] = 3;
+    gltf.json["bufferViews"][0]["byteStride"] = 8;
+    gltf.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    gltf.attribute("TEXCOORD_0", std::vector<std::uint16_t>{0, 0, 65535, 0, 13107, 65535}, "VEC2", of_ushorts,
+                   true);
+    const ImportedScene shorts = import(folder, "a.glb", gltf.bytes());
+    EXPECT_THAT(shorts.soup.points, ElementsAre(Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, -1, 0)));
+    expect_uv(shorts, {0, 0, 1, 0, .2, 1});
+    gltf.json["accessors"][0].erase("normalized");
+    gltf.attribute("TEXCOORD_0", std::vector<std::uint8_t>{0, 0, 255, 0, 51, 255}, "VEC2", of_bytes, true);
+    const ImportedScene bytes = import(folder, "b.glb", gltf.bytes());
+    EXPECT_EQ(bytes.soup.points[1], Vec3(32767, 0, 0));
+    expect_uv(bytes, {0, 0, 1, 0, .2, 1});
+}
+
+TEST(Import, SparseIntegersOfGltfToo) {
+    const TemporaryFolder folder;
+    Gltf gltf;
+    gltf.attribute("POSITION", std::vector<std::uint16_t>{0, 0, 0, 1, 0, 0, 9, 9, 9}, "VEC3", of_ushorts);
+    gltf.accessor(std::vector<std::uint8_t>{2}, "SCALAR", of_bytes);
+    gltf.accessor(std::vector<std::uint16_t>{0, 3, 0}, "VEC3", of_ushorts);
+    gltf.json["accessors"][0]["sparse"] = {{"count", 1},
+                                           {"indices", {{"bufferView", 1}, {"componentType", of_bytes}}},
+                                           {"values", {{"bufferView", 2}}}};
+    EXPECT_EQ(import(folder, "a.glb", gltf.bytes()).soup.points[2], Vec3(0, 3, 0));
+    gltf.json["accessors"][0]["sparse"]["indices"]["bufferView"] = 0;
+    gltf.json["accessors"][0]["sparse"]["count"] = 9;
+    EXPECT_THAT(refusal("b.glb", gltf.bytes()), HasSubstr("goes beyond"));
+}
+
+TEST(Import, TextureCoordinatesAreThoseThatTheMaterialUses) {
+    const TemporaryFolder folder;
+    Gltf gltf = triangle();
+    gltf.attribute("TEXCOORD_0", std::vector<float>{7, 7, 7, 7, 7, 7}, "VEC2", of_floats);
+    gltf.attribute("TEXCOORD_1", std::vector<float>{0, 0, 1, 0, 0, 1}, "VEC2", of_floats);
+    gltf.primitive()["material"] = 0;
+    gltf.json["materials"] =
+        nlohmann::json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}}])");
+    gltf.json["textures"] = nlohmann::json::parse(R"([{"source":0}])");
+    gltf.json["images"] = nlohmann::json::parse(R"([{"uri":"gone.png"}])");
+    expect_uv(import(folder, "a.glb", gltf.bytes()), {0, 0, 1, 0, 0, 1});
+    // The extension's own example: the lower left quarter of the image, turned.
+    gltf.json["extensionsRequired"] = {"KHR_texture_transform"};
+    gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]
+             ["KHR_texture_transform"] = {{"offset", {0, 1}}, {"rotation", M_PI / 2}, {"scale", {.5, .5}}};
+    expect_uv(import(folder, "b.glb", gltf.bytes()), {0, 1, 0, .5, .5, 1});
+}
+
+TEST(Import, UrisOfGltfHaveEscapes) {
+    const TemporaryFolder folder;
+    Gltf gltf = triangle();
+    write_file_atomically(folder / "d \xc3\xa4.bin", gltf.data);
+    write_file_atomically(folder / "tex one.png", "\x89PNG\r\n not really.");
+    gltf.json["buffers"] = nlohmann::json::parse(R"([{"byteLength":36,"uri":"d%20%C3%A4.bin"}])");
+    gltf.primitive()["material"] = 0;
+    gltf.json["materials"] =
+        nlohmann::json::parse(R"([{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}])");
+    gltf.json["textures"] = nlohmann::json::parse(R"([{"source":0}])");
+    gltf.json["images"] = nlohmann::json::parse(R"([{"uri":"tex%20one.png"}])");
+    const ImportedScene scene = import(folder, "a.gltf", gltf.json.dump());
+    EXPECT_EQ(scene.soup.points[1], Vec3(1, 0, 0));
+    EXPECT_TRUE(scene.missing_images.empty());
+    EXPECT_EQ(scene.images.size(), 1u);
+    gltf.json["buffers"][0]["uri"] = "data:application/octet-stream;base64,AACAPw==";
+    gltf.json["buffers"][0]["byteLength"] = 4;
+    EXPECT_THAT(refusal("b.gltf", gltf.json.dump()), HasSubstr("is the file truncated?"));
+    gltf.json["buffers"][0]["uri"] = "gone.bin";
+    EXPECT_THAT(refusal("b.gltf", gltf.json.dump()), HasSubstr("its buffer gone.bin is not there"));
+}
+
+/// As the format says, the joints alone place a skin.
+TEST(Import, SkinsOfGltfStandAsTheirJointsDo) {
+    const TemporaryFolder folder;
+    Gltf gltf = triangle();
+    gltf.attribute("JOINTS_0", std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4",
+                   of_bytes);
+    gltf.attribute("WEIGHTS_0", std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0}, "VEC4",
+                   of_bytes, true);
+    std::vector<float> inverses(32, 0);
+    for (const int k : {0, 5, 10, 15}) inverses[std::size_t(k)] = inverses[std::size_t(16 + k)] = 1;
+    inverses[12] = -2;  // the first joint stands at x = 2 when it is bound
+    gltf.json["skins"] = {
+        {{"joints", {1, 2}}, {"inverseBindMatrices", gltf.accessor(inverses, "MAT4", of_floats)}}};
+    // Both joints have one name, and the mesh is shown without its skin too.
+    gltf.json["nodes"] = nlohmann::json::parse(
+        R"([{"mesh":0,"skin":0,"translation":[100,0,0]},{"name":"j","translation":[2,0,0],"children":[2]},
+{"name":"j","translation":[-2,0,5]},{"mesh":0,"translation":[0,0,50]}])");
+    gltf.json["scenes"][0]["nodes"] = {0, 1, 3};
+    const ImportedScene scene = import(folder, "a.glb", gltf.bytes());
+    ASSERT_EQ(scene.soup.points.size(), 6u);
+    EXPECT_EQ(scene.soup.points[0], Vec3(0, 0, 0));
+    EXPECT_EQ(scene.soup.points[1], Vec3(1, 0, 5));
+    EXPECT_LT((scene.soup.points[2] - Vec3(0, 1, 4)).norm(), 1e-6);
+    EXPECT_EQ(scene.soup.points[4], Vec3(1, 0, 50));
+}
+
+TEST(Import, GltfWithoutScenesIsOneOfAllNodes) {
+    const TemporaryFolder folder;
+    Gltf gltf = triangle();
+    gltf.json.erase("scene");
+    gltf.json.erase("scenes");
+    gltf.json["nodes"] = nlohmann::json::parse(R"([{"mesh":0},{"children":[0],"translation":[0,0,3]}])");
+    const ImportedScene scene = import(folder, "a.glb", gltf.bytes());
+    EXPECT_THAT(scene.soup.points, ElementsAre(Vec3(0, 0, 3), Vec3(1, 0, 3), Vec3(0, 1, 3)));
+}
+
+TEST(Import, SaysThatColoursAndOtherImagesAreLeftOut) {
+    const TemporaryFolder folder;
+    Gltf gltf = triangle();
+    gltf.attribute("COLOR_0", std::vector<std::uint8_t>(12, 128), "VEC4", of_bytes, true);
+    gltf.json["textures"] = nlohmann::json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
+    EXPECT_THAT(import(folder, "a.glb", gltf.bytes()).warnings,
+                ElementsAre(HasSubstr("KHR_texture_basisu"), "colours of vertices are left out"));
+}
+
+TEST(Import, RefusesGltfThatNeedsWhatIsNotRead) {
+    Gltf gltf = triangle();
+    gltf.json["extensionsRequired"] = {"KHR_materials_unlit", "FOO_unknown"};
+    EXPECT_THAT(refusal("a.glb", gltf.bytes()), HasSubstr("needs the extension FOO_unknown"));
+    gltf.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    EXPECT_THAT(refusal("b.glb", gltf.bytes()), HasSubstr("compressed (EXT_meshopt_compression)"));
+    gltf.json["extensionsRequired"] = 7;
+    EXPECT_THAT(refusal("c.glb", gltf.bytes()), HasSubstr("its JSON is not that of a glTF file"));
+    gltf = triangle();
+    gltf.primitive()["indices"] = gltf.accessor(std::vector<std::uint8_t>{0, 1, 3}, "SCALAR", of_bytes);
+    EXPECT_THAT(refusal("d.glb", gltf.bytes()), HasSubstr("a face names a vertex that is not there"));
+    const std::string whole = triangle().bytes();
+    for (std::size_t size = 0; size < whole.size(); size += 41)
+        EXPECT_NE(refusal("e.glb", whole.substr(0, size)), "none") << size;
+}
+
+/// A tetrahedron packed by Draco, its indices of four bytes.
+TEST(Import, UnpacksDraco) {
+    const TemporaryFolder folder;
+    nlohmann::json json = nlohmann::json::parse(
+        R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":1},"indices":0,
+"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}],
+"accessors":[{"componentType":5125,"count":12,"type":"SCALAR"},{"componentType":5126,"count":4,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":76}],"buffers":[{"byteLength":80,
+"uri":"data:application/octet-stream;base64,RFJBQ08CAgEBAAAABAQAAwAAAS8BARAB/wAAAQAJAwAAAgEBAQADAwEQATADAFCCJJEEAAAAAP8HAAAAAAAAAAAAAAAAAAAAAIA/CwAAAAA="}],
+"extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"]})");
+    ImportedScene scene;
+    try {
+        scene = import(folder, "a.gltf", json.dump());
+    } catch (const InputError&) {
+        GTEST_SKIP() << "assimp is built without Draco";
+    }
+    EXPECT_EQ(scene.soup.ends.size(), 4u);
+    ASSERT_EQ(scene.soup.points.size(), 4u);
+    double sum = 0;
+    for (const Vec3& x : scene.soup.points) sum += x.sum();
+    EXPECT_NEAR(sum, 3, .01);  // three corners at 1
+    json["accessors"][1]["count"] = 70000;
+    EXPECT_THAT(refusal("b.gltf", json.dump()), HasSubstr("KHR_draco_mesh_compression"));
+}
+
+/// A zip archive of files that are not compressed.
+std::string zip(const std::vector<std::pair<std::string, std::string>>& files) {
+    std::string bytes, list;
+    for (const auto& [name, content] : files) {
+        const auto size = std::uint32_t(content.size());
+        const std::uint32_t sum = scenes::crc(content);
+        const std::string sizes = raw(sum) + raw(size) + raw(size) + raw(std::uint16_t(name.size()));
+        const std::string version = raw(std::uint16_t(20)) + std::string(8, '\0');
+        list += "PK\1\2" + raw(std::uint16_t(20)) + version + sizes + std::string(12, '\0') +
+                raw(std::uint32_t(bytes.size())) + name;
+        bytes += "PK\3\4" + version + sizes + std::string(2, '\0') + name + content;
+    }
+    const auto count = std::uint16_t(files.size());
+    return bytes + list + "PK\5\6" + std::string(4, '\0') + raw(count) + raw(count) +
+           raw(std::uint32_t(list.size())) + raw(std::uint32_t(bytes.size())) + std::string(2, '\0');
+}
+
+std::string model_3mf(const std::string& resources, const std::string& build) {
+    return R"(<?xml version="1.0"?><model unit="millimeter" )"
+           R"(xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" )"
+           R"(xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"><resources>)" +
+           resources + "</resources><build>" + build + "</build></model>";
+}
+
+TEST(Import, NamesTheParts3mfHasInFilesOfTheirOwn) {
+    const std::string links =
+        R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">)"
+        R"(<Relationship Target="/3D/3dmodel.model" Id="rel0" )"
+        R"(Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
+    const std::string mesh =
+        R"(<object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>)"
+        R"(<vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
+    const std::string item = R"(<item objectid="1"/>)";
+    const TemporaryFolder folder;
+    const std::string whole = zip({{"_rels/.rels", links}, {"3D/3dmodel.model", model_3mf(mesh, item)}});
+    EXPECT_EQ(model_parts_in_3mf(whole), 1);
+    const ImportedScene scene = import(folder, "a.3mf", whole);
+    EXPECT_EQ(scene.soup.ends.size(), 1u);
+    EXPECT_TRUE(scene.warnings.empty());
+    const std::string part =
+        R"(<object id="1" type="model"><components><component p:path="/3D/Objects/o.model" objectid="1"/></components></object>)";
+    const std::string parts = zip({{"_rels/.rels", links},
+                                   {"3D/3dmodel.model", model_3mf(part, item)},
+                                   {"3D/Objects/o.model", model_3mf(mesh, "")}});
+    EXPECT_THAT(refusal("b.3mf", parts), HasSubstr("production extension"));
+    for (std::size_t size = 0; size < parts.size(); ++size)
+        EXPECT_LE(model_parts_in_3mf(std::string_view(parts).substr(0, size)), 2);
+}
+
+TEST(Import, RefusesNodesWithoutMeshes) {
+    EXPECT_THAT(refusal("a.ase", "BLENDER junk 123"), HasSubstr("holds no faces"));
 }
 
 TEST(Import, RefusesWhatHoldsNoFaces) {

@@ -12,6 +12,7 @@
 #include "stages/remesh/quality_json.h"
 #include "varimap/core/error.h"
 #include "varimap/core/warnings.h"
+#include "varimap/quality/quality.h"
 
 namespace varimap {
 namespace {
@@ -27,7 +28,28 @@ class Remesh : public ::testing::Test {
     }
     /// Of the map as the plan has it.
     Json quality() const { return quality(pair_.as_planned()); }
+    /// Those of that map which hold some words.
+    std::vector<std::string> warnings(const std::string& words) const {
+        const std::size_t before = logged_warnings().size();
+        quality();
+        std::vector<std::string> found;
+        for (std::size_t i = before; i < logged_warnings().size(); ++i)
+            if (logged_warnings()[i].find(words) != std::string::npos) found.push_back(logged_warnings()[i]);
+        return found;
+    }
+    /// Pairs landmarks of `rows`, of the same number on both spheres, but from one row on with the next
+    /// one's.
+    void shift_landmarks(const std::vector<int>& rows, std::size_t from) {
+        pair_.plan.record.landmarks.clear();
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const std::size_t next = k + 1 < rows.size() ? k + 1 : from;
+            pair_.plan.record.landmarks.push_back({{rows[k]}, {rows[k < from ? k : next]}});
+        }
+    }
 };
+
+/// The corners of the icosahedron that the spheres are made of, no two in a row adjacent.
+const std::vector<int> far_corners{0, 3, 1, 2, 5, 6, 4, 7, 11, 9, 10, 8};
 
 TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
     pair_.A.input.space = Space::lps;
@@ -164,15 +186,73 @@ TEST_F(Remesh, CollapsedMapsHaveFiniteQuality) {
 
 /// A ball drawn out to a spindle: nothing is reversed or left out.
 TEST_F(Remesh, StrainedMapsAreSaid) {
-    const auto is_said = [&] {
-        const std::size_t before = logged_warnings().size();
-        quality();
-        return logged_warnings().size() > before &&
-               logged_warnings()[before].find("the map is strained") != std::string::npos;
-    };
-    EXPECT_FALSE(is_said());
+    EXPECT_TRUE(warnings("the map is strained").empty());
     pair_.B.input.vertices.col(2) *= 8;
-    EXPECT_TRUE(is_said());
+    const auto strained = warnings("the map is strained");
+    ASSERT_EQ(strained.size(), 1u);
+    EXPECT_NE(strained[0].find("a part of the other"), std::string::npos);
+    EXPECT_EQ(strained[0].find("slivers"), std::string::npos);
+}
+
+TEST_F(Remesh, SliversAreNamedAsWhatStrainsAMap) {
+    pair_.B.input.vertices.col(2) *= 100;
+    const auto strained = warnings("the map is strained");
+    ASSERT_EQ(strained.size(), 1u);
+    EXPECT_NE(strained[0].find("the area of the target lies on slivers"), std::string::npos) << strained[0];
+    EXPECT_EQ(strained[0].find("a part of the other"), std::string::npos);
+    pair_.A.input.vertices.col(2) *= 100;
+    EXPECT_TRUE(warnings("slivers").empty()) << "a map that is not strained needs no cause";
+}
+
+TEST_F(Remesh, ExchangedLandmarksThatLieNearAreSaid) {
+    const TriangleMesh& mesh = pair_.A.mesh;
+    const Vec3 between = (mesh.vertex(0) + mesh.vertex(1)) / 2;  // two edges from both
+    Eigen::Index nearest;
+    (mesh.vertices.rowwise() - between.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+    const int near = int(nearest);
+    pair_.plan.record.landmarks = {{{3}, {3}}, {{0}, {0}}, {{near}, {near}}};
+    EXPECT_TRUE(warnings("landmark").empty());
+    pair_.plan.record.landmarks = {{{3}, {3}}, {{0}, {near}}, {{near}, {0}}};
+    for (const LandmarkSurroundings& around : landmark_surroundings(
+             pair_.as_planned().A_to_B, landmarks_on_inputs(pair_.plan.record, pair_.A, pair_.B),
+             pair_.A.input, pair_.B.input))
+        EXPECT_LT(around.distance, 4 * around.radius) << "not elsewhere";
+    const auto said = warnings("landmark");
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(
+        said[0].find("landmarks 2 and 3 look exchanged: each one's surroundings go to the other's partner"),
+        std::string::npos)
+        << said[0];
+}
+
+TEST_F(Remesh, ExchangedLandmarksThatLieFarAreSaidOnce) {
+    pair_.plan.record.landmarks = {{{0}, {3}}, {{1}, {2}}, {{3}, {0}}, {{2}, {1}}};
+    EXPECT_EQ(warnings("landmarks 1 with 3 and 2 with 4 look exchanged").size(), 1u);
+    EXPECT_TRUE(warnings("the map is elsewhere").empty());
+    EXPECT_TRUE(warnings("one row off").empty());
+}
+
+TEST_F(Remesh, WarningsOfLandmarksAreJoined) {
+    shift_landmarks(far_corners, far_corners.size());
+    EXPECT_TRUE(warnings("landmark").empty());
+    shift_landmarks(far_corners, 4);
+    EXPECT_EQ(warnings("the map is elsewhere").size(), 1u);
+    EXPECT_EQ(warnings("around landmarks 5, 6, 7, 8, 9, 10, 11 and 12 the map is elsewhere").size(), 1u);
+    EXPECT_EQ(warnings("all landmarks from 5 on, to the last one, are off: is the list one row off?").size(),
+              1u);
+    shift_landmarks(far_corners, 0);
+    EXPECT_EQ(warnings("around landmarks 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more the map").size(), 1u);
+}
+
+TEST_F(Remesh, FewLandmarksThatAreOffAreNoShift) {
+    shift_landmarks(far_corners, 9);
+    EXPECT_EQ(warnings("around landmarks 10 and 11 the map").size(), 1u);
+    EXPECT_TRUE(warnings("one row off").empty());
+    shift_landmarks(far_corners, 4);
+    pair_.plan.record.landmarks.push_back({{20}, {20}});  // the last one is right
+    EXPECT_TRUE(warnings("one row off").empty());
+    pair_.plan.record.landmarks = {{{0}, {0}}, {{5}, {2}}};
+    EXPECT_EQ(warnings("around landmark 2 the map is elsewhere: it is met alone").size(), 1u);
 }
 
 TEST_F(Remesh, ServesMirroredSurfaces) {

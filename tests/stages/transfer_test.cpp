@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fixtures/map_shapes.h"
@@ -19,6 +21,7 @@
 #include "stages/transfer/values.h"
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/ply_columns.h"
 #include "varimap/results/surface_map.h"
@@ -26,7 +29,9 @@
 namespace varimap {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 PointMap closest_points(const Points& positions, const TriangleMesh& mesh) {
     const ClosestPoint closest(mesh);
@@ -131,6 +136,14 @@ class Transfer : public ::testing::Test {
             return error.what();
         }
         return "none";
+    }
+    /// What the program warned of meanwhile, a line each.
+    std::string warnings_of(const TransferRequest& request, const Correspondence& map) {
+        const std::size_t before = logged_warnings().size();
+        transfer(request, map, false);
+        std::string lines;
+        for (std::size_t i = before; i < logged_warnings().size(); ++i) lines += logged_warnings()[i] + "\n";
+        return lines;
     }
     /// A line for each vertex of the ball: `even`, `odd`, `even`, ...
     std::string by_turns(const std::string& even, const std::string& odd) const {
@@ -243,6 +256,42 @@ TEST_F(Transfer, HonoursTheAxesOfBothMeshes) {
     EXPECT_LT((after[0].position - Vec3(-p[0], -p[1], p[2])).norm(), 1e-12);
 }
 
+TEST_F(Transfer, SaysWhichPointsStayAsTheyAre) {
+    const Vec3 p = ball_.vertex(5);
+    TransferRequest request;
+    request.points = {
+        write("a.pp", fmt::format("<point x=\"{}\" y=\"{}\" z=\"{}\" active=\"1\" name=\"a\"/>\n"
+                                  "<point x=\"7\" y=\"8\" z=\"9\" active=\"0\" name=\"b\"/>\n",
+                                  p[0], p[1], p[2]))};
+    EXPECT_THAT(warnings_of(request, identity(ball_)),
+                HasSubstr("1 of 2 points are not defined, or switched off"));
+}
+
+TEST_F(Transfer, FindsThePlacesOfPointsHoweverTheirXmlIsWritten) {
+    const auto text = [](const Vec3& p) {
+        return fmt::format(
+            "<!-- <point x=\"9\" y=\"9\" z=\"9\"/> -->\n"
+            "<point\n y = '{}' x='{}'\tz=\"{}\" name='x=\"1\"'/>\n",
+            p[1], p[0], p[2]);
+    };
+    Correspondence map = identity(ball_);
+    map.to.vertices *= 2;
+    TransferRequest request;
+    request.points = {write("a.pp", text(ball_.vertex(5)))};
+    EXPECT_EQ(carry(request, map).at("a.pp"), text(2 * ball_.vertex(5)));
+}
+
+TEST_F(Transfer, ListsOfVerticesAndFacesMayHaveAName) {
+    TransferRequest request;
+    request.points = {write("v.csv", "vertex\n5\n7\n")};
+    request.regions = {write("r.txt", "# region\nFace\n3\n17\n")};
+    const auto files = carry(request, identity(ball_));
+    EXPECT_EQ(files.at("v.csv"), "vertex\n5\n7\n");
+    EXPECT_EQ(files.at("r.txt"), "Face\n3\n17\n");
+    request.regions = {write("r.txt", "nose\n3\n")};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("r.txt:1: 'nose' is not one of"));
+}
+
 TEST_F(Transfer, RefusesPointsOfAnotherMesh) {
     TransferRequest request;
     request.points = {write("p.txt", "100 0 0\n0 100 0\n")};
@@ -301,6 +350,53 @@ TEST_F(Transfer, LabelsAreNeverMixedAndKeepTheirWords) {
         }
     }
     EXPECT_EQ(seen, pair.other.vertex_count());
+}
+
+/// The ball onto itself, where face 0 of either has another point of it as its first corner's image.
+Correspondence onto_middle(const TriangleMesh& ball, const Vec3& barycentric) {
+    Correspondence map = identity(ball);
+    map.back[std::size_t(ball.faces(0, 0))] = {0, barycentric};
+    return map;
+}
+
+TEST_F(Transfer, EveryColumnOfLabelsIsElectedByItself) {
+    const Correspondence map = onto_middle(ball_, {.3, .3, .4});
+    const int row = ball_.faces(0, 0), last = ball_.faces(0, 2);
+    std::string csv = "bone,id\n";
+    std::vector<std::int64_t> pairs;
+    const std::int64_t large = std::int64_t(1) << 53;
+    for (int v = 0; v < ball_.vertex_count(); ++v) {
+        const int bone = v == last ? 9 : 7;
+        csv += fmt::format("b{},{}\n", bone, v);
+        pairs.insert(pairs.end(), {large + bone, large + v});
+    }
+    TransferRequest request;
+    request.labels = {write("a.csv", csv), write("a.npy", to_npy("<i8", {162, 2}, pairs))};
+    const auto files = carry(request, map);
+    std::istringstream lines(files.at("a.csv"));
+    std::string line;
+    for (int i = 0; i < row + 2; ++i) std::getline(lines, line);
+    EXPECT_EQ(line, fmt::format("b7,{}", last));
+    std::int64_t found[2];
+    const std::string& npy = files.at("a.npy");
+    std::memcpy(found, npy.data() + npy.size() - 162 * 16 + 16 * std::size_t(row), 16);
+    EXPECT_THAT(found, ElementsAre(large + 7, large + last));
+}
+
+TEST_F(Transfer, AColourIsOneLabel) {
+    const Correspondence map = onto_middle(ball_, {.3, .3, .4});
+    PlyColumns columns;
+    for (const char* name : {"red", "green", "blue", "part"})
+        columns.vertex.push_back({name, "uchar", std::vector<double>(162, 0)});
+    for (int k = 0; k < 3; ++k) columns.vertex[std::size_t(k)].values[std::size_t(ball_.faces(0, k))] = 255;
+    columns.vertex[3].values[std::size_t(ball_.faces(0, 2))] = 1;
+    TransferRequest request;
+    request.labels = {write("a.ply", to_ply(ball_, columns, PlyFormat::binary))};
+    const auto carried = parse_ply_columns(carry(request, map).at("a.ply"), "a.ply").vertex;
+    std::vector<double> label;
+    for (const PlyColumn& column : carried)
+        if (column.type == "uchar") label.push_back(column.values[std::size_t(ball_.faces(0, 0))]);
+    EXPECT_THAT(label, ElementsAre(0, 0, 255, 0));
 }
 
 TEST_F(Transfer, WordsOfLabelsStayAsTheyAre) {
@@ -365,6 +461,32 @@ TEST_F(Transfer, LabelsOfAnyIntegerStayExact) {
     }
 }
 
+TEST_F(Transfer, ANameAboveTooFewRowsIsNoValue) {
+    std::string rows = "vertex,bone,other\n", labels = "vertex,part\n";
+    for (int v = 0; v < 161; ++v) {
+        rows += fmt::format("{},0.5,0.5\n", v);
+        labels += fmt::format("{},arm\n", v);
+    }
+    TransferRequest request;
+    request.weights = {write("a.csv", rows)};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv: 161 rows, but a.obj has 162 vertices"));
+    request = {};
+    request.labels = {write("a.csv", labels)};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv: 161 rows, but a.obj has 162 vertices"));
+}
+
+TEST_F(Transfer, SaysThatListsAreNotCarried) {
+    const std::string bare =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float heat\nproperty list uchar float bones\nelement face 1\n"
+        "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+        "0 0 0 1 0\n1 0 0 2 0\n0 1 0 3 1 .5\n3 0 1 2 0\n";
+    TransferRequest request;
+    request.values = {write("a.ply", bare)};
+    EXPECT_THAT(warnings_of(request, identity(parse_mesh(bare, "a.ply"))),
+                HasSubstr("a.ply: lists are not carried: bones, texcoord"));
+}
+
 TEST_F(Transfer, PolygonsOfAPlyFileHaveValues) {
     // Two polygons, of four and of three corners, are three triangles.
     const std::string ply =
@@ -421,6 +543,30 @@ TEST_F(Transfer, WeightsStaySumsOfOne) {
     EXPECT_LE((carried.values.array() > 0).rowwise().count().maxCoeff(), 4);
 }
 
+TEST_F(Transfer, WeightsOfIntegersBecomeFractions) {
+    const Correspondence map = onto_middle(ball_, {.25, .25, .5});
+    std::vector<std::uint8_t> weights;
+    PlyColumns columns;
+    for (const char* name : {"bone", "other"}) columns.vertex.push_back({name, "uchar", {}});
+    for (int v = 0; v < 162; ++v)
+        for (int k = 0; k < 2; ++k) {
+            const bool held = (v == ball_.faces(0, 2)) == (k == 1);
+            weights.push_back(held);
+            columns.vertex[std::size_t(k)].values.push_back(held);
+        }
+    TransferRequest request;
+    request.weights = {write("a.npy", to_npy("|u1", {162, 2}, weights)),
+                       write("b.npy", to_npy("|b1", {162, 2}, weights)),
+                       write("a.ply", to_ply(ball_, columns, PlyFormat::binary))};
+    const auto files = carry(request, map);
+    for (const auto& [name, bytes] : files) {
+        const ValueFile file = read_values(write("after-" + name, bytes), ValueKind::weight, map.to, "b.obj");
+        const Eigen::RowVectorXd row = file.tables[0].values.row(ball_.faces(0, 0));
+        EXPECT_TRUE(row.isApprox(Eigen::RowVector2d(.5, .5))) << name << ": " << row;
+    }
+    EXPECT_THAT(files.at("b.npy"), HasSubstr("<f8"));
+}
+
 TEST_F(Transfer, WritesTheFormatItReads) {
     const Correspondence map = identity(ball_);
     const auto round_trip = [&](const std::string& path) {
@@ -451,6 +597,35 @@ TEST_F(Transfer, WritesTheFormatItReads) {
     const std::string table = to_npy("|i1", {ball_.face_count(), 2}, bytes);
     EXPECT_EQ(round_trip(write("b.npy", table)), table);
     EXPECT_EQ(round_trip(write("B.NPY", table)), table);
+}
+
+TEST_F(Transfer, ReadsBigEndianArraysAndHalves) {
+    const auto reversed = [](std::string npy, std::size_t size) {
+        for (std::size_t at = npy.size() - 162 * size; at < npy.size(); at += size)
+            std::reverse(npy.begin() + std::ptrdiff_t(at), npy.begin() + std::ptrdiff_t(at + size));
+        npy[npy.find('<')] = '>';
+        return npy;
+    };
+    std::vector<double> heat;
+    std::vector<std::int64_t> ids;
+    std::vector<std::uint16_t> halves;
+    for (int v = 0; v < 162; ++v) {
+        heat.push_back(.1 * v);
+        ids.push_back((std::int64_t(1) << 53) + v);
+        halves.push_back(std::uint16_t(0x3c00 + v));  // 1 + v / 1024
+    }
+    const std::string npy = to_npy("<f8", {162}, heat), labels = to_npy("<i8", {162}, ids);
+    EXPECT_EQ(kept_labels("a.npy", reversed(npy, 8)), npy);
+    EXPECT_EQ(kept_labels("a.npy", reversed(labels, 8)), labels);
+    const std::string half = to_npy("<f2", {162}, halves);
+    for (const std::string& bytes : {half, reversed(half, 2)}) {
+        const ValueFile file = read_values(write("a.npy", bytes), ValueKind::number, ball_, "a.obj");
+        EXPECT_EQ(file.tables[0].values(161, 0), 1 + 161 / 1024.);
+        const std::string written = file.write(file.tables, ball_);
+        EXPECT_THAT(written, HasSubstr("<f4"));
+        EXPECT_EQ(read_values(write("b.npy", written), ValueKind::number, ball_, "a.obj").tables[0].values,
+                  file.tables[0].values);
+    }
 }
 
 TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
@@ -550,6 +725,38 @@ TEST_F(Transfer, TextureCoordinatesOfAMovedCopyAreThoseOfTheSource) {
     EXPECT_LT(worst_uv_error(cut, map, model), 1e-6);
 }
 
+/// Every face with vertices of its own.
+TriangleMesh split_at_edges(const TriangleMesh& mesh) {
+    TriangleMesh split{Points(3 * mesh.face_count(), 3), mesh.faces};
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            split.vertices.row(3 * f + k) = mesh.vertices.row(mesh.faces(f, k));
+            split.faces(f, k) = 3 * f + k;
+        }
+    return split;
+}
+
+TEST_F(Transfer, VerticesListedForEveryFaceMakeNoSeam) {
+    const TriangleMesh fine = shapes::ellipsoid(3, {1, .8, 1.3});
+    ObjModel model = unwrapped(ball_);
+    // Without the seam and the poles: one coordinate by height.
+    for (int f = 0; f < ball_.face_count(); ++f)
+        for (int k = 0; k < 3; ++k)
+            model.uv[std::size_t(model.uv_of(f, k))] =
+                Vec2(.5, ball_.vertices(ball_.faces(f, k), 2) / 4 + .5);
+    for (const TriangleMesh& from : {ball_, split_at_edges(ball_)}) {
+        const Correspondence map{"a.obj",
+                                 "b.obj",
+                                 from,
+                                 fine,
+                                 closest_points(from.vertices, fine),
+                                 closest_points(fine.vertices, from)};
+        const PointCarrier back(map.to, map.back, map.from);
+        EXPECT_EQ(cut_at_seams(map, back, model).mesh.face_count(), fine.face_count())
+            << from.vertex_count() << " vertices";
+    }
+}
+
 TextureImage gradient(int n) {
     TextureImage image(n, n);
     for (int y = 0; y < n; ++y)
@@ -586,6 +793,180 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
         worst = std::max(worst, std::abs(int(truth.rgba[i]) - int(baked.rgba[i])));
     EXPECT_LE(worst, 1);
     EXPECT_THAT(files.at("square_textured.mtl"), HasSubstr("map_Kd square_textured.png"));
+}
+
+/// A part of a PNG file: its length, type, content and checksum.
+std::string png_part(const std::string& type, const std::string& content) {
+    const auto word = [](std::uint32_t number) {
+        std::string bytes;
+        for (int shift = 24; shift >= 0; shift -= 8) bytes += char(number >> shift & 255);
+        return bytes;
+    };
+    const std::string named = type + content;
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(named.data()), uInt(named.size()));
+    return word(std::uint32_t(content.size())) + named + word(std::uint32_t(sum));
+}
+
+/// One grey pixel of 16 bits a channel, without or with a word that it is sRGB.
+std::string deep_png(std::uint16_t grey, bool says_srgb) {
+    std::string row(1, '\0'), packed(64, '\0');
+    for (int channel = 0; channel < 3; ++channel) row += {char(grey >> 8), char(grey & 255)};
+    uLongf size = uLongf(packed.size());
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(row.data()),
+             uLong(row.size()));
+    packed.resize(size);
+    const std::string header("\0\0\0\1\0\0\0\1\x10\2\0\0\0", 13);
+    return "\x89PNG\r\n\x1a\n" + png_part("IHDR", header) +
+           (says_srgb ? png_part("sRGB", std::string(1, '\0')) : "") + png_part("IDAT", packed) +
+           png_part("IEND", "");
+}
+
+TEST_F(Transfer, SixteenBitsAreSrgbAsEightAre) {
+    for (const bool says_srgb : {false, true}) {
+        const TextureImage image = read_png(write("a.png", deep_png(100 * 257, says_srgb)));
+        EXPECT_EQ(int(image.rgba[0]), 100) << says_srgb;
+        EXPECT_EQ(int(image.rgba[3]), 255);
+    }
+}
+
+TEST_F(Transfer, SaysThatColouredMaterialsAreBakedWithoutTheirColour) {
+    write("skin.png", to_png(gradient(8)));
+    Correspondence map = identity(ball_);
+    ObjModel model = unwrapped(ball_);
+    for (Vec2& uv : model.uv) uv = uv.cwiseMax(0).cwiseMin(1);
+    map.to_file = write("a.obj", obj_of(ball_, model, "skin.mtl"));
+    TransferRequest request;
+    request.texture = map.to_file;
+    request.bake = {16, 1};
+    write("skin.mtl", "newmtl skin\nKd 1 .5 .5\nmap_Kd skin.png\n");
+    EXPECT_THAT(warnings_of(request, map), HasSubstr("skin.png: is baked as it is, not times the colour Kd"));
+    write("skin.mtl", "newmtl skin\nKd .8 .8 .8\nmap_Kd skin.png\n");
+    EXPECT_EQ(warnings_of(request, map), "");
+}
+
+TEST_F(Transfer, NamesTheFileThatCannotBeBakedOnto) {
+    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
+    ObjModel outside = unwrapped(ball_);
+    outside.uv[0] = {1.5, .5};
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    request.bake = {16, 1};
+    request.onto = write("outside.obj", obj_of(ball_, outside));
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("outside.obj: texture coordinates (1.5, 0.5)"));
+}
+
+TEST_F(Transfer, RefusesWhatWouldHaveNoEffect) {
+    TransferRequest request;
+    request.regions = {write("r.txt", "3\n")};
+    request.bake = {16, 1};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("give --texture"));
+    request.bake = {0, 8};
+    request.onto = "b.obj";
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("give --bake"));
+}
+
+/// The description within a .glb.
+nlohmann::json description_of(const std::string& glb) {
+    std::uint32_t length;
+    std::memcpy(&length, glb.data() + 12, 4);
+    return nlohmann::json::parse(glb.substr(20, length));
+}
+
+/// A third of the faces each has the first, the second and the third material.
+ObjModel of_three_materials(const TriangleMesh& mesh) {
+    ObjModel model = unwrapped(mesh);
+    model.materials = {"skin", "M\xe4t", "horn"};
+    for (std::size_t f = 0; f < model.material.size(); ++f) model.material[f] = int(f % 3);
+    return model;
+}
+
+TEST_F(Transfer, AGlbHoldsEveryImageOnceAndValidText) {
+    write("skin.png", to_png(gradient(8)));
+    TextureImage glass = gradient(8);
+    glass.rgba[3] = 100;
+    write("glass.png", to_png(glass));
+    write("skin.mtl",
+          "newmtl skin\nmap_Kd skin.png\nnewmtl M\xe4t\nmap_Kd skin.png\n"
+          "newmtl horn\nmap_Kd glass.png\n");
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, of_three_materials(ball_), "skin.mtl"));
+    const auto glb = description_of(carry(request, identity(ball_)).at("b_textured.glb"));
+    ASSERT_EQ(glb.at("materials").size(), 3u);
+    EXPECT_EQ(glb.at("images").size(), 2u);
+    EXPECT_EQ(glb.at("materials")[1].at("name"), "M\xef\xbf\xbdt");
+    const auto texture = [&](int i) {
+        return glb.at("materials")[std::size_t(i)]
+            .at("pbrMetallicRoughness")
+            .at("baseColorTexture")
+            .at("index");
+    };
+    EXPECT_EQ(texture(0), texture(1));
+    EXPECT_NE(texture(0), texture(2));
+    EXPECT_FALSE(glb.at("materials")[0].contains("alphaMode"));
+    EXPECT_EQ(glb.at("materials")[2].at("alphaMode"), "BLEND");
+}
+
+TEST_F(Transfer, MaterialsStayApartWhateverTheirNames) {
+    ObjModel model = of_three_materials(ball_);
+    model.materials = {"Material #1", "Material #2", "Material #3"};
+    write("a.mtl", "newmtl Material #1\nKd 1 0 0\nnewmtl Material #2\nKd 0 1 0\nd .5\nnewmtl Material #3\n");
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, model, "a.mtl"));
+    const auto files = carry(request, identity(ball_));
+    EXPECT_THAT(files.at("b_textured.obj"), HasSubstr("usemtl Material #3\n"));
+    EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("newmtl Material #3\n"));
+    const auto glb = description_of(files.at("b_textured.glb"));
+    ASSERT_EQ(glb.at("materials").size(), 3u);
+    EXPECT_EQ(glb.at("materials")[1].at("pbrMetallicRoughness").at("baseColorFactor")[3], .5);
+    EXPECT_EQ(glb.at("materials")[1].at("alphaMode"), "BLEND");
+}
+
+TEST_F(Transfer, TexturesLieWhereTheirMaterialPutsThem) {
+    const TriangleMesh square = shapes::square(2);
+    ObjModel model;
+    for (const auto p : square.vertices.rowwise()) model.uv.emplace_back(p[0], p[1]);
+    model.uv_of = square.faces;
+    model.material.assign(std::size_t(square.face_count()), 0);
+    model.materials = {"skin"};
+    write("skin.png", to_png(gradient(64)));
+    write("skin.mtl", "newmtl skin\nmap_Kd -s .5 .5 1 -o .25 .125 0 skin.png\n");
+    Correspondence map = identity(square);
+    map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
+    TransferRequest request;
+    request.texture = map.to_file;
+    const auto glb = description_of(carry(request, map).at("square_textured.glb"));
+    const auto& placed = glb.at("materials")[0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"];
+    EXPECT_EQ(placed["KHR_texture_transform"]["offset"], nlohmann::json({.25, .375}));
+    request.bake = {64, 0};
+    const TextureImage baked = read_png(write("baked.png", carry(request, map).at("square_textured.png")));
+    // The middle of the square is at (.5, .5) of .5 + (.25, .125).
+    EXPECT_NEAR(baked.pixel(32, 32)[0], 255 * .5, 4);
+    EXPECT_NEAR(baked.pixel(32, 32)[1], 255 * (1 - .375), 4);
+}
+
+TEST_F(Transfer, ImagesThatGltfDoesNotTakeAreCopied) {
+    write("skin.tga", "no picture that glTF takes");
+    write("skin.mtl", "newmtl skin\nKd 1 .5 0\nmap_Kd skin.tga\n");
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    EXPECT_THAT(warnings_of(request, identity(ball_)),
+                HasSubstr("skin.tga: glTF takes PNG and JPEG images only"));
+    const auto files = carry(request, identity(ball_));
+    EXPECT_EQ(files.at("skin.tga"), "no picture that glTF takes");
+    EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("map_Kd skin.tga"));
+    const auto glb = description_of(files.at("b_textured.glb"));
+    EXPECT_FALSE(glb.contains("images"));
+    EXPECT_EQ(glb.at("materials")[0].at("pbrMetallicRoughness").at("baseColorFactor")[1], .5);
+}
+
+TEST_F(Transfer, SaysWhichMaterialsAreNotDescribed) {
+    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
+    ObjModel model = unwrapped(ball_);
+    model.materials = {"fur"};
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, model, "skin.mtl"));
+    EXPECT_THAT(warnings_of(request, identity(ball_)),
+                HasSubstr("a.obj: no library (mtllib) describes the materials fur"));
 }
 
 TEST_F(Transfer, WritesTexturesAndGlb) {
@@ -638,6 +1019,91 @@ TEST_F(Transfer, CarriesAShapeInTheFramesOfAnotherPose) {
     const Points truth = .05 * vertex_normals(pair.map.to);
     const Eigen::VectorXd error = (moved - pair.map.to.vertices - truth).rowwise().norm() / .05;
     EXPECT_LT(error.mean(), .15);
+}
+
+/// Makes the identity a map onto the mirrored mesh, whose faces look outward, too.
+void mirror(Correspondence& map) {
+    map.to.vertices.col(0) *= -1;
+    map.to.faces.col(1).swap(map.to.faces.col(2));
+    for (SurfacePoint& image : map.there) std::swap(image.barycentric[1], image.barycentric[2]);
+}
+
+/// A ball and a small one beside it, which is not in the map.
+struct WithEye {
+    TriangleMesh both;
+    Correspondence map;
+
+    WithEye(const TriangleMesh& ball, bool mirrored) {
+        const TriangleMesh eye = shapes::moved(shapes::ellipsoid(1), .05, .4, {.3, .7, .5});
+        const int n = ball.vertex_count();
+        both = {Points(n + eye.vertex_count(), 3), Faces(ball.face_count() + eye.face_count(), 3)};
+        both.vertices << ball.vertices, eye.vertices;
+        both.faces << ball.faces, eye.faces.array() + n;
+        map = identity(both);
+        for (int v = n; v < both.vertex_count(); ++v)
+            map.there[std::size_t(v)] = map.back[std::size_t(v)] = {};
+        if (mirrored) mirror(map);
+        map.to = shapes::moved(map.to, 3, 1.2, {1, -2, 3});
+    }
+};
+
+TEST_F(Transfer, WhatWasLeftOutOfTheMapFollowsItsNeighbours) {
+    for (const bool mirrored : {false, true}) {
+        const WithEye pair(ball_, mirrored);
+        EXPECT_LT((carried_vertices(pair.map) - pair.map.to.vertices).rowwise().norm().maxCoeff(), 1e-9)
+            << mirrored;
+    }
+}
+
+TEST_F(Transfer, AShapeMovesWhatWasLeftOutOfTheMap) {
+    const WithEye pair(ball_, false);
+    TriangleMesh risen = pair.both;
+    risen.vertices.col(2).array() += .3;
+    const Points truth = shapes::moved(risen, 3, 1.2, {1, -2, 3}).vertices;
+    EXPECT_LT((carry_shape(pair.map, risen.vertices) - truth).rowwise().norm().maxCoeff(), .01);
+}
+
+TEST_F(Transfer, SaysHowManyVerticesFollowTheirNeighbours) {
+    const WithEye pair(ball_, false);
+    const ObjModel plain{{},
+                         Faces::Constant(pair.both.face_count(), 3, -1),
+                         std::vector<int>(std::size_t(pair.both.face_count()), -1),
+                         {},
+                         {}};
+    TransferRequest request;
+    request.mesh = write("a.obj", obj_of(pair.both, plain));
+    EXPECT_THAT(warnings_of(request, pair.map), HasSubstr("a.obj: 42 vertices have no image; they follow"));
+    request = {};
+    request.shapes = {folder_ / "a.obj"};
+    Correspondence map = pair.map;
+    map.to_file = "b.off";
+    EXPECT_THAT(warnings_of(request, map), HasSubstr("b.off: 42 vertices have no image; they follow"));
+}
+
+TEST_F(Transfer, AMirroringMapTurnsPolygons) {
+    Correspondence map = identity(ball_);
+    mirror(map);
+    std::string obj;
+    for (const auto p : ball_.vertices.rowwise()) obj += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
+    obj += "vt 0 0\nvt 1 0\nvt 0 1\n";
+    for (const auto f : ball_.faces.rowwise())
+        obj += fmt::format("f {}/1 {}/2 {}/3\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    TransferRequest request;
+    request.mesh = write("a.obj", obj);
+    const std::string text = carry(request, map).at("source_on_target.obj");
+    const TriangleMesh mesh = parse_mesh(text, "a.obj");
+    EXPECT_EQ(mesh.faces, map.to.faces);
+    EXPECT_LT((mesh.vertices - map.to.vertices).norm(), 1e-9);
+    EXPECT_THAT(text, HasSubstr(fmt::format("f {}/1 {}/3 {}/2\n", ball_.faces(0, 0) + 1,
+                                            ball_.faces(0, 2) + 1, ball_.faces(0, 1) + 1)));
+}
+
+TEST_F(Transfer, TellsAnotherOrderFromAnotherMesh) {
+    const TriangleMesh other = shapes::shuffled(ball_, 7);
+    TransferRequest request;
+    request.shapes = {write("c.ply", to_ply(other))};
+    EXPECT_THAT(refusal(request, identity(ball_)),
+                HasSubstr("as many vertices and triangles, but in another order"));
 }
 
 TEST_F(Transfer, CarriesTheSourcesPolygons) {

@@ -2,6 +2,8 @@
 
 #include <png.h>
 
+#include <cstddef>
+
 #include "varimap/core/error.h"
 
 namespace varimap {
@@ -29,11 +31,29 @@ DecodedPng decode_png(std::string_view bytes, const std::string& path) {
     if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
         throw InputError(path + ": not a PNG; save the texture as one (" + header.message + ")");
     header.format = PNG_FORMAT_RGBA;
+    header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     DecodedPng image{int(header.width), int(header.height), {}};
     image.rgba.resize(PNG_IMAGE_SIZE(header));
     if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr))
         throw InputError(path + ": the PNG is damaged (" + header.message + ")");
     return image;
+}
+
+bool has_transparent_pixels(std::string_view bytes) {
+    png_image header{};
+    header.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size())) return false;
+    const bool has_alpha = (header.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+    png_image_free(&header);
+    if (!has_alpha) return false;
+    try {
+        const DecodedPng image = decode_png(bytes, "");
+        for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
+            if (image.rgba[alpha] < 255) return true;
+    } catch (const InputError&) {
+        // Damaged: whoever shows the image will say so.
+    }
+    return false;
 }
 
 }  // namespace varimap

@@ -6,16 +6,17 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string_view>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
+#include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/io/xml_tags.h"
 
 namespace varimap {
 
@@ -29,34 +30,25 @@ double number(std::string_view text, const std::string& path, int line) {
     return value;
 }
 
-/// The value of ` name="value"` in a tag.
-std::optional<std::string_view> attribute(std::string_view tag, const std::string& name) {
-    for (const char* blank : {" ", "\n", "\t"}) {
-        const std::size_t at = tag.find(blank + name + "=\"");
-        if (at == std::string_view::npos) continue;
-        const std::size_t begin = at + name.size() + 3, end = tag.find('"', begin);
-        if (end != std::string_view::npos) return tag.substr(begin, end - begin);
-    }
-    return {};
-}
-
 std::vector<PickedPoint> read_pp(const std::string& path, std::string_view bytes) {
     std::vector<PickedPoint> points;
     std::size_t counted = 0;
     int line = 1;
-    for (std::size_t at = bytes.find("<point "); at != std::string_view::npos;
-         at = bytes.find("<point ", at + 1)) {
-        const std::string_view tag = bytes.substr(at, bytes.find('>', at) - at);
+    XmlTags tags(bytes);
+    XmlTag tag;
+    while (tags.next(tag)) {
+        if (tag.name != "point") continue;
+        const auto at = std::size_t(tag.name.data() - bytes.data());
         line += int(std::count(bytes.begin() + counted, bytes.begin() + at, '\n'));
         counted = at;
         PickedPoint point;
         point.line = line;
-        point.name = attribute(tag, "name").value_or("");
-        point.defined = attribute(tag, "active") != "0";
+        point.name = tag.attribute("name");
+        point.defined = tag.attribute("active") != "0";
         for (int axis = 0; axis < 3 && point.defined; ++axis) {
-            const auto text = attribute(tag, std::string(1, "xyz"[axis]));
-            if (!text) fail_at(path, point.line, "a point without x, y or z");
-            point.position[axis] = number(*text, path, point.line);
+            const std::string_view text = tag.attribute(std::string(1, "xyz"[axis]));
+            if (text.empty()) fail_at(path, point.line, "a point without x, y or z");
+            point.position[axis] = number(text, path, point.line);
         }
         points.push_back(std::move(point));
     }
@@ -100,16 +92,6 @@ std::vector<PickedPoint> read_mrk_json(const std::string& path, std::string_view
     return points;
 }
 
-std::vector<std::string_view> split(std::string_view line, char separator) {
-    std::vector<std::string_view> fields;
-    while (true) {
-        const std::size_t end = line.find(separator);
-        fields.push_back(line.substr(0, end));
-        if (end == std::string_view::npos) return fields;
-        line.remove_prefix(end + 1);
-    }
-}
-
 std::string_view trimmed(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t\r");
     return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
@@ -128,14 +110,16 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
     std::vector<PickedPoint> points;
     Space space = Space::unstated;
     int line = 0;
-    for (std::string_view text : split(bytes, '\n')) {
+    while (!bytes.empty()) {
         ++line;
-        if (text.ends_with('\r')) text.remove_suffix(1);
+        const std::string_view text = split_off_line(bytes);
         if (text.starts_with('#')) read_fcsv_comment(text, path, space);
         if (text.empty() || text.starts_with('#')) continue;
-        const auto fields = split(text, ',');
+        const auto read = csv_fields(text);
+        if (!read) fail_at(path, line, "a quote has no end, or more than a comma behind it");
+        const std::vector<std::string>& fields = *read;
         if (fields.size() < 4) fail_at(path, line, "expected id,x,y,z,...");
-        PickedPoint point{line, fields.size() > label ? std::string(fields[label]) : "", Vec3::Zero(), space};
+        PickedPoint point{line, fields.size() > label ? fields[label] : "", Vec3::Zero(), space};
         for (std::size_t axis = 0; axis < 3; ++axis)
             point.position[Eigen::Index(axis)] = number(fields[axis + 1], path, line);
         points.push_back(std::move(point));

@@ -16,6 +16,7 @@
 #include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
+#include "varimap/landmarks/csv_fields.h"
 #include "varimap/landmarks/landmark_points.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
@@ -45,21 +46,13 @@ bool has_commas(const TextScanner& scanner) {
     return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
 }
 
-/// What stands between the commas of a line, without blanks and quotes around it.
+/// What stands between the commas of a line.
 std::vector<std::string> split_at_commas(const TextScanner& scanner) {
-    const std::string line = fmt::format("{}", fmt::join(scanner.words(), " "));
-    std::vector<std::string> fields;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        std::string_view field = std::string_view(line).substr(begin, end - begin);
-        while (field.starts_with(' ')) field.remove_prefix(1);
-        while (field.ends_with(' ')) field.remove_suffix(1);
-        if (field.size() > 1 && field.front() == '"' && field.back() == '"')
-            field = field.substr(1, field.size() - 2);
-        fields.emplace_back(field);
-        begin = end + 1;
-    }
-    return fields;
+    const auto fields = csv_fields(fmt::format("{}", fmt::join(scanner.words(), " ")));
+    if (!fields)
+        scanner.fail(
+            "a quote has no end before the line or, with #, its comment, or more than a comma behind it");
+    return *fields;
 }
 
 /// Whether a column of that heading names landmarks, though they may be called 1, 2, 3. Tables are often

@@ -6,6 +6,13 @@
 
 namespace varimap {
 
+PointPairs swapped(const PointPairs& pairs) {
+    PointPairs result;
+    result.reserve(pairs.size());
+    for (const auto& [first, second] : pairs) result.emplace_back(second, first);
+    return result;
+}
+
 bool are_points(const PointMap& points, int faces) {
     constexpr double rounding = 1e-6;  // of coordinates that were clamped
     return std::all_of(points.begin(), points.end(), [&](const SurfacePoint& point) {

@@ -41,6 +41,8 @@ bool are_points(const PointMap& points, int faces = -1);
 
 /// Points of two surfaces that belong together.
 using PointPairs = std::vector<std::pair<SurfacePoint, SurfacePoint>>;
+/// Those of the second surface first.
+PointPairs swapped(const PointPairs& pairs);
 
 /// Position in space of a surface point.
 inline Vec3 position(const TriangleMesh& mesh, const SurfacePoint& p) {

@@ -75,43 +75,73 @@ Points places(const PointPairs& pairs, const TriangleMesh& target) {
     return places;
 }
 
-/// Root of the mean square distance between images of vertices that are neighbours; 0 if none are.
-double step(const PointPairs& from_A, const Points& images, const TriangleMesh& source) {
+/// Per vertex of the source's input the row of the pair that begins there, or -1.
+std::vector<Eigen::Index> rows(const PointPairs& from_A, const TriangleMesh& source) {
     std::vector<Eigen::Index> row(std::size_t(source.vertex_count()), -1);
     for (std::size_t k = 0; k < from_A.size(); ++k)
         if (const int v = vertex_of(source, from_A[k].first); v >= 0) row[std::size_t(v)] = Eigen::Index(k);
-    double sum = 0;
-    int count = 0;
-    for (int f = 0; f < source.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const Eigen::Index a = row[std::size_t(source.faces(f, k))],
-                               b = row[std::size_t(source.faces(f, (k + 1) % 3))];
-            if (a < 0 || b < 0) continue;
-            sum += (images.row(a) - images.row(b)).squaredNorm();
-            ++count;
-        }
-    return count > 0 ? std::sqrt(sum / count) : 0;
+    return row;
+}
+
+/// What a map does to the faces of the source whose corners all have images.
+struct ImageFaces {
+    double step = 0;      ///< root of the mean square distance between images of corners; 0 without faces
+    double mirrored = 0;  ///< share of the images' area that faces the other way than the target
+    int count = 0;        ///< of images that have an area
+};
+ImageFaces image_faces(const PointPairs& from_A, const Points& images, const TriangleMesh& source,
+                       const TriangleMesh& target) {
+    const std::vector<Eigen::Index> row = rows(from_A, source);
+    double squares = 0, area = 0, mirrored_area = 0;
+    int sides = 0;
+    ImageFaces result;
+    for (int f = 0; f < source.face_count(); ++f) {
+        const Eigen::Index a = row[std::size_t(source.faces(f, 0))], b = row[std::size_t(source.faces(f, 1))],
+                           c = row[std::size_t(source.faces(f, 2))];
+        if (a < 0 || b < 0 || c < 0) continue;
+        const Vec3 x = images.row(a).transpose(), y = images.row(b).transpose(),
+                   z = images.row(c).transpose();
+        squares += (x - y).squaredNorm() + (y - z).squaredNorm() + (z - x).squaredNorm();
+        sides += 3;
+        const Vec3 normal = (y - x).cross(z - x);
+        const double side = normal.dot(face_normal(target, from_A[std::size_t(a)].second.face).normalized());
+        if (!(std::abs(side) > 0)) continue;
+        ++result.count;
+        area += std::abs(side);
+        if (side < 0) mirrored_area += std::abs(side);
+    }
+    if (sides > 0) result.step = std::sqrt(squares / sides);
+    if (area > 0) result.mirrored = mirrored_area / area;
+    return result;
 }
 
 }  // namespace
 
-void warn_of_shapeless_map(const PointPairs& from_A, const Surface& A, const Surface& B) {
+void warn_of_bad_initial_map(const PointPairs& from_A, const Surface& A, const Surface& B) {
     // Images of half a body spread by .5 of the whole's. Steps of a map of which a tenth is wrong at random
-    // are .44 of those of a random one, where half is .87.
-    constexpr double gathered = 0.2, scattered = 0.87;
+    // are .44 of those of a random one, where half is .87. Of a random one half is mirrored.
+    constexpr double gathered = 0.2, scattered = 0.87, mostly = 0.7;
+    constexpr int enough = 20;
     if (!A.is_surface() || !B.is_surface()) return;
     const Points images = places(from_A, B.input);
     const double of_images = spread(images), of_target = spread(B.mesh.vertices) / B.scale;
+    const ImageFaces faces = image_faces(from_A, images, A.input, B.input);
     if (of_images < gathered * of_target)
         warn(
             "the initial map takes the source to one place of the target (its images spread {:.0f}% as far "
             "as "
             "the target does): is it a map of these two meshes?",
             100 * of_images / of_target);
-    else if (step(from_A, images, A.input) > scattered * std::sqrt(2.0) * of_images)
+    else if (faces.step > scattered * std::sqrt(2.0) * of_images)
         warn(
             "the initial map takes neighbours to places far from each other, as a random one does: is it a "
             "map of these two meshes, in the order of their vertices?");
+    else if (faces.count >= enough && faces.mirrored > mostly)
+        warn(
+            "the initial map mirrors {:.0f}% of the source, left and right exchanged, and what begins from "
+            "it "
+            "comes out wrong: correct it, or give --mirror where the surfaces are mirror images",
+            100 * faces.mirrored);
 }
 
 }  // namespace varimap

@@ -19,7 +19,8 @@ void warn_of_genus(const Surface& A, const Surface& B);
 void warn_of_inside_out(const Surface& A, const Surface& B);
 
 /// Warns of points of A's input with images on B's (correspondences_of) that are no map to begin from: the
-/// images gather in one place, or neighbours have places far from each other, as if drawn by lot.
-void warn_of_shapeless_map(const PointPairs& from_A, const Surface& A, const Surface& B);
+/// images gather in one place, or neighbours have places far from each other, as if drawn by lot, or most of
+/// A is mirrored.
+void warn_of_bad_initial_map(const PointPairs& from_A, const Surface& A, const Surface& B);
 
 }  // namespace varimap

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
@@ -54,25 +55,41 @@ bool is_hit(int f, const TriangleMesh& target, const TriangleMesh& image, const 
 /// Smaller parts are found at ends of limbs and in folds of most good maps.
 constexpr double least_part = 0.005;
 
-/// faces: none twice.
-int central_vertex(const TriangleMesh& mesh, std::vector<int> faces) {
-    std::sort(faces.begin(), faces.end());
-    const SubMesh part(mesh, std::move(faces));
-    Eigen::Index nearest;
-    (part.mesh.vertices.rowwise() - area_centroid(part.mesh).transpose())
-        .rowwise()
-        .squaredNorm()
-        .minCoeff(&nearest);
-    return part.vertex[std::size_t(nearest)];
+/// Those of an area of least_part or more.
+std::vector<SubMesh> large_parts(const TriangleMesh& mesh, std::vector<char> uncovered) {
+    const double least_area = least_part * surface_area(mesh);
+    std::vector<SubMesh> parts;
+    for (std::vector<int>& faces : face_components(find_edges(mesh), std::move(uncovered))) {
+        std::sort(faces.begin(), faces.end());
+        SubMesh part(mesh, std::move(faces));
+        if (surface_area(part.mesh) >= least_area) parts.push_back(std::move(part));
+    }
+    return parts;
 }
 
+/// Of the vertices with the fewest claims, the one nearest to the centroid.
+int central_vertex(const SubMesh& part, const VertexData<int>& claims) {
+    const Vec3 centroid = area_centroid(part.mesh);
+    const auto rank = [&](int v) {
+        return std::pair(claims[part.vertex[std::size_t(v)]], (part.mesh.vertex(v) - centroid).squaredNorm());
+    };
+    int best = 0;
+    for (int v = 1; v < part.mesh.vertex_count(); ++v)
+        if (rank(v) < rank(best)) best = v;
+    return part.vertex[std::size_t(best)];
+}
+
+/// Parts may touch at vertices: the one that a part is named by is in no other, if any is.
 std::vector<UncoveredPart> uncovered_parts(const TriangleMesh& mesh, std::vector<char> uncovered) {
+    const std::vector<SubMesh> large = large_parts(mesh, std::move(uncovered));
+    VertexData<int> claims(mesh.vertex_count(), 0);
+    for (const SubMesh& part : large)
+        for (const int v : part.vertex) ++claims[v];
     const double area = surface_area(mesh);
     std::vector<UncoveredPart> parts;
-    for (const std::vector<int>& faces : face_components(find_edges(mesh), std::move(uncovered))) {
-        double share = 0;
-        for (const int f : faces) share += face_normal(mesh, f).norm() / 2 / area;
-        if (share >= least_part) parts.push_back({share, central_vertex(mesh, faces)});
+    for (const SubMesh& part : large) {
+        parts.push_back({surface_area(part.mesh) / area, central_vertex(part, claims)});
+        ++claims[parts.back().vertex];
     }
     std::stable_sort(parts.begin(), parts.end(),
                      [](const UncoveredPart& a, const UncoveredPart& b) { return a.share > b.share; });

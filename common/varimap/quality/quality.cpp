@@ -127,12 +127,12 @@ double share_within_area_bound(const PointMap& map, const TriangleMesh& source, 
             area[source.faces(f, k)] += triangles[f].area;
             image[source.faces(f, k)] += triangles[f].area * triangles[f].area_ratio;
         }
-    constexpr double rounding = 1 + 1e-9;
+    constexpr double rounding = 1 + 1e-9, least_bound = 1.05;
+    const double factor = std::max(bound, least_bound) * rounding;
     double within = 0, all = 0;
     for (int v = 0; v < source.vertex_count(); ++v) {
         all += area[v];
-        if (image[v] <= area[v] * bound * rounding && image[v] * bound * rounding >= area[v])
-            within += area[v];
+        if (image[v] <= area[v] * factor && image[v] * factor >= area[v]) within += area[v];
     }
     return all > 0 ? within / all : 0;
 }
@@ -210,10 +210,39 @@ std::vector<LandmarkSurroundings> landmark_surroundings(const PointMap& map, con
         if (count == 0)
             result.emplace_back();
         else
-            result.push_back(
-                {(mean / count - position(target, to)).norm() / length_there, radius / count / length});
+            result.push_back({(mean / count - position(target, to)).norm() / length_there,
+                              radius / count / length, mean / count});
     }
     return result;
+}
+
+std::vector<std::pair<int, int>> exchanged_landmarks(const std::vector<LandmarkSurroundings>& surroundings,
+                                                     const PointPairs& landmarks,
+                                                     const TriangleMesh& target) {
+    const double length = std::sqrt(surface_area(target));
+    std::vector<int> off;
+    for (int k = 0; k < int(surroundings.size()); ++k)
+        if (surroundings[k].distance > surroundings[k].radius) off.push_back(k);
+    // From where the surroundings of i are taken to the partner of j.
+    const auto distance = [&](int i, int j) {
+        return (surroundings[i].image - position(target, landmarks[j].second)).norm() / length;
+    };
+    const auto nearest_other = [&](int i) {
+        int nearest = -1;
+        for (const int j : off)
+            if (j != i && (nearest < 0 || distance(i, j) < distance(i, nearest))) nearest = j;
+        return nearest;
+    };
+    std::vector<int> nearest(surroundings.size(), -1);
+    for (const int i : off) nearest[i] = nearest_other(i);
+    std::vector<std::pair<int, int>> exchanged;
+    for (const int i : off) {
+        const int j = nearest[i];
+        if (j <= i || nearest[j] != i) continue;
+        if (distance(i, j) < surroundings[i].distance / 2 && distance(j, i) < surroundings[j].distance / 2)
+            exchanged.emplace_back(i, j);
+    }
+    return exchanged;
 }
 
 }  // namespace varimap

@@ -53,6 +53,7 @@ Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, c
 
 /// Share of the source's area around vertices whose faces together have an image of 1/bound to `bound` times
 /// their area, both surfaces of unit area: how far a map keeps the bound of Sec. 3.4 where it is finished.
+/// Bounds below 1.05 count as 1.05: no finished map keeps areas exactly.
 double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                                double bound);
 
@@ -93,11 +94,17 @@ struct LandmarkSurroundings {
     /// From where they are taken, in the mean, to the landmark's partner; units of sqrt(area of the target).
     double distance = 0;
     double radius = 0;  ///< their mean distance from the landmark, in units of sqrt(area of the source)
+    Vec3 image = Vec3::Zero();  ///< where they are taken, in the mean; in the target's own coordinates
 };
 /// The surroundings of a landmark are the vertices that share a face with a corner which it lies at, but
 /// those corners; distances are in space.
 std::vector<LandmarkSurroundings> landmark_surroundings(const PointMap& map, const PointPairs& landmarks,
                                                         const TriangleMesh& source,
                                                         const TriangleMesh& target);
+/// Landmarks that look exchanged, as pairs of indices, the lesser first, ascending: the surroundings of each
+/// are taken farther from its own partner than their radius, and to less than half that distance from the
+/// other's. A landmark is in one pair at most.
+std::vector<std::pair<int, int>> exchanged_landmarks(const std::vector<LandmarkSurroundings>& surroundings,
+                                                     const PointPairs& landmarks, const TriangleMesh& target);
 
 }  // namespace varimap

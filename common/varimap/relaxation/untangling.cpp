@@ -386,12 +386,6 @@ void settle(Untangling& there, Untangling& back) {
     tbb::parallel_invoke([&] { there.end_settling(); }, [&] { back.end_settling(); });
 }
 
-PointPairs swapped(const PointPairs& points) {
-    PointPairs result;
-    for (const auto& [first, second] : points) result.emplace_back(second, first);
-    return result;
-}
-
 }  // namespace
 
 UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,

@@ -43,12 +43,15 @@ struct Confidence {
     double probability = 0;  ///< that the first is right
     bool confident = false;  ///< the probability is at least 0.9
 };
-/// `finished`: the Dirichlet energy of the first (geometric mean of both directions), where it has been
-/// continued to the end.
-Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<double> finished = {});
+/// What the first candidate has become, continued to the end.
+struct InTheEnd {
+    double dirichlet = 1;  ///< Dirichlet energy, geometric mean of both directions
+    double coverage = 1;   ///< the lesser of both directions
+};
+Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 
 /// Why the choice is not sure, in words; for a choice that is, "".
-std::string doubt(const std::vector<Candidate>& candidates, std::optional<double> finished = {});
+std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 
 /// Which cue put the first before its best rival, in words: "relief and stretch", "alignment, against
 /// relief", ...; without a rival, "".

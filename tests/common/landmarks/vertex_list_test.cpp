@@ -234,6 +234,36 @@ TEST_F(VertexList, MatchesPickedPointsByName) {
     EXPECT_THROW(read_landmarks({meshlab}, mesh_, mesh_), UsageError);
 }
 
+TEST_F(VertexList, ReadsPickedPointsHoweverTheirXmlIsWritten) {
+    const auto meshlab = write("a.pp",
+                               "<PickedPoints>\n<!-- <point x=\"0\" y=\"0\" z=\"0\" name=\"old\"/> -->\n"
+                               "<point\n  x = '2' y='0'\tz=\".4\" name=\"a > b\"/>\n"
+                               "<point x='0' y='0' z='0' name='off' active = '0'/>\n"
+                               "<pointless x='1'/><point x=\"3\" name='x=\"9\"' y=\"1\" z=\".7\"></point>\n");
+    const auto points = read_picked_points(meshlab);
+    ASSERT_EQ(points.size(), 3u);
+    EXPECT_EQ(points[0].position, Vec3(2, 0, .4));
+    EXPECT_EQ(points[0].name, "a > b");
+    EXPECT_EQ(points[0].line, 3);
+    EXPECT_FALSE(points[1].defined);
+    EXPECT_EQ(points[2].position, Vec3(3, 1, .7));
+    EXPECT_EQ(points[2].line, 6);
+    EXPECT_THAT(read_landmarks({meshlab, meshlab}, mesh_, mesh_).vertices, are({{4, 4}, {7, 7}}));
+    EXPECT_THAT(logged_warnings().back(), HasSubstr("1 of 3 points are not defined, or switched off"));
+}
+
+TEST_F(VertexList, NamesInQuotesMayHoldCommas) {
+    const auto source = write("a.csv", "name,x,y,z\n\"tip, left\",2,0,.4\n\"the \"\"nose\"\"\",1,0,.2\n");
+    const auto target = write("b.csv", "0,0,0, \"the \"\"nose\"\"\"\n3,1,.7,\"tip, left\" \n");
+    EXPECT_THAT(read_landmarks({source, target}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
+    const auto slicer_file = write("c.fcsv",
+                                   "# CoordinateSystem = LPS\n1,3,1,.7,0,0,0,1,1,1,0,\"tip, left\",,\r\n"
+                                   "2,0,0,0,0,0,0,1,1,1,0,\"the \"\"nose\"\"\",,\n");
+    EXPECT_THAT(read_landmarks({source, slicer_file}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
+    for (const char* row : {"\"tip, left,2,0,.4\n", "\"tip, #1\",2,0,.4\n", "\"tip\" left,2,0,.4\n"})
+        EXPECT_THAT(error_of({write("bad.csv", row), target}), HasSubstr("bad.csv:1: a quote has no end"));
+}
+
 TEST_F(VertexList, RefusesDamagedFilesOfPickedPoints) {
     const auto good = write("good.fcsv", "1,1,0,.2\n");
     EXPECT_THAT(error_of({write("a.pp", "<PickedPoints>\n<point x=\"1\" y=\"2\"/>\n"), good}),

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <clocale>
 #include <filesystem>
 #include <fstream>
@@ -208,6 +210,9 @@ TEST_F(MeshFile, StlIsWeldedByFirstAppearance) {
     const TriangleMesh from_text = read("b.STL", text + "endsolid x\n");
     EXPECT_TRUE(from_text.faces == from_binary.faces);
     EXPECT_LT((from_text.vertices - from_binary.vertices).cwiseAbs().maxCoeff(), 1e-7);
+    std::string capitals = text + "endsolid x\n";
+    std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
+    expect_equal(read("c.stl", capitals), from_text);
     EXPECT_THAT(complaint("c.stl", text), HasSubstr("endsolid"));
     EXPECT_THAT(complaint("c.stl", text + "vertex 1 2 3\nendsolid x\n"), HasSubstr("facet"));
 }

@@ -85,7 +85,19 @@ std::size_t warnings_of_map(const Surface& ball, Image image) {
     for (int v = 0; v < ball.input.vertex_count(); ++v)
         pairs.emplace_back(point_at_vertex(ball.input, v), point_at_vertex(ball.input, image(v, random)));
     return warnings_of(ball, ball,
-                       [&](const Surface& A, const Surface& B) { warn_of_shapeless_map(pairs, A, B); });
+                       [&](const Surface& A, const Surface& B) { warn_of_bad_initial_map(pairs, A, B); });
+}
+
+TEST(UnlikeSurfaces, MirroredInitialMapsAreSaid) {
+    const Surface ball = preprocess(shapes::ellipsoid(3), {});
+    const auto mirrored = [&](int v, std::mt19937&) {
+        const Vec3 across(-ball.input.vertices(v, 0), ball.input.vertices(v, 1), ball.input.vertices(v, 2));
+        Eigen::Index nearest = 0;
+        (ball.input.vertices.rowwise() - across.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+        return int(nearest);
+    };
+    ASSERT_EQ(warnings_of_map(ball, mirrored), 1u);
+    EXPECT_NE(logged_warnings().back().find("left and right exchanged"), std::string::npos);
 }
 
 TEST(UnlikeSurfaces, MapsWithoutShapeAreSaid) {

@@ -64,6 +64,19 @@ TEST(Quality, StarsKeepAnAreaBoundOrNot) {
     EXPECT_LT(share_within_area_bound(map, mesh, mesh, 1.2), 0.15);
 }
 
+/// No finished map keeps areas exactly.
+TEST(Quality, AnAreaBoundOfOneIsKeptByAMapThatNearlyKeepsAreas) {
+    const TriangleMesh mesh = rectangle(10, 1, 1);
+    const auto halves = [&](double ratio) {  // of the left half; of the right one what is left
+        const PointMap map = map_by(mesh, mesh, [&](const Vec3& p) {
+            return Vec3(p.x() < 0.5 ? ratio * p.x() : (2 - ratio) * p.x() + ratio - 1, p.y(), 0);
+        });
+        return share_within_area_bound(map, mesh, mesh, 1);
+    };
+    EXPECT_EQ(halves(0.96), 1);
+    EXPECT_LT(halves(0.94), 0.65);
+}
+
 TEST(Quality, IdentityIsPerfect) {
     for (const TriangleMesh& mesh : {shapes::ellipsoid(3), rectangle(9, 3, 1), sphere_with_limb(3)}) {
         const PointMap identity = at_vertices(mesh);
@@ -183,6 +196,34 @@ TEST(Coverage, LosesTheAreaOfAMissedLimb) {
     EXPECT_GT(mesh.vertex(coverage.parts[0].vertex)[2], 0.9) << "on the limb";
 }
 
+/// Two triangles with their right angles at the same vertex, which lies nearest to the middle of both.
+TEST(Coverage, NamesTouchingPartsByVerticesOfTheirOwn) {
+    const TriangleMesh mesh = shapes::square(4);
+    constexpr int touching = 12;
+    std::vector<int> left_out;
+    TriangleMesh rest = mesh;
+    int count = 0;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Vec3 offset = position(mesh, {f, Vec3::Constant(1. / 3)}) - mesh.vertex(touching);
+        const auto corners = mesh.faces.row(f);
+        const bool is_right_angle = offset.norm() < 0.12 && (corners.array() == touching).any();
+        if (is_right_angle)
+            left_out.push_back(f);
+        else
+            rest.faces.row(count++) = corners;
+    }
+    ASSERT_EQ(left_out.size(), 2u);
+    rest.faces.conservativeResize(count, 3);
+    PointMap map;
+    for (int v = 0; v < rest.vertex_count(); ++v) map.push_back(point_at_vertex(mesh, v));
+    const auto parts = measure_coverage(map, rest, mesh).parts;
+    ASSERT_EQ(parts.size(), 2u);
+    const auto is_corner = [&](int f, int v) { return (mesh.faces.row(f).array() == v).any(); };
+    for (const UncoveredPart& part : parts)
+        EXPECT_NE(is_corner(left_out[0], part.vertex), is_corner(left_out[1], part.vertex)) << part.vertex;
+    EXPECT_NE(parts[0].vertex, parts[1].vertex);
+}
+
 TEST(RoundTrip, MeasuresTheDistance) {
     const TriangleMesh mesh = rectangle(10, 2, 2);
     const PointMap identity = at_vertices(mesh);
@@ -224,6 +265,26 @@ TEST(LandmarkSurroundings, TellWhereTheMapIsElsewhereAllAroundALandmark) {
     PointMap nowhere = same;
     for (SurfacePoint& point : nowhere) point.face = -1;
     EXPECT_EQ(around(nowhere, middle, middle).radius, 0);
+}
+
+TEST(ExchangedLandmarks, AreThoseWhoseSurroundingsGoToTheOthersPartner) {
+    const TriangleMesh mesh = rectangle(8, 3, 3);
+    const int a = 30, b = 32, c = 50;  // a and b two edges apart
+    const auto exchanged = [&](const std::vector<std::pair<int, int>>& pairs) {
+        PointMap map = at_vertices(mesh);
+        PointPairs landmarks;
+        for (const auto& [from, to] : pairs) {
+            map[from] = point_at_vertex(mesh, to);
+            landmarks.push_back({point_at_vertex(mesh, from), map[from]});
+        }
+        return exchanged_landmarks(landmark_surroundings(map, landmarks, mesh, mesh), landmarks, mesh);
+    };
+    using Pairs = std::vector<std::pair<int, int>>;
+    EXPECT_EQ(exchanged({{a, a}, {b, b}, {c, c}}), Pairs());
+    EXPECT_EQ(exchanged({{a, b}, {c, c}, {b, a}}), (Pairs{{0, 2}}));
+    EXPECT_EQ(exchanged({{a, b}, {b, b}, {c, c}}), Pairs()) << "one is wrong";
+    EXPECT_EQ(exchanged({{a, b}, {b, c}, {c, a}}), Pairs()) << "three in a circle";
+    EXPECT_EQ(exchanged({}), Pairs());
 }
 
 }  // namespace

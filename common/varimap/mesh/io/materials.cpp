@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "varimap/artifact/artifact.h"
@@ -15,6 +16,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Keywords count in either case.
+std::string lower(std::string_view word) {
+    std::string text(word);
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+std::string with_slashes(std::string path) {
+    std::replace(path.begin(), path.end(), '\\', '/');
+    return path;
+}
+
 /// Statements that name an image.
 bool names_image(std::string_view word) {
     return word.starts_with("map_") || word == "bump" || word == "disp" || word == "decal" ||
@@ -28,14 +41,24 @@ bool is_option_value(std::string_view word, std::string_view option) {
            option == "-imfchan";
 }
 
-/// Index of the first word of the image's name.
-std::size_t image_word(const std::vector<std::string_view>& words) {
-    std::size_t i = 1;
+/// The first word of an image's name, and what the options in front of it say.
+struct ImageOptions {
+    std::size_t name = 1;
+    Vec2 scale = Vec2::Ones(), offset = Vec2::Zero();
+};
+
+ImageOptions read_options(const std::vector<std::string_view>& words) {
+    ImageOptions options;
+    std::size_t& i = options.name;
     while (i + 1 < words.size() && words[i].starts_with('-')) {
-        const std::string_view option = words[i++];
-        while (i + 1 < words.size() && is_option_value(words[i], option)) ++i;
+        const std::string option = lower(words[i++]);
+        Vec2* placed = option == "-s" ? &options.scale : option == "-o" ? &options.offset : nullptr;
+        for (Eigen::Index axis = 0; i + 1 < words.size() && is_option_value(words[i], option); ++axis, ++i) {
+            double number;
+            if (placed != nullptr && axis < 2 && to_number(words[i], number)) (*placed)[axis] = number;
+        }
     }
-    return i;
+    return options;
 }
 
 class LibraryReader {
@@ -44,31 +67,44 @@ class LibraryReader {
 
     void read() {
         const std::string bytes = read_file(path_);
-        TextScanner scanner(without_byte_order_mark(bytes, path_), path_);
-        while (scanner.next_line()) read_line(scanner);
+        // Plain: names of materials and images may hold #.
+        TextScanner scanner(without_byte_order_mark(bytes, path_), path_, LineStyle::plain);
+        while (scanner.next_line())
+            if (!scanner.words()[0].starts_with('#')) read_line(scanner);
     }
 
   private:
     void read_line(const TextScanner& scanner) {
         const auto& words = scanner.words();
-        if (words.size() > 1 && names_image(words[0])) return read_image(scanner);
-        if (words[0] == "newmtl") materials_.list.push_back({rest(words, 1), {}, ""});
-        if (words[0] == "Kd" && words.size() > 3 && !materials_.list.empty())
-            materials_.list.back().colour = {scanner.number(1, "red"), scanner.number(2, "green"),
-                                             scanner.number(3, "blue")};
+        const std::string keyword = lower(words[0]);
+        if (words.size() > 1 && names_image(keyword)) return read_image(scanner, keyword);
+        if (keyword == "newmtl") materials_.list.emplace_back().name = scanner.rest_of_line();
+        if (words.size() > 1 && !materials_.list.empty()) read_number(scanner, keyword);
         materials_.text += rest(words, 0) + "\n";
     }
-    void read_image(const TextScanner& scanner) {
+    void read_number(const TextScanner& scanner, const std::string& keyword) {
+        Material& material = materials_.list.back();
+        if (keyword == "kd" && scanner.words().size() > 3)
+            material.colour = {scanner.number(1, "red"), scanner.number(2, "green"),
+                               scanner.number(3, "blue")};
+        // Options, which stand where the number might, are none.
+        if (keyword == "d" && is_number(scanner.words()[1])) material.opacity = scanner.number(1, "d");
+    }
+    void read_image(const TextScanner& scanner, const std::string& keyword) {
         const auto& words = scanner.words();
-        const std::size_t at = image_word(words);
-        std::string name = rest(words, at);
-        std::replace(name.begin(), name.end(), '\\', '/');
+        const ImageOptions options = read_options(words);
+        const std::string name = with_slashes(rest(words, options.name));
         const std::string image = (fs::path(path_).parent_path() / name).string();
         if (!fs::is_regular_file(image))
             throw IoError(fmt::format("{}:{}: the texture {} is missing (looked for at {})", path_,
                                       scanner.line(), printable(name), printable(image)));
-        if (words[0] == "map_Kd" && !materials_.list.empty()) materials_.list.back().texture = image;
-        for (std::size_t i = 0; i < at; ++i) materials_.text += std::string(words[i]) + " ";
+        if (keyword == "map_kd" && !materials_.list.empty()) {
+            Material& material = materials_.list.back();
+            material.texture = image;
+            material.texture_scale = options.scale;
+            material.texture_offset = options.offset;
+        }
+        for (std::size_t i = 0; i < options.name; ++i) materials_.text += std::string(words[i]) + " ";
         materials_.text += name_of(image) + "\n";
     }
     /// The image's name beside the MTL file; images of one name from different folders get numbers.
@@ -94,6 +130,30 @@ class LibraryReader {
     Materials& materials_;
 };
 
+/// A library as a file beside the OBJ file; empty where there is none.
+std::string library_file(const std::string& library, const std::string& obj_path) {
+    for (const std::string& name : {library, with_slashes(library)}) {
+        const std::string path = (fs::path(obj_path).parent_path() / name).string();
+        if (!name.empty() && fs::is_regular_file(path)) return path;
+    }
+    return "";
+}
+
+/// What `mtllib` names: one file, whose name may hold blanks, or several.
+std::vector<std::string> library_files(const std::string& names, const std::string& obj_path) {
+    if (const std::string file = library_file(names, obj_path); !file.empty()) return {file};
+    std::vector<std::string> files;
+    TextScanner scanner(names, obj_path, LineStyle::plain);
+    if (scanner.next_line())
+        for (const std::string_view name : scanner.words())
+            files.push_back(library_file(std::string(name), obj_path));
+    if (files.empty() || std::count(files.begin(), files.end(), "") > 0)
+        throw IoError(fmt::format("{}: its materials {} are missing (looked for at {})", obj_path,
+                                  printable(names),
+                                  printable((fs::path(obj_path).parent_path() / names).string())));
+    return files;
+}
+
 }  // namespace
 
 const Material* Materials::find(const std::string& name) const {
@@ -104,13 +164,9 @@ const Material* Materials::find(const std::string& name) const {
 
 Materials read_materials(const ObjModel& model, const std::string& obj_path) {
     Materials materials;
-    for (const std::string& library : model.libraries) {
-        const std::string path = (fs::path(obj_path).parent_path() / library).string();
-        if (!fs::is_regular_file(path))
-            throw IoError(fmt::format("{}: its materials {} are missing (looked for at {})", obj_path,
-                                      printable(library), printable(path)));
-        LibraryReader(path, materials).read();
-    }
+    for (const std::string& library : model.libraries)
+        for (const std::string& path : library_files(library, obj_path))
+            LibraryReader(path, materials).read();
     return materials;
 }
 

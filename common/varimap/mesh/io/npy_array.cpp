@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -22,14 +25,62 @@ bool is_npy(std::string_view bytes) {
 
 namespace {
 
+/// Big-endian numbers; written they are little-endian.
+template <class T>
+NumberType reversed_type() {
+    NumberType type = number_type<T>();
+    type.read = [](const char* at) {
+        std::array<char, sizeof(T)> bytes;
+        std::reverse_copy(at, at + sizeof(T), bytes.begin());
+        return number_type<T>().read(bytes.data());
+    };
+    return type;
+}
+
+/// IEEE 754's binary16.
+double half_number(std::uint16_t bits) {
+    const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+    using Limits = std::numeric_limits<double>;
+    const double size = exponent == 0   ? std::ldexp(mantissa, -24)
+                        : exponent < 31 ? std::ldexp(1024 + mantissa, exponent - 25)
+                        : mantissa == 0 ? Limits::infinity()
+                                        : Limits::quiet_NaN();
+    return bits >> 15 == 0 ? size : -size;
+}
+
+/// Halves are read only.
+NumberType half_type() {
+    return {2,
+            [](const char* at) { return half_number(std::uint16_t(number_type<std::uint16_t>().read(at))); },
+            nullptr};
+}
+
+NumberType reversed_half_type() {
+    return {
+        2, [](const char* at) { return half_number(std::uint16_t(reversed_type<std::uint16_t>().read(at))); },
+        nullptr};
+}
+
+/// What is written in place of a type that is only read.
+std::string written_type(std::string type) {
+    if (type.ends_with("f2")) return "<f4";
+    if (type.starts_with('>')) type[0] = '<';
+    return type;
+}
+
 const std::map<std::string, NumberType, std::less<>>& types() {
     static const std::map<std::string, NumberType, std::less<>> table{
-        {"<f8", number_type<double>()},        {"<f4", number_type<float>()},
-        {"|i1", number_type<std::int8_t>()},   {"|u1", number_type<std::uint8_t>()},
-        {"|b1", number_type<std::uint8_t>()},  {"<i2", number_type<std::int16_t>()},
-        {"<u2", number_type<std::uint16_t>()}, {"<i4", number_type<std::int32_t>()},
-        {"<u4", number_type<std::uint32_t>()}, {"<i8", number_type<std::int64_t>()},
-        {"<u8", number_type<std::uint64_t>()}};
+        {"<f8", number_type<double>()},          {"<f4", number_type<float>()},
+        {"|i1", number_type<std::int8_t>()},     {"|u1", number_type<std::uint8_t>()},
+        {"|b1", number_type<std::uint8_t>()},    {"<i2", number_type<std::int16_t>()},
+        {"<u2", number_type<std::uint16_t>()},   {"<i4", number_type<std::int32_t>()},
+        {"<u4", number_type<std::uint32_t>()},   {"<i8", number_type<std::int64_t>()},
+        {"<u8", number_type<std::uint64_t>()},   {"<f2", half_type()},
+        {">f2", reversed_half_type()},           {">f8", reversed_type<double>()},
+        {">f4", reversed_type<float>()},         {">i2", reversed_type<std::int16_t>()},
+        {">u2", reversed_type<std::uint16_t>()}, {">i4", reversed_type<std::int32_t>()},
+        {">u4", reversed_type<std::uint32_t>()}, {">i8", reversed_type<std::int64_t>()},
+        {">u8", reversed_type<std::uint64_t>()}};
     return table;
 }
 
@@ -88,7 +139,7 @@ NpyHeader read_header(std::string_view bytes, const std::string& path) {
 }
 
 bool is_wide(std::string_view type) {
-    return type == "<i8" || type == "<u8";
+    return type.ends_with("i8") || type.ends_with("u8");
 }
 
 }  // namespace
@@ -101,14 +152,17 @@ NpyArray parse_npy(std::string_view bytes, const std::string& path, WideIntegers
         throw InputError(path + ": the file ends before its last number, or has no columns");
     const bool halved = wide == WideIntegers::halved && is_wide(header.type);
     const Eigen::Index parts = halved ? 2 : 1;
-    const NumberType& part = halved ? types().find("<u4")->second : type;
-    NpyArray array{header.type, header.flat, halved, Eigen::MatrixXd(header.rows, header.columns * parts)};
+    const bool high_first = halved && header.type.starts_with('>');
+    const NumberType& part = halved ? types().find(high_first ? ">u4" : "<u4")->second : type;
+    NpyArray array{written_type(header.type), header.flat, halved,
+                   Eigen::MatrixXd(header.rows, header.columns * parts)};
     for (Eigen::Index row = 0; row < header.rows; ++row)
         for (Eigen::Index column = 0; column < header.columns; ++column) {
             const auto at = header.column_major ? column * header.rows + row : row * header.columns + column;
             const char* number = bytes.data() + header.bytes + std::size_t(at) * std::size_t(type.bytes);
             for (Eigen::Index p = 0; p < parts; ++p)
-                array.values(row, column * parts + p) = part.read(number + p * part.bytes);
+                array.values(row, column * parts + p) =
+                    part.read(number + (high_first ? parts - 1 - p : p) * part.bytes);
         }
     return array;
 }

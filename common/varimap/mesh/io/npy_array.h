@@ -8,7 +8,7 @@ namespace varimap {
 
 /// The numbers of an .npy file: rows and columns, or a list, which is flat and has one column.
 struct NpyArray {
-    std::string type;  ///< as NumPy says it: "<f8", "<i4"
+    std::string type;  ///< as NumPy says it: "<f8", "<i4"; little-endian, and float32 of a file of float16
     bool flat = false;
     bool halved = false;  ///< two columns for each number: the low and the high half of a 64-bit integer
     Eigen::MatrixXd values;

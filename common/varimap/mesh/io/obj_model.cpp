@@ -15,13 +15,6 @@ namespace varimap {
 
 namespace {
 
-/// All words but the first, as they stand: names may hold blanks.
-std::string rest_of_line(const TextScanner& scanner) {
-    const auto& words = scanner.words();
-    if (words.size() < 2) return "";
-    return {words[1].data(), std::size_t(words.back().data() + words.back().size() - words[1].data())};
-}
-
 int number_of(const std::string& name, std::vector<std::string>& names) {
     const auto number = std::find(names.begin(), names.end(), name) - names.begin();
     if (number == std::ssize(names)) names.push_back(name);
@@ -74,6 +67,14 @@ Faces uv_of_triangles(const PolygonUv& polygons, std::string_view bytes, const s
         for (std::size_t k = 0; k < 3; ++k)
             uv(Eigen::Index(f), Eigen::Index(k)) = polygons.uv[triangles[f][k]];
     return uv;
+}
+
+/// Lines end with \n, \r\n or \r, as where meshes are read.
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
+    return line;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -141,9 +142,9 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
         else if (word == "f")
             add_face(scanner, material, model, polygons);
         else if (word == "usemtl")
-            material = number_of(rest_of_line(scanner), model.materials);
+            material = number_of(std::string(scanner.rest_of_line()), model.materials);
         else if (word == "mtllib")
-            number_of(rest_of_line(scanner), model.libraries);
+            number_of(std::string(scanner.rest_of_line()), model.libraries);
     }
     model.uv_of = uv_of_triangles(polygons, bytes, path);
     return model;
@@ -151,13 +152,15 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
 
 std::string with_vertices(std::string_view obj, const Points& vertices, Space space,
                           const std::string& library, const std::string& path) {
-    if (obj.find("\\\n") != obj.npos || obj.find("\\\r\n") != obj.npos)
-        throw InputError(path + ": has lines joined by a backslash; save it without");
     std::string text = head_of(space, library);
     Eigen::Index v = 0;
+    obj = without_byte_order_mark(obj, path);
     while (!obj.empty()) {
-        const std::string_view line = split_off_line(obj);
-        const auto words = words_of(line.substr(0, line.find('#')));
+        const std::string_view line = take_line(obj);
+        const std::string_view statement = line.substr(0, line.find('#'));
+        if (statement.ends_with('\\'))
+            throw InputError(path + ": has lines joined by a backslash; save it without");
+        const auto words = words_of(statement);
         const std::string_view word = words.empty() ? "" : words[0];
         if (word == "v" && v < vertices.rows()) {
             text += vertex_line(words, vertices, v);

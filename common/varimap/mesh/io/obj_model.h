@@ -43,7 +43,10 @@ std::string to_obj(const TexturedMesh& textured, const std::string& library);
 struct Material {
     std::string name;
     Vec3 colour = Vec3::Constant(.8);
+    double opacity = 1;
     std::string texture;  ///< path of the image; empty: none
+    /// Where texture coordinates lie on the image: times the scale, plus the offset.
+    Vec2 texture_scale = Vec2::Ones(), texture_offset = Vec2::Zero();
 };
 
 /// The libraries of an OBJ file.
@@ -55,7 +58,8 @@ struct Materials {
     /// None where no library holds it.
     const Material* find(const std::string& name) const;
 };
-/// Throws IoError where a library or an image is missing, naming who wants it.
+/// Keywords count in either case. A library whose name is no file may be several, split by blanks. Throws
+/// IoError where a library or an image is missing, naming who wants it.
 Materials read_materials(const ObjModel& model, const std::string& obj_path);
 
 /// "image/png" or "image/jpeg", by an image's first bytes; empty for other formats.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -63,6 +64,13 @@ PolygonSoup parse_binary(std::string_view bytes, const std::string& path) {
     return soup;
 }
 
+/// Some programs write the words of the format in capitals.
+bool is_word(std::string_view word, std::string_view lower_case) {
+    return std::ranges::equal(word, lower_case, [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b;
+    });
+}
+
 PolygonSoup parse_ascii(std::string_view bytes, const std::string& path) {
     PolygonSoup soup;
     Welder welder(soup);
@@ -70,10 +78,10 @@ PolygonSoup parse_ascii(std::string_view bytes, const std::string& path) {
     bool ended = false;
     while (scanner.next_line()) {
         const auto& words = scanner.words();
-        ended = words[0] == "endsolid";
-        if (words[0] == "vertex") {
+        ended = is_word(words[0], "endsolid");
+        if (is_word(words[0], "vertex")) {
             welder.add_corner({scanner.number(1, "x"), scanner.number(2, "y"), scanner.number(3, "z")});
-        } else if (words[0] == "endfacet") {
+        } else if (is_word(words[0], "endfacet")) {
             soup.end_polygon();
             if (soup.corners.size() != 3 * soup.ends.size()) scanner.fail("a facet does not have 3 corners");
         }
@@ -90,7 +98,7 @@ PolygonSoup parse_stl(std::string_view bytes, const std::string& path) {
     const bool binary_size =
         bytes.size() >= header_bytes && bytes.size() - header_bytes == binary_facets(bytes) * facet_bytes;
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-    const bool starts_as_ascii = start != bytes.npos && bytes.compare(start, 5, "solid") == 0;
+    const bool starts_as_ascii = start != bytes.npos && is_word(bytes.substr(start, 5), "solid");
     const bool binary = binary_size || !starts_as_ascii;
     PolygonSoup soup = binary ? parse_binary(bytes, path) : parse_ascii(bytes, path);
     // The first 80 bytes are free text; in an ascii file the first line is.

@@ -86,6 +86,7 @@ bool TextScanner::next_line() {
     bool joined = false;
     while (position_ < text_.size() && (words_.empty() || joined)) {
         std::string_view line = take_line();
+        if (words_.empty()) uncut_ = line;
         if (style_ == LineStyle::code) line = line.substr(0, line.find('#'));
         joined = style_ == LineStyle::code && !line.empty() && line.back() == '\\';
         if (joined) line.remove_suffix(1);
@@ -96,6 +97,13 @@ bool TextScanner::next_line() {
         }
     }
     return !words_.empty();
+}
+
+std::string_view TextScanner::rest_of_line() const {
+    const std::size_t end_of_word = std::size_t(words_[0].data() + words_[0].size() - uncut_.data());
+    std::string_view rest = uncut_.substr(end_of_word);
+    rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+    return rest.substr(0, rest.find_last_not_of(blanks) + 1);
 }
 
 double TextScanner::number(std::size_t i, const char* what) const {

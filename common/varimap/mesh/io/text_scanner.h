@@ -21,6 +21,9 @@ class TextScanner {
     /// Goes to the next line with words; false at the end of the text.
     bool next_line();
     const std::vector<std::string_view>& words() const { return words_; }
+    /// What stands behind the first word up to the end of its line, without the blanks around it, as names
+    /// do: they may hold blanks and `#`.
+    std::string_view rest_of_line() const;
     /// Number of the current line, from 1.
     int line() const { return line_; }
     /// Where the next line starts.
@@ -39,6 +42,7 @@ class TextScanner {
     std::size_t position_ = 0;
     int line_ = 0;
     std::vector<std::string_view> words_;
+    std::string_view uncut_;  ///< the line that holds the first word, with what `#` starts
 };
 
 /// Throws InputError "<path>:<line>: <message>".

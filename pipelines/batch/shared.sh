@@ -1,0 +1,59 @@
+# shellcheck shell=bash
+# What the scripts of a batch, `bench` and `register` share, besides script.sh, which is sourced before.
+: "${share:?}" "${varimap:?}"
+
+# written WHAT: waits for a command that writes files, started in the background just before, since before || bash would let it
+# go on after a failure; where it failed, the script ends with one line.
+written() {
+    wait $! || fail 6 "$1: cannot be written; is the disk full?"
+}
+
+# require_map_options OPTION...: refuses what `varimap map` and its stages would refuse, before anything else is done. They
+# check options first, and then find that a device is no folder for results.
+require_map_options() {
+    local code=0 said
+    said=$("$varimap" map "$share/batch/job" "$share/batch/job" --landmarks "$share/batch/job" "$@" -o /dev/null 2>&1 >/dev/null) || code=$?
+    said=${said##*$'\n'}
+    ((code == 0)) || [[ $said == *'/dev/null: is a file'* ]] || fail "$code" "${said#*: error: }"
+    [[ ! $* =~ repair|fill.holes|cut.handles ]] || require_repairs "$@"
+}
+
+# The values of these are looked at when there is a mesh.
+require_repairs() {  # OPTION...
+    local folder code=0 said
+    folder=$(mktemp -d) || fail 6 "no folder for temporary files can be written to"
+    printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >"$folder/a.off"
+    said=$("$varimap" map "$folder/a.off" "$folder/a.off" --landmarks "$share/batch/job" "$@" --until preprocess -q -j 1 \
+        -o "$folder/out" 2>&1 >/dev/null) || code=$?
+    rm -rf -- "$folder"
+    ((code != 2)) || fail 2 "${said#*: error: }"
+}
+
+# files_named_in MESH: the files beside it without which it is not whole, as it names them: those of a .gltf.
+files_named_in() {
+    [[ ${1,,} == *.gltf ]] || return 0
+    local uri
+    while IFS= read -r uri; do
+        # Escaped or not, as varimap-import has it.
+        [[ -f ${1%/*}/$uri || $uri != *%* || $uri == *\\* ]] || printf -v uri '%b' "${uri//%/\\x}"
+        printf '%s\n' "$uri"
+    done < <(jq -r '(.buffers, .images)[]?.uri? | strings | select(startswith("data:") | not)' "$1" 2>/dev/null || true)
+}
+
+# hash_files FILE...: sets hash_of[FILE] to sixteen digits of the SHA-256 of what is in it and in the files that it names.
+declare -A hash_of=()
+hash_files() {
+    local file line named
+    # 64 digits, two blanks and the name.
+    while IFS= read -r -d '' line; do hash_of[${line:66}]=${line::16}; done < <(printf '%s\0' "$@" | xargs -0 sha256sum -z --)
+    for file in "$@"; do
+        mapfile -t named < <(files_named_in "$file")
+        ((${#named[@]} == 0)) || hash_of[$file]=$({ echo "${hash_of[$file]}"; hashes_beside "$file" "${named[@]}"; } | short_hash)
+    done
+}
+
+# hashes_beside MESH FILE...: of those that are there, by the names that MESH has for them.
+hashes_beside() { (cd -- "${1%/*}" && sha256sum -- "${@:2}" 2>/dev/null) || true; }
+
+# short_hash: sixteen digits of the SHA-256 of what is read.
+short_hash() { sha256sum | cut -c 1-16; }

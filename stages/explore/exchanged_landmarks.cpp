@@ -1,0 +1,88 @@
+#include "stages/explore/exchanged_landmarks.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "varimap/mesh/geodesic_graph.h"
+
+namespace varimap {
+
+namespace {
+
+/// Between landmarks, in units of sqrt(area).
+Eigen::MatrixXd distances_between(const std::vector<int>& vertices, const GeodesicGraph& graph) {
+    const RowMatrix to_all = distances_from_each(graph, vertices);
+    return to_all(Eigen::all, vertices);
+}
+
+/// Tries all exchanges, pair by pair.
+class ExchangeSearch {
+  public:
+    ExchangeSearch(Eigen::MatrixXd of_A, Eigen::MatrixXd of_B)
+        : of_A_(std::move(of_A)), of_B_(std::move(of_B)), partner_(std::size_t(of_A_.rows())) {
+        std::iota(partner_.begin(), partner_.end(), 0);
+    }
+
+    Exchange best() {
+        const double as_they_are = change();
+        extend(0, {});
+        constexpr double much = 0.1;
+        return least_ < as_they_are + much ? best_ : Exchange{};
+    }
+
+  private:
+    void extend(int next, const Exchange& so_far) {
+        const int count = int(partner_.size());
+        if (next == count) {
+            if (so_far.empty()) return;
+            if (const double now = change(); now < least_) least_ = now, best_ = so_far;
+            return;
+        }
+        extend(next + 1, so_far);
+        if (partner_[std::size_t(next)] != next) return;
+        for (int other = next + 1; other < count; ++other) {
+            if (partner_[std::size_t(other)] != other) continue;
+            Exchange longer = so_far;
+            longer.emplace_back(next, other);
+            std::swap(partner_[std::size_t(next)], partner_[std::size_t(other)]);
+            extend(next + 1, longer);
+            std::swap(partner_[std::size_t(next)], partner_[std::size_t(other)]);
+        }
+    }
+    double change() const {
+        constexpr double short_distance = 0.1;  // near landmarks do not count
+        const int count = int(partner_.size());
+        double sum = 0;
+        for (int i = 0; i < count; ++i)
+            for (int j = 0; j < i; ++j)
+                sum += std::abs(
+                    std::log((of_A_(i, j) + short_distance) /
+                             (of_B_(partner_[std::size_t(i)], partner_[std::size_t(j)]) + short_distance)));
+        return 2 * sum / (count * (count - 1));
+    }
+
+    Eigen::MatrixXd of_A_, of_B_;
+    std::vector<int> partner_;
+    Exchange best_;
+    double least_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+Exchange likely_exchange(const PairContext& context) {
+    constexpr std::size_t most = 10;
+    const std::size_t count = context.landmarks().size();
+    if (count < 2 || count > most) return {};
+    return ExchangeSearch(distances_between(context.landmarks_A(), context.graph_A()),
+                          distances_between(context.landmarks_B(), context.graph_B()))
+        .best();
+}
+
+VertexPairs<MeshVertex> exchanged(VertexPairs<MeshVertex> landmarks, const Exchange& exchange) {
+    for (const auto& [i, j] : exchange)
+        std::swap(landmarks[std::size_t(i)].second, landmarks[std::size_t(j)].second);
+    return landmarks;
+}
+
+}  // namespace varimap
