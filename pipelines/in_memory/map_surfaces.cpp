@@ -120,7 +120,7 @@ std::optional<Candidates> found_candidates(const PairContext& surfaces, const Su
     const PairContext context =
         pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
     OnDemand ask;
-    if (!options.full_resolution) ask.surfaces = [&] { return surfaces; };
+    ask.surfaces = [&] { return surfaces; };
     if (options.landmarks.empty()) ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
     return explore(context, params, ask);
 }

@@ -327,6 +327,14 @@ std::vector<Appraised> compared_on(const PairContext& surfaces, const std::vecto
     return another_is_better ? ordered(std::move(compared), sketches) : list;
 }
 
+/// Whether maps are compared on these surfaces in seconds: not where thin walls or --full-resolution keep
+/// many vertices.
+bool are_quick(const PairContext& surfaces) {
+    constexpr int most = 10'000;
+    return std::max(surfaces.A().surface.mesh.vertex_count(), surfaces.B().surface.mesh.vertex_count()) <=
+           most;
+}
+
 /// Whether another map scores better than the first, to which landmarks lead: then both are shown.
 bool is_disputed(const std::vector<Appraised>& list) {
     return confidence_of(ratings(list)).margin < 0;
@@ -433,7 +441,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
     // to is as plausible, not strained, and they decide it.
     constexpr double suffices = 0.995;
-    // Above .9, from which on choices are called sure: of nine animals onto a lion one was wrong by .92.
+    // Above .9, from which on choices are called sure: of a dog onto a lion a limb was wrong, by .92.
     constexpr double decided = 0.95;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
@@ -464,8 +472,10 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }
-    if (ask.surfaces && finalists(list).size() > 1 && confidence_of(ratings(list)).probability < decided)
-        list = compared_on(ask.surfaces(), list, context, params);
+    if (ask.surfaces && finalists(list).size() > 1 && confidence_of(ratings(list)).probability < decided) {
+        const PairContext surfaces = ask.surfaces();
+        if (are_quick(surfaces)) list = compared_on(surfaces, list, context, params);
+    }
     return with_previews(list, context);
 }
 

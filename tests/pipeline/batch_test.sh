@@ -99,7 +99,7 @@ if [[ -x $VARIMAP_BIN/varimap-import ]]; then
     printf 'mesh,name\nscenes/a.gltf,one\nscenes/b.gltf,\n' >scenes.csv
     batch scenes.csv -o imported -j 1
     [[ $(column imported/status.csv name) == one--b && $(column imported/status.csv status) == "done" ]] || fail "scenes: $(<imported/status.csv)"
-    jq -e '.provenance.source.imported_from | endswith("/one.gltf")' imported/pairs/one--b/quality.json >/dev/null || fail "what was imported"
+    jq -e '.provenance.source.imported_from | endswith("/scenes/a.gltf")' imported/pairs/one--b/quality.json >/dev/null || fail "what was imported"
     batch scenes.csv -o imported --plan
     ! grep -q . imported/batch/pending || fail "a batch of scenes is not known to be done"
     gltf meshes/c.off b
