@@ -1,5 +1,7 @@
 #include "stages/explore/explore.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -348,10 +350,12 @@ bool is_good(const Candidate& best, bool has_landmarks) {
     return plausibility(best) >= plausible_with_landmarks && best.dirichlet < strained;
 }
 
+/// "1 and 3", "1 with 3, 2 with 4".
 std::string in_words(const Exchange& exchange) {
     std::string words;
     for (const auto& [i, j] : exchange)
-        words += fmt::format("{}{} and {}", words.empty() ? "" : ", ", i + 1, j + 1);
+        words += fmt::format("{}{} {} {}", words.empty() ? "" : ", ", i + 1,
+                             exchange.size() == 1 ? "and" : "with", j + 1);
     return words;
 }
 

@@ -210,7 +210,7 @@ TEST(Explore, SaysWhichLandmarksAreExchanged) {
     for (std::size_t k = 0; k < 4; ++k)
         exchanged.emplace_back(pair.landmarks[k].first, pair.landmarks[(k + 2) % 4].second);
     ASSERT_EQ(warnings_with(pair, exchanged), 1u);
-    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 1 and 3, 2 and 4 look exchanged"));
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 1 with 3, 2 with 4 look exchanged"));
 }
 
 VertexImages true_images(const KnownPair& pair) {
