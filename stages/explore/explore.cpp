@@ -144,20 +144,15 @@ class Finishing {
 
     /// Those that have joined the pool since the last time, but for those that become what is there already.
     void finish(const std::vector<PooledMap>& pool) {
+        const size_t before = origins_.size();
+        if (pool.size() == before) return;
+        const Timer timer("finishing");
         std::vector<MapStart> starts;
-        std::vector<Candidate> origins;
-        for (size_t n = origins_.size(); n < pool.size(); ++n) {
+        for (size_t n = before; n < pool.size(); ++n) {
             starts.push_back(
                 [&images = pool[n].images](const LevelPair& level) { return matching_of(images, level); });
-            origins.push_back(pool[n].origin);
+            origins_.push_back(pool[n].origin);
         }
-        if (!starts.empty()) finish(starts, origins);
-    }
-    /// More maps, and where they come from.
-    void finish(const std::vector<MapStart>& starts, const std::vector<Candidate>& origins) {
-        const Timer timer("finishing");
-        const size_t before = origins_.size();
-        origins_.insert(origins_.end(), origins.begin(), origins.end());
         for (FinishedMap& map : varimap::finish(context_, appraisal_, starts, options_, maps_)) {
             map.start += int(before);
             measured_.push_back(origins_[std::size_t(map.start)]);
@@ -363,7 +358,7 @@ std::string in_words(const Exchange& exchange) {
 /// with left and right exchanged, the only map that meets all landmarks and mirrors nothing has the front of
 /// a body on its back, and is hardly strained. Asked only where relief agrees less than it does on right maps
 /// of shapes in other poses, since it costs half a second.
-void warn_of_exchanged_landmarks(const Candidate& led, const PairContext& context,
+void warn_of_exchanged_landmarks(const Candidate& led, const PairContext& context, const Appraisal& appraisal,
                                  const ExploreParams& params) {
     constexpr double alike = 0.9, much = 3, plausible = 0.9;
     if (led.relief > alike) return;
@@ -372,7 +367,6 @@ void warn_of_exchanged_landmarks(const Candidate& led, const PairContext& contex
     const Timer timer("exchanged landmarks");
     const PairContext other(context.A(), context.B(), exchanged(context.landmarks(), exchange),
                             context.landmark_weight());
-    const Appraisal appraisal(other);
     Finishing finishing(other, quick_finishing(params), appraisal);
     finishing.finish(led_by_landmarks(other, params));
     const Candidate found = finishing.appraised().front().candidate;
@@ -459,20 +453,18 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         finishing.finish(led_there);
         std::vector<Appraised> alone = finishing.appraised();
         const Candidate& there = alone.front().candidate;
-        warn_of_exchanged_landmarks(there, context, params);
+        warn_of_exchanged_landmarks(there, context, appraisal, params);
         if (logged_plausibility(there) >= suffices && is_good(there, true) && landmarks_are_apart(context))
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask.self_maps);
     std::vector<Appraised> list = quickly_found(context, params, led_there, finishing, self_maps);
-    const bool good = is_good(list.front().candidate, if_needed);
-    if (!good) {
+    if (!is_good(list.front().candidate, if_needed)) {
         log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "
             "further",
             plausibility(list.front().candidate), list.front().candidate.dirichlet);
         list = thoroughly_found(context, params, led_there, appraisal, self_maps);
-    }
-    if (good && if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
+    } else if (if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }

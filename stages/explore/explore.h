@@ -30,8 +30,8 @@ struct OnDemand {
 /// Maps worth continuing, the best first. What exploration finds is composed with self-maps of both surfaces,
 /// so that a wrong map brings the right one with it, unless one is beyond doubt without that. All are
 /// finished at the resolution of these surfaces (meant to be sketches), and compared as finished maps
-/// (candidate.h). Where the choice is not sure, those that may be right are finished once more on the
-/// surfaces that were sketched, and put into the order in which they come out there.
+/// (candidate.h). Where the choice is not sure, those that may be right are solved for on the surfaces
+/// that were sketched, and one that is clearly better there takes the first place.
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask = {});
 
 }  // namespace varimap

@@ -769,14 +769,20 @@ TextureImage gradient(int n) {
     return image;
 }
 
-TEST_F(Transfer, BakesWhatTheIdentityShows) {
-    // A square with the coordinates of its own plane: the image comes out as it went in.
-    const TriangleMesh square = shapes::square(8);
+/// With the coordinates of its own plane, and one material.
+ObjModel in_its_own_plane(const TriangleMesh& square) {
     ObjModel model;
     for (const auto p : square.vertices.rowwise()) model.uv.emplace_back(p[0], p[1]);
     model.uv_of = square.faces;
     model.material.assign(std::size_t(square.face_count()), 0);
     model.materials = {"skin"};
+    return model;
+}
+
+TEST_F(Transfer, BakesWhatTheIdentityShows) {
+    // The image comes out as it went in.
+    const TriangleMesh square = shapes::square(8);
+    const ObjModel model = in_its_own_plane(square);
     write("skin.png", to_png(gradient(64)));
     write("skin.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\n");
     Correspondence map = identity(square);
@@ -923,11 +929,7 @@ TEST_F(Transfer, MaterialsStayApartWhateverTheirNames) {
 
 TEST_F(Transfer, TexturesLieWhereTheirMaterialPutsThem) {
     const TriangleMesh square = shapes::square(2);
-    ObjModel model;
-    for (const auto p : square.vertices.rowwise()) model.uv.emplace_back(p[0], p[1]);
-    model.uv_of = square.faces;
-    model.material.assign(std::size_t(square.face_count()), 0);
-    model.materials = {"skin"};
+    const ObjModel model = in_its_own_plane(square);
     write("skin.png", to_png(gradient(64)));
     write("skin.mtl", "newmtl skin\nmap_Kd -s .5 .5 1 -o .25 .125 0 skin.png\n");
     Correspondence map = identity(square);
