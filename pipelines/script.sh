@@ -63,6 +63,11 @@ lock() {  # FOLDER: one run at a time; the lock lasts until the last stage has e
     flock "$fd"
 }
 
+# is_mesh FILE: whether its ending makes it a mesh of the folder that it is in. A file that is named itself is one in any case.
+is_mesh() { [[ ${1,,} =~ \.(obj|ply|off|stl|gltf|glb|fbx|dae|3mf)$ ]]; }
+# is_foreign MESH: whether it must be imported, being of a format that no stage reads.
+is_foreign() { [[ ${1##*/} == *.* && ! ${1,,} =~ \.(obj|ply|off|stl)$ ]]; }
+
 # artifact_stem PATH: the name of a mesh's artifacts: the mesh's own, in letters that make can handle.
 artifact_stem() {
     local stem=${1##*/}

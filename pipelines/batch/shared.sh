@@ -8,6 +8,15 @@ written() {
     wait $! || fail 6 "$1: cannot be written; is the disk full?"
 }
 
+# handful NAME...: the first five, and how many more there are.
+handful() {
+    local text
+    printf -v text '%s, ' "${@:1:5}"
+    text=${text%, }
+    (($# <= 5)) || text+=" and $(($# - 5)) more"
+    echo "$text"
+}
+
 # require_map_options OPTION...: refuses what `varimap map` and its stages would refuse, before anything else is done. They
 # check options first, and then find that a device is no folder for results.
 require_map_options() {

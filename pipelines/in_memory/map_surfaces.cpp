@@ -115,10 +115,8 @@ std::optional<Candidates> found_candidates(const PairContext& surfaces, const Su
     ExploreParams params;
     params.only_if_needed = !options.explore;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
-    const auto landmarks = to_mesh_vertices(given.vertices, sketch_A.surface, sketch_B.surface);
-    const PointPairs points = landmark_points(given, sketch_A.surface, sketch_B.surface);
     const PairContext context =
-        pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, points, options.landmark_weight);
+        pair_context(std::move(sketch_A), std::move(sketch_B), given, options.landmark_weight);
     OnDemand ask;
     ask.surfaces = [&] { return surfaces; };
     if (options.landmarks.empty()) ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
@@ -157,6 +155,7 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
     const Surface surface_A = prepared_surface(A, name_of_A, options, options.mirror),
                   surface_B = prepared_surface(B, name_of_B, options, false);
     const auto given = on_inputs({options.landmarks, {}}, surface_A, surface_B);
+    // Before the work on the surfaces: this refuses landmarks that cannot be met.
     const auto landmarks = to_mesh_vertices(given.vertices, surface_A, surface_B);
     const PointPairs points = landmark_points(given, surface_A, surface_B);
     std::optional<Correspondences> initial_map;

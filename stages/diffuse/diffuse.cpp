@@ -26,8 +26,7 @@ Start coarsest_start(const LevelPair& pair, const PairContext& context, const Di
 LevelPair level_with_terms(int index, const PairContext& context, const DiffuseParams& params) {
     LevelPair pair = context.diffusion_level(index);
     if (params.wasserstein_weight > 0) add_wasserstein_term(pair, context, params.wasserstein_weight);
-    add_shape_term(pair, context, params.shape_weight);
-    add_landmark_term(pair, context, params.vicinity_weight);
+    add_descriptor_terms(pair, context, params.descriptors);
     return pair;
 }
 

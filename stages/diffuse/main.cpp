@@ -76,12 +76,11 @@ int main(int argc, char** argv) {
         if (initial_map) warn_of_bad_initial_map(initial_map->from_A, A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
-        const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
-        PointPairs points = landmark_points(landmarks, A.surface, B.surface);
         const PairContext context =
-            pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
+            pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
         Diffusion diffusion = diffuse(context, params, candidates, initial_map);
-        diffusion.record.landmark_points = std::move(points);
+        diffusion.record.landmark_points =
+            landmark_points(landmarks, context.A().surface, context.B().surface);
         report(diffusion.record.landmark_checks);
         stage.record_number("levels", diffusion.trace.back().level + 1);
         stage.record_number("alternations", double(diffusion.trace.size()));

@@ -23,9 +23,7 @@ struct DiffuseParams {
     FirstCentres start = FirstCentres::zero;
     double wasserstein_weight =
         0;  ///< share of the Wasserstein-2 cost added to Eq. (3), for aligned surfaces
-    double shape_weight =
-        0.25;  ///< of add_shape_term beside Eq. (3); at 0.5 the map of a bust onto another was lost
-    double vicinity_weight = 0;                 ///< of add_landmark_term
+    DescriptorWeights descriptors;
     int candidate = 1;                          ///< which of the candidates of varimap-explore is continued
     IndexBase map_base = IndexBase::automatic;  ///< of an initial map
     LandmarkSpace landmark_space = LandmarkSpace::stated;
@@ -40,11 +38,7 @@ struct DiffuseParams {
         list.add("wasserstein_weight", wasserstein_weight,
                  "weight of the Wasserstein-2 cost beside Eq. (3), relative; for aligned surfaces (Sec. 2.3)",
                  0.0, 100.0);
-        list.add("shape_weight", shape_weight,
-                 "how strongly places of like bending and shape diameter attract each other (0: not at all)",
-                 0.0, 100.0);
-        list.add("vicinity_weight", vicinity_weight,
-                 "how strongly landmarks hold the places around them, too (0: only themselves)", 0.0, 1000.0);
+        varimap::describe(list, descriptors);
         list.add("candidate", candidate,
                  "which of the maps that varimap-explore found is continued (1: the best)", 1, 100);
         list.add("map_base", map_base,

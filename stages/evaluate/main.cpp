@@ -7,7 +7,6 @@
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mesh_repair.h"
-#include "varimap/mesh/topology.h"
 #include "varimap/results/correspondence.h"
 #include "varimap/results/map_file.h"
 #include "varimap/stage/stage_main.h"
@@ -65,13 +64,8 @@ MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const
     const Landmarks landmarks = read_landmarks(files, source, file_of(target));
     const PointCarrier carry(source, map, file_of(target));
     PointMap images, truths;
-    for (std::size_t i = 0; i < landmarks.vertices.size(); ++i) {
-        const auto& [s, t] = landmarks.vertices[i];
-        images.push_back(
-            carry(landmarks.points.empty() ? point_at_vertex(source, s.index) : landmarks.points[i].first));
-        truths.push_back(landmarks.points.empty() ? point_at_vertex(file_of(target), t.index)
-                                                  : landmarks.points[i].second);
-    }
+    for (const auto& [point, truth] : as_points(landmarks, source, file_of(target)))
+        images.push_back(carry(point)), truths.push_back(truth);
     images = on_repaired(images, target), truths = on_repaired(truths, target);
     PointPairs pairs;
     for (std::size_t i = 0; i < images.size(); ++i) pairs.emplace_back(images[i], truths[i]);

@@ -1,9 +1,8 @@
 #include "stages/explore/appraisal.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 
-#include "stages/explore/pool.h"
+#include "stages/explore/difference.h"
 #include "varimap/core/rotation.h"
 #include "varimap/quality/quality.h"
 
@@ -22,19 +21,23 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
 
 }  // namespace
 
-Appraisal::Appraisal(const PairContext& context) : context_(context), agreement_(context) {}
-
-void Appraisal::measure_roughly(const MapPair& maps, Candidate& candidate) const {
-    candidate.relief = agreement_.relief(maps);
-    candidate.alignment = agreement_.alignment(maps);
-    candidate.stretch = agreement_.stretch(maps);
+void set_cues(Candidate& candidate, const Cues& cues) {
+    candidate.relief = cues.relief;
+    candidate.alignment = cues.alignment;
+    candidate.stretch = cues.stretch;
     candidate.score = score_of(candidate);
 }
 
-double Appraisal::rough_score(const MapPair& maps) const {
+double rough_score(const Cues& cues) {
     Candidate candidate;
-    measure_roughly(maps, candidate);
+    set_cues(candidate, cues);
     return candidate.score;
+}
+
+Appraisal::Appraisal(const PairContext& context) : context_(context), agreement_(context) {}
+
+Cues Appraisal::cues(const MapPair& maps) const {
+    return {agreement_.relief(maps), agreement_.alignment(maps), agreement_.stretch(maps)};
 }
 
 void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
@@ -44,21 +47,20 @@ void Appraisal::measure(const FinishedMap& map, Candidate& candidate) const {
     candidate.energy = map.energy;
     candidate.dirichlet = std::sqrt(there.dirichlet_energy * back.dirichlet_energy);
     candidate.reversed_mass = (there.flipped_area_percent + back.flipped_area_percent) / 200;
-    measure_roughly(map.maps, candidate);
+    set_cues(candidate, cues(map.maps));
 }
 
-void compare(const FinishedMap& best, const FinishedMap& other, const PairContext& context,
-             Candidate& candidate) {
+void compare(const MapPair& best, const MapPair& other, const PairContext& context, Candidate& candidate) {
     constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
     const Surface &A = context.A().surface, &B = context.B().surface;
     // Where the best map's inverse takes the other's images, linear on B's faces.
     Points moved(A.mesh.vertex_count(), 3);
     for (int v = 0; v < A.mesh.vertex_count(); ++v) {
-        const SurfacePoint& image = other.maps.A_to_B[std::size_t(v)];
+        const SurfacePoint& image = other.A_to_B[std::size_t(v)];
         Vec3 x = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
             x += image.barycentric[k] *
-                 position(A.mesh, best.maps.B_to_A[std::size_t(B.mesh.faces(image.face, k))]);
+                 position(A.mesh, best.B_to_A[std::size_t(B.mesh.faces(image.face, k))]);
         moved.row(v) = x.transpose();
     }
     candidate.moved_mass = share_elsewhere(moved, A.mesh.vertices, A, elsewhere);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "stages/explore/shape_agreement.h"
-#include "varimap/relaxation/untangling.h"
 #include "varimap/results/candidate.h"
+#include "varimap/results/map_pair.h"
 
 namespace varimap {
 
@@ -16,6 +16,16 @@ struct FinishedMap {
     std::vector<double> rough_scores{};  ///< on its way there, level by level
 };
 
+/// What tells the right map from wrong ones, whether they are relaxed or not (shape_agreement.h).
+struct Cues {
+    double relief = 0, alignment = 0, stretch = 0;
+};
+
+/// Fills in the cues, and the score: by these, and by the strain that is there already.
+void set_cues(Candidate& candidate, const Cues& cues);
+/// The score of an isometry with these cues: of a map that is not finished, strain tells nothing.
+double rough_score(const Cues& cues);
+
 /// Measures maps of a pair.
 class Appraisal {
   public:
@@ -24,11 +34,9 @@ class Appraisal {
 
     /// Fills in what is known of the map by itself, and its score.
     void measure(const FinishedMap& map, Candidate& candidate) const;
-    /// Of a map that is not finished: all but energy, strain and what it reverses, which tell nothing as long
-    /// as a map has folds. The score goes by the strain that is there already.
-    void measure_roughly(const MapPair& maps, Candidate& candidate) const;
-    /// What the score of such a map will be, but for strain.
-    double rough_score(const MapPair& maps) const;
+    /// What can be measured of a map that is not finished, too: energy, strain and what it reverses tell
+    /// nothing as long as it has folds.
+    Cues cues(const MapPair& maps) const;
 
   private:
     const PairContext& context_;
@@ -36,7 +44,6 @@ class Appraisal {
 };
 
 /// Fills in what a map is to the best one.
-void compare(const FinishedMap& best, const FinishedMap& other, const PairContext& context,
-             Candidate& candidate);
+void compare(const MapPair& best, const MapPair& other, const PairContext& context, Candidate& candidate);
 
 }  // namespace varimap

@@ -3,19 +3,10 @@
 #include <functional>
 
 #include "stages/explore/params.h"
+#include "stages/explore/self_maps.h"
 #include "varimap/results/candidates.h"
 
 namespace varimap {
-
-/// Maps of a surface onto itself that are not the identity, by their energies: turns, exchanged limbs. Two
-/// maps of a pair of surfaces that are nearly as good as each other differ by these. `surface` is the context
-/// of the surface with itself. Sketches are enough (varimap-coarsen to a thousand vertices).
-Candidates find_self_maps(const PairContext& surface, const ExploreParams& params);
-
-struct SelfMaps {
-    Candidates A, B;  ///< of each surface onto itself
-};
-SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& params);
 
 /// Whether there are three landmarks far from each other. Fewer, or several at the tip of a finger, leave the
 /// rest of a body to turn or twist, and a twisted one may look as plausible as the right map.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "stages/explore/pool.h"
+#include "stages/explore/difference.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
@@ -25,6 +25,7 @@ struct Pursued {
     int start;
     Solution solution;
     VertexImages images;               ///< when it was last judged
+    Cues cues;                         ///< the same
     std::vector<double> rough_scores;  ///< of all levels so far
     double score() const { return rough_scores.back(); }
     double energy() const { return solution.step.energy; }
@@ -72,10 +73,10 @@ class JointDescent {
     /// All of them, none dropped, until the first is clearly the best.
     std::vector<Pursued> run_until_first_is_best(const std::vector<MapStart>& starts) {
         begin(starts);
-        for (int l = first_euclidean_level(); l < context_.euclidean_levels() && !first_is_clearly_best();
-             ++l) {
+        for (int l = first_euclidean_level(); l < context_.euclidean_levels(); ++l) {
             go_on_in_space(l);
             judge_all();
+            if (first_is_clearly_best()) break;
         }
         return std::move(pursued_);
     }
@@ -84,7 +85,7 @@ class JointDescent {
   private:
     /// Solves the first level, and returns its index.
     int begin(const std::vector<MapStart>& starts) {
-        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}});
+        for (int n = 0; n < int(starts.size()); ++n) pursued_.push_back({n, {}, {}, {}, {}});
         const int first = first_level_for_a_map(context_);
         enter(context_.diffusion_level(first));
         solve_all(options_.ironing, [&](const Pursued& one) {
@@ -152,14 +153,14 @@ class JointDescent {
     }
     bool first_is_clearly_best() const {
         constexpr double clearly = 1;
-        const double first = pursued_.front().rough_scores.empty() ? 0 : pursued_.front().score();
-        return std::all_of(pursued_.begin() + 1, pursued_.end(), [&](const Pursued& other) {
-            return !other.rough_scores.empty() && other.score() > first + clearly;
-        });
+        const double first = pursued_.front().score();
+        return std::all_of(pursued_.begin() + 1, pursued_.end(),
+                           [&](const Pursued& other) { return other.score() > first + clearly; });
     }
     void judge(Pursued& one) const {
         one.images = vertex_images(one.solution, level(), context_);
-        one.rough_scores.push_back(appraisal_.rough_score(to_maps(one.images, context_)));
+        one.cues = appraisal_.cues(to_maps(one.images, context_));
+        one.rough_scores.push_back(rough_score(one.cues));
     }
     /// On most of the surfaces.
     bool differ(const Pursued& a, const Pursued& b) const {
@@ -184,8 +185,7 @@ MapPair read_out(const Solution& solution, const LevelPair& level, const PairCon
     plan.centre_B = solution.step.centres.column.leftCols<3>();
     plan.record.landmarks = context.landmarks();
     plan.record.landmark_weight = context.landmark_weight();
-    VertexMaps maps = read_out(plan, context.A().surface, context.B().surface);
-    return {std::move(maps.A_to_B), std::move(maps.B_to_A)};
+    return read_out(plan, context.A().surface, context.B().surface);
 }
 
 PinnedPair pinned(const PairContext& context) {
@@ -242,14 +242,13 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
     return finished;
 }
 
-std::vector<MapPair> solved(const PairContext& context, const Appraisal& appraisal,
-                            const std::vector<MapStart>& starts, const FinishingOptions& options) {
+std::vector<Cues> cues_when_solved(const PairContext& context, const Appraisal& appraisal,
+                                   const std::vector<MapStart>& starts, const FinishingOptions& options) {
     const std::vector<FinishedMap> none;
     JointDescent descent(context, appraisal, options, none);
-    std::vector<MapPair> maps;
-    for (const Pursued& one : descent.run_until_first_is_best(starts))
-        maps.push_back(to_maps(one.images, context));
-    return maps;
+    std::vector<Cues> cues;
+    for (const Pursued& one : descent.run_until_first_is_best(starts)) cues.push_back(one.cues);
+    return cues;
 }
 
 }  // namespace varimap

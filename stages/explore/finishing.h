@@ -36,6 +36,7 @@ struct FinishingOptions {
         untangling.replace_parts = false;
         untangling.align_normals = false;
         untangling.settling_steps = 0;
+        untangling.weigh_relief = false;   // it tells right maps from wrong ones
         untangling.most_fold_visits = 10;  // wrong maps have folds that no number of visits removes
     }
 };
@@ -51,9 +52,9 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
                                 const std::vector<MapStart>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known = {});
 
-/// The same for all starts, in their order, of which none is dropped and none relaxed; only to the level
-/// where the first is clearly the best.
-std::vector<MapPair> solved(const PairContext& context, const Appraisal& appraisal,
-                            const std::vector<MapStart>& starts, const FinishingOptions& options);
+/// Cues of one start or more, in their order, when they are solved for in the same way, but none dropped and
+/// none relaxed: on the first Euclidean level where the first is clearly the best, or on the last.
+std::vector<Cues> cues_when_solved(const PairContext& context, const Appraisal& appraisal,
+                                   const std::vector<MapStart>& starts, const FinishingOptions& options);
 
 }  // namespace varimap

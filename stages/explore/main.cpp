@@ -48,56 +48,68 @@ Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::str
     return std::move(self_maps.value);
 }
 
-/// The surfaces that were sketched, with their bases and hierarchies: recorded as inputs in any case, read
-/// where they are asked for.
-class SketchedSurfaces {
-  public:
-    SketchedSurfaces(Stage& stage, const std::vector<std::string>& files) : files_(files) {
-        for (std::size_t k = 0; k < files.size(); ++k) {
-            headers_.push_back(read_header(files[k]));
-            stage.record_input(
-                {std::string("surfaces.") + char('A' + k), headers_[k].kind, headers_[k].payload_hash});
-        }
-        if (files.empty()) return;
-        for (const std::size_t surface : {0, 3}) {
-            require_lineage(surface + 1, "surface", surface);
-            require_lineage(surface + 2, "surface", surface);
-            require_lineage(surface + 2, "basis", surface + 1);
-        }
-    }
-    bool are_given() const { return !files_.empty(); }
-    /// Refuses surfaces of which those read are no sketches.
-    void require_sketches(const PairInputs& sketches) const {
-        for (const auto& [side, surface] : {std::pair("A", 0), std::pair("B", 3)})
-            if (are_given() && sketches.sketched(side) != headers_[std::size_t(surface)].payload_hash)
-                throw ArtifactError(
-                    fmt::format("'{}' is not the surface that was sketched; rerun varimap-coarsen",
-                                files_[std::size_t(surface)]));
-    }
-    SurfaceData read_A() const { return read(0); }
-    SurfaceData read_B() const { return read(3); }
+/// An artifact that is recorded as an input in any case, and read where it is asked for.
+struct RecordedInput {
+    std::string path;
+    Header header;
 
-  private:
-    void require_lineage(std::size_t child, const char* role, std::size_t parent) const {
-        Stage::require_lineage(headers_[child], files_[child], role, headers_[parent], files_[parent]);
+    RecordedInput(Stage& stage, const std::string& role, const std::string& file)
+        : path(file), header(read_header(file)) {
+        stage.record_input({role, header.kind, header.payload_hash});
+    }
+    void require_made_from(const char* role, const RecordedInput& parent) const {
+        Stage::require_lineage(header, path, role, parent.header, parent.path);
     }
     template <class T>
-    T read_one(std::size_t k) const {
-        Artifact<T> artifact = read_artifact<T>(files_[k]);
-        if (artifact.header.payload_hash != headers_[k].payload_hash)
-            throw IoError("'" + files_[k] + "' changed since this stage began; run again");
+    T read() const {
+        Artifact<T> artifact = read_artifact<T>(path);
+        if (artifact.header.payload_hash != header.payload_hash)
+            throw IoError("'" + path + "' changed since this stage began; run again");
         return std::move(artifact.value);
     }
-    SurfaceData read(std::size_t first) const {
-        SurfaceData data{read_one<Surface>(first), read_one<Basis>(first + 1),
-                         read_one<Hierarchy>(first + 2)};
+};
+
+/// A surface that was sketched, with its basis and hierarchy.
+struct SketchedSurface {
+    RecordedInput surface, basis, hierarchy;
+
+    /// Refuses them where they do not belong together.
+    void require_lineage() const {
+        basis.require_made_from("surface", surface);
+        hierarchy.require_made_from("surface", surface);
+        hierarchy.require_made_from("basis", basis);
+    }
+    /// Refuses a surface of which that with this hash was not sketched.
+    void require_hash(const std::string& sketched) const {
+        if (sketched != surface.header.payload_hash)
+            throw ArtifactError(fmt::format(
+                "'{}' is not the surface that was sketched; rerun varimap-coarsen", surface.path));
+    }
+    SurfaceData read() const {
+        SurfaceData data{surface.read<Surface>(), basis.read<Basis>(), hierarchy.read<Hierarchy>()};
         require_fit(data);
         return data;
     }
-
-    const std::vector<std::string>& files_;
-    std::vector<Header> headers_;
 };
+
+struct SketchedSurfaces {
+    SketchedSurface A, B;
+};
+
+/// `files`: surface, basis and hierarchy of A, then of B. Refuses surfaces of which those read are no
+/// sketches.
+SketchedSurfaces record_surfaces(Stage& stage, const std::vector<std::string>& files,
+                                 const PairInputs& sketches) {
+    const auto input = [&](std::size_t k) {
+        return RecordedInput(stage, std::string("surfaces.") + char('A' + k), files[k]);
+    };
+    const SketchedSurfaces surfaces{{input(0), input(1), input(2)}, {input(3), input(4), input(5)}};
+    surfaces.A.require_lineage();
+    surfaces.B.require_lineage();
+    surfaces.A.require_hash(sketches.sketched("A"));
+    surfaces.B.require_hash(sketches.sketched("B"));
+    return surfaces;
+}
 
 /// Maps are judged by how they carry faces.
 void require_surface(const Surface& surface) {
@@ -135,7 +147,7 @@ int main(int argc, char** argv) {
     const auto& surface_files = stage.input_list_option(
         "surfaces",
         "what was sketched: surface, basis and hierarchy of A, then of B; where the choice is not sure, maps "
-        "that may be right are finished and compared on these, too",
+        "that may be right are solved for and compared on these, too",
         6, 6);
     return stage.main(argc, argv, [&] {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
@@ -145,8 +157,8 @@ int main(int argc, char** argv) {
         if (!self_map_files.empty())
             given = {read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input),
                      read_self_maps(stage, inputs, "B", self_map_files[1], B.surface.input)};
-        const SketchedSurfaces surfaces(stage, surface_files);
-        surfaces.require_sketches(inputs);
+        std::optional<SketchedSurfaces> surfaces;
+        if (!surface_files.empty()) surfaces = record_surfaces(stage, surface_files, inputs);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const PairContext context = with_landmarks(std::move(A), std::move(B), landmarks, params);
@@ -155,9 +167,9 @@ int main(int argc, char** argv) {
             ask.self_maps = [&] { return *given; };
         else if (landmark_files.empty())
             ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
-        if (surfaces.are_given())
+        if (surfaces)
             ask.surfaces = [&] {
-                return with_landmarks(surfaces.read_A(), surfaces.read_B(), landmarks, params);
+                return with_landmarks(surfaces->A.read(), surfaces->B.read(), landmarks, params);
             };
         Candidates found = params.self_maps ? find_self_maps(context, params) : explore(context, params, ask);
         if (params.self_maps)

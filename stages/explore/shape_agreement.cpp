@@ -5,6 +5,7 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
+#include "varimap/core/statistics.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
@@ -27,15 +28,6 @@ constexpr std::size_t sample_count = 80;
 
 /// Added to both of two distances, lest short ones, which the meshes' edges make uncertain, count.
 constexpr double short_distance = 0.1;
-
-/// Weights need not sum to 1.
-double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& weight) {
-    const double total = weight.sum();
-    const Eigen::ArrayXd x = a.array() - weight.dot(a) / total, y = b.array() - weight.dot(b) / total;
-    const double product = (weight.array() * x * y).sum();
-    const double scale = std::sqrt((weight.array() * x * x).sum() * (weight.array() * y * y).sum());
-    return scale > 0 ? product / scale : 0;
-}
 
 /// Values of the target's vertices, row by row, at the images.
 template <class Values>

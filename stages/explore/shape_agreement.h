@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "varimap/multilevel/pair_context.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/results/map_pair.h"
 
 namespace varimap {
 

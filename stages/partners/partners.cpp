@@ -77,11 +77,11 @@ bool is_within(int from, int to, double radius, GeodesicBall& ball) {
 
 std::vector<Partner> best_partners(const SparseMatrix& plan, const GeodesicGraph& graph, double radius) {
     std::vector<Partner> partners(std::size_t(plan.rows()));
-    tbb::parallel_for(tbb::blocked_range<int>(0, int(plan.rows()), 64), [&](const auto& range) {
+    parallel_for_each_range(partners.size(), 64, [&](std::size_t begin, std::size_t end) {
         GeodesicBall ball(graph);
         std::vector<double> mass(std::size_t(plan.cols()), 0);
-        for (int i = range.begin(); i < range.end(); ++i)
-            partners[std::size_t(i)] = best_partner(plan, i, radius, ball, mass);
+        for (std::size_t i = begin; i < end; ++i)
+            partners[i] = best_partner(plan, int(i), radius, ball, mass);
     });
     return partners;
 }

@@ -22,8 +22,7 @@ struct RefineParams {
     IroningOptions ironing;
     double metric_weight = 1;       ///< mu of the mixed metric on all but the last level
     double last_metric_weight = 0;  ///< mu on the last level
-    double shape_weight = 0.25;     ///< of add_shape_term beside Eq. (3), as in varimap-diffuse
-    double vicinity_weight = 0;     ///< of add_landmark_term, the same
+    DescriptorWeights descriptors;
     RefineStart start = RefineStart::diffusion;
     int levels = 0;  ///< stop after this many Euclidean levels; 0: all
 
@@ -40,11 +39,7 @@ struct RefineParams {
         list.add("metric_weight", metric_weight,
                  "weight of diffusion coordinates beside positions in space (0: space alone)", 0.0, 100.0);
         list.add("last_metric_weight", last_metric_weight, "the same on the last level", 0.0, 100.0);
-        list.add("shape_weight", shape_weight,
-                 "how strongly places of like bending and shape diameter attract each other (0: not at all)",
-                 0.0, 100.0);
-        list.add("vicinity_weight", vicinity_weight,
-                 "how strongly landmarks hold the places around them, too (0: only themselves)", 0.0, 1000.0);
+        varimap::describe(list, descriptors);
         list.add("start", start,
                  "diffusion: the plan of varimap-diffuse; wasserstein: only levels with all points, from the "
                  "Wasserstein-2 plan of aligned, small domains (Fig. 2)");

@@ -17,8 +17,7 @@ namespace {
 LevelPair level_with_terms(int index, const PairContext& context, const RefineParams& params) {
     const bool last = index + 1 == context.euclidean_levels();
     LevelPair pair = context.euclidean_level(index, last ? params.last_metric_weight : params.metric_weight);
-    add_shape_term(pair, context, params.shape_weight);
-    add_landmark_term(pair, context, params.vicinity_weight);
+    add_descriptor_terms(pair, context, params.descriptors);
     return pair;
 }
 

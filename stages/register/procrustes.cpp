@@ -1,7 +1,6 @@
 #include "stages/register/procrustes.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 

@@ -7,7 +7,7 @@ using namespace varimap;
 
 struct StartingMap {
     PairRecord record;
-    VertexMaps images;
+    MapPair images;
     double area_bound;
 };
 

@@ -133,9 +133,8 @@ UntanglingReport joined(const UntanglingReport& meshes, UntanglingReport inputs)
 
 }  // namespace
 
-SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
+SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, MapPair maps,
                  double area_bound, const RelaxParams& params) {
-    MapPair maps{std::move(images.A_to_B), std::move(images.B_to_A)};
     UntanglingOptions options = params.untangling;
     options.opposed = looks_inward(A) != looks_inward(B);
     if (params.keep_area_bound) options.area_bound = area_bound;

@@ -7,12 +7,12 @@
 
 namespace varimap {
 
-/// The map in both directions on the INPUT meshes: `images` (read_out.h) are those of the preprocessed
+/// The map in both directions on the INPUT meshes: `maps` (read_out.h) are those of the preprocessed
 /// surfaces' vertices. These are untangled on the input faces (untangling.h), where the input's vertices are
 /// the first of them; of surfaces that were coarsened, or most of whose vertices bisection made, on the
 /// preprocessed meshes first, and then carried over to the inputs (prolongation.h). Points lie on the faces
 /// of the mesh files, also where a surface is mirrored.
-SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, VertexMaps images,
+SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, MapPair maps,
                  double area_bound, const RelaxParams& params = {});
 
 }  // namespace varimap

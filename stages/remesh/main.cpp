@@ -40,8 +40,8 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
     if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
     stage.write_file(folder + "/source_to_target.csv", to_csv(map.A_to_B));
     stage.write_file(folder + "/target_to_source.csv", to_csv(map.B_to_A));
-    stage.write_file(folder + "/source_to_target.npz", to_npz(map.A_to_B, mesh_of_file(B)));
-    stage.write_file(folder + "/target_to_source.npz", to_npz(map.B_to_A, mesh_of_file(A)));
+    stage.write_file(folder + "/source_to_target.npz", to_npz(map.A_to_B, file_as_read(B)));
+    stage.write_file(folder + "/target_to_source.npz", to_npz(map.B_to_A, file_as_read(A)));
     stage.write_file(folder + "/source_masses.csv",
                      masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A));
     stage.write_file(folder + "/target_masses.csv",

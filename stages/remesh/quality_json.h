@@ -12,9 +12,8 @@ namespace varimap {
 /// source, B the target; distances are in units of sqrt(area), shares and percentages as named.
 ///   energy            Eq. (3) at the end; absent if the plan has no trace
 ///   area_bound        the bound B the plan was solved with
-///   mass_ratio        source, target: min and max of transported mass by mass over the plan's samples;
-///   within
-///                     [1 / sqrt(B), sqrt(B)]
+///   mass_ratio        source, target: min and max of transported mass by mass over the plan's samples,
+///                     within [1 / sqrt(B), sqrt(B)]
 ///   landmarks         distance of each landmark's image from its partner
 ///   landmark_surroundings
 ///                     of each landmark: distance, radius (definitions: quality.h), of the direction in which
@@ -41,8 +40,7 @@ namespace varimap {
 ///   round_trip        source -> target -> source: mean, p95
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-/// Warns where much is reversed or uncovered, and where pinned landmarks are not met, look exchanged, or the
-/// map is elsewhere around them, so that a map that cannot be right does not pass as one.
+/// Warns of what a map that is right does not have (warnings.h).
 std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
 
 }  // namespace varimap

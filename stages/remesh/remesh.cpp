@@ -9,9 +9,8 @@
 
 namespace varimap {
 
-TriangleMesh mesh_of_file(const Surface& surface) {
-    if (!surface.link.is_identity()) return surface.link.file;
-    return surface.mirrored ? with_reversed_orientation(surface).input : surface.input;
+TriangleMesh file_as_read(const Surface& surface) {
+    return surface.link.is_identity() ? input_as_read(surface) : surface.link.file;
 }
 
 namespace {
@@ -40,16 +39,16 @@ Faces faces_with_images(const Faces& faces, const PointMap& map) {
 }  // namespace
 
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target) {
-    const TriangleMesh file = mesh_of_file(source);
+    const TriangleMesh file = file_as_read(source);
     Faces faces = faces_with_images(file.faces, map);
     if (source.mirrored != target.mirrored) faces.col(1).swap(faces.col(2));
-    return {image_positions(map, mesh_of_file(target), fallback_positions(file, source, target)), faces,
+    return {image_positions(map, file_as_read(target), fallback_positions(file, source, target)), faces,
             target.input.space};
 }
 
 PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup& polygons,
                                     const PointMap& map, const Surface& source, const Surface& target) {
-    if (triangulated(polygons) != mesh_of_file(source).faces)
+    if (triangulated(polygons) != file_as_read(source).faces)
         throw InputError("the polygons are not those of the mesh that the surface was made from");
     PolygonSoup result;
     result.space = moved.space;

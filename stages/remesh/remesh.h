@@ -9,8 +9,8 @@
 
 namespace varimap {
 
-/// The surface's mesh file, its faces as the file has them.
-TriangleMesh mesh_of_file(const Surface& surface);
+/// The surface's mesh file, its faces as the file has them; those of `file_of` (surface.h) may be mirrored.
+TriangleMesh file_as_read(const Surface& surface);
 
 /// The source's file (faces reversed if one of the two is mirrored, so that they show their outside) with its
 /// vertices moved to their images, in the coordinates of the target's file. Vertices without an image keep

@@ -5,7 +5,6 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/topology.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
@@ -26,13 +25,8 @@ PointPairs read_landmarks_on(const std::vector<std::string>& files, const Repair
     if (files.empty()) return {};
     const Landmarks landmarks = read_landmarks(files, file_of(A), file_of(B), space);
     PointMap on_A, on_B;
-    for (std::size_t i = 0; i < landmarks.vertices.size(); ++i) {
-        const auto& [a, b] = landmarks.vertices[i];
-        on_A.push_back(landmarks.points.empty() ? point_at_vertex(file_of(A), a.index)
-                                                : landmarks.points[i].first);
-        on_B.push_back(landmarks.points.empty() ? point_at_vertex(file_of(B), b.index)
-                                                : landmarks.points[i].second);
-    }
+    for (const auto& [a, b] : as_points(landmarks, file_of(A), file_of(B)))
+        on_A.push_back(a), on_B.push_back(b);
     on_A = from_file(on_A, {}, A.link), on_B = from_file(on_B, {}, B.link);
     PointPairs pairs;
     for (std::size_t i = 0; i < on_A.size(); ++i)

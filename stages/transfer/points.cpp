@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "stages/transfer/point_files.h"
@@ -20,27 +18,19 @@ namespace varimap {
 
 namespace {
 
-/// Most positions far from the surface: they are not those of this mesh.
-void refuse_far(const Snapped& snapped, const std::vector<Vec3>& positions, const std::string& path,
-                const TriangleMesh& mesh) {
-    const auto far = std::count_if(snapped.distances.begin(), snapped.distances.end(),
-                                   [](double distance) { return distance > far_from_surface; });
-    if (2 * std::size_t(far) > positions.size())
-        throw InputError(
-            fmt::format("{}: {} of {} points lie farther than {} from the surface, in units of "
-                        "sqrt(area); {}",
-                        path, far, positions.size(), far_from_surface, likely_cause(positions, mesh)));
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        if (snapped.distances[i] > far_from_surface)
+void warn_of_far_points(const std::vector<double>& distances, const std::string& path) {
+    for (std::size_t i = 0; i < distances.size(); ++i)
+        if (distances[i] > far_from_surface)
             warn("{}: point {} (from 1) lies {:.3g} from the surface, in units of sqrt(area)", path, i + 1,
-                 snapped.distances[i]);
+                 distances[i]);
 }
 
 /// Positions in the axes of `from`, carried, in the axes of `to`; nothing where there is no image.
 std::vector<std::optional<Vec3>> carried(const std::vector<Vec3>& positions, const std::string& path,
                                          const Correspondence& map, const PointCarrier& there) {
     const Snapped snapped = snap(positions, map.from);
-    refuse_far(snapped, positions, path, map.from);
+    require_near(snapped, positions, map.from, path, "points");
+    warn_of_far_points(snapped.distances, path);
     std::vector<std::optional<Vec3>> result;
     for (const SurfacePoint& point : snapped.points) {
         const SurfacePoint image = there(point);

@@ -1,6 +1,6 @@
 #include "stages/transfer/shape.h"
 
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,10 +1,12 @@
 #include "stages/transfer/text_rows.h"
 
 #include <algorithm>
-#include <cctype>
+#include <optional>
 
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/lower_case.h"
+#include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
@@ -55,26 +57,15 @@ class LineSplitter {
   private:
     /// Up to the separator, which stays.
     std::string take_word(char separator) {
-        const bool quoted = rest_.starts_with('"');
-        std::string word = quoted ? take_quoted() : "";
+        const bool is_quoted = rest_.starts_with('"');
+        const std::optional<std::string> word = is_quoted ? take_quoted(rest_) : "";
+        if (!word) fail("a quote is not closed");
         const std::string_view ends = separator == ' ' ? blanks : std::string_view(&separator, 1);
         const std::size_t end = std::min(rest_.find_first_of(ends), rest_.size());
         const std::string_view plain = trimmed(rest_.substr(0, end), separator);
-        if (quoted && !plain.empty()) fail("text stands behind a quote");
+        if (is_quoted && !plain.empty()) fail("text stands behind a quote");
         rest_.remove_prefix(end);
-        return quoted ? word : std::string(plain);
-    }
-    std::string take_quoted() {
-        std::string word;
-        do {
-            rest_.remove_prefix(1);
-            const std::size_t end = rest_.find('"');
-            if (end == rest_.npos) fail("a quote is not closed");
-            word += rest_.substr(0, end + 1);
-            rest_.remove_prefix(end + 1);
-        } while (rest_.starts_with('"'));
-        word.pop_back();
-        return word;
+        return is_quoted ? *word : std::string(plain);
     }
     [[noreturn]] void fail(const std::string& what) const {
         fail_at(path_, number_, what + "; put the word in quotes, and double those within it");
@@ -118,9 +109,7 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
 }
 
 bool is_index_name(std::string_view name) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = lower_case(name);
     return lower == "vertex" || lower == "face" || lower == "index" || lower == "id" || lower.empty();
 }
 

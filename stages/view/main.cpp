@@ -6,7 +6,6 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
-#include "varimap/mesh/topology.h"
 #include "varimap/results/candidates.h"
 #include "varimap/stage/stage_main.h"
 
@@ -28,15 +27,8 @@ std::vector<std::string> names_of(const std::string& file, std::size_t count) {
 
 NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const Correspondence& map,
                                     LandmarkSpace space) {
-    NamedLandmarks result;
-    const Landmarks landmarks = read_landmarks(files, map.from, map.to, space);
-    result.points = landmarks.points;
-    if (result.points.empty())
-        for (const auto& [source, target] : landmarks.vertices)
-            result.points.emplace_back(point_at_vertex(map.from, source.index),
-                                       point_at_vertex(map.to, target.index));
-    result.names = names_of(files[0], result.points.size());
-    return result;
+    const PointPairs points = as_points(read_landmarks(files, map.from, map.to, space), map.from, map.to);
+    return {points, names_of(files[0], points.size())};
 }
 
 /// Landmarks that went into the map, with their names; none where their files have changed beyond use.

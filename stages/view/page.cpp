@@ -1,6 +1,5 @@
 #include "stages/view/page.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

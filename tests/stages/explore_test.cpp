@@ -13,7 +13,9 @@
 #include "fixtures/surface_data.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/appraisal.h"
+#include "stages/explore/finishing.h"
 #include "stages/explore/pool.h"
+#include "stages/explore/self_maps.h"
 #include "stages/explore/starts.h"
 #include "stages/explore/tips.h"
 #include "stages/generate/level_set.h"
@@ -210,7 +212,8 @@ TEST(Explore, SaysWhichLandmarksAreExchanged) {
     for (std::size_t k = 0; k < 4; ++k)
         exchanged.emplace_back(pair.landmarks[k].first, pair.landmarks[(k + 2) % 4].second);
     ASSERT_EQ(warnings_with(pair, exchanged), 1u);
-    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 1 with 3, 2 with 4 look exchanged"));
+    EXPECT_THAT(logged_warnings().back(),
+                testing::HasSubstr("landmarks 1 with 3 and 2 with 4 look exchanged"));
 }
 
 VertexImages true_images(const KnownPair& pair) {
@@ -272,6 +275,26 @@ TEST(Finishing, DropsWhatIsClearlyWorseButForOneMapThatIsElsewhere) {
     EXPECT_GT(shapes::mean_error(finished[1].maps.A_to_B, B, pair.A_on_B), .3);
     options.gap = options.gap_at_first = 1000;
     EXPECT_EQ(finish_from(context, starts, options).size(), std::size_t(options.most));
+}
+
+TEST(Finishing, MeasuresCuesOfAllStartsEvenOfOne) {
+    const KnownPair& pair = figures();
+    const PairContext context = pair.context();
+    const VertexImages right = true_images(pair);
+    const VertexImages wrong = shifted(right, 300, context.A().surface.mesh, context.B().surface.mesh);
+    const auto start = [](const VertexImages& images) -> MapStart {
+        return [&images](const LevelPair& level) { return matching_of(images, level); };
+    };
+    const Appraisal appraisal(context);
+    const auto cues = [&](const std::vector<MapStart>& starts) {
+        return cues_when_solved(context, appraisal, starts, FinishingOptions());
+    };
+    const std::vector<Cues> alone = cues({start(right)}), both = cues({start(right), start(wrong)});
+    ASSERT_EQ(alone.size(), 1u);
+    ASSERT_EQ(both.size(), 2u);
+    EXPECT_GT(alone[0].alignment, .8);
+    EXPECT_EQ(alone[0].alignment, both[0].alignment);
+    EXPECT_LT(rough_score(both[0]), rough_score(both[1]));
 }
 
 /// The right map but for the limb that ends farthest from the centre, which it mirrors.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -30,6 +31,7 @@ using scenes::raw;
 using scenes::text_fbx;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAreArray;
 using namespace std::string_literals;
 
 ImportedScene import(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
@@ -473,29 +475,59 @@ TEST(Import, KnowsWhatItCanRead) {
     for (const char* name : {"a", "a.", "a.txt", "fbx"}) EXPECT_FALSE(is_importable(name)) << name;
 }
 
+/// A file of one mesh, and what reads it.
+struct SourceFile {
+    std::string bytes;
+    std::vector<PolygonSoup> (*read)(std::string_view);
+};
+
+std::vector<SourceFile> source_files() {
+    return {{binary_fbx(true), fbx_meshes},
+            {binary_fbx(false), fbx_meshes},
+            {text_fbx(), fbx_meshes},
+            {collada(), collada_meshes}};
+}
+
+/// Whether a spoiled file gives no more meshes and polygons than the whole one, and corners at points that
+/// are there.
+bool are_sound(const std::vector<PolygonSoup>& meshes, const std::vector<PolygonSoup>& of_whole) {
+    if (meshes.size() > of_whole.size()) return false;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const auto points = static_cast<long long>(meshes[m].points.size());
+        if (meshes[m].ends.size() > of_whole[m].ends.size() ||
+            !std::ranges::all_of(meshes[m].corners, [&](long long v) { return v >= 0 && v < points; }))
+            return false;
+    }
+    return true;
+}
+
+TEST(SourceMeshes, AreReadFromEachFormat) {
+    for (const auto& [bytes, read] : source_files()) {
+        const std::vector<PolygonSoup> meshes = read(bytes);
+        ASSERT_EQ(meshes.size(), 1u);
+        EXPECT_EQ(meshes[0].points.size(), points.size() / 3);
+        EXPECT_THAT(polygons_of(meshes[0]), UnorderedElementsAreArray(polygons));
+    }
+}
+
 TEST(SourceMeshes, EndWhereTheFileIsCutShort) {
-    for (const std::string& whole_file : {binary_fbx(true), binary_fbx(false)})
-        for (std::size_t size = 0; size <= whole_file.size(); ++size)
-            for (const PolygonSoup& soup : fbx_meshes(std::string_view(whole_file).substr(0, size)))
-                for (const long long v : soup.corners)
-                    ASSERT_LT(v, static_cast<long long>(soup.points.size()));
-    const std::string text = collada();
-    for (std::size_t size = 0; size <= text.size(); ++size)
-        for (const PolygonSoup& soup : collada_meshes(std::string_view(text).substr(0, size)))
-            for (const long long v : soup.corners) ASSERT_LT(v, static_cast<long long>(soup.points.size()));
+    for (const auto& [bytes, read] : source_files()) {
+        const std::vector<PolygonSoup> whole = read(bytes);
+        for (std::size_t size = 0; size <= bytes.size(); ++size)
+            ASSERT_TRUE(are_sound(read(std::string_view(bytes).substr(0, size)), whole)) << size;
+    }
 }
 
 TEST(SourceMeshes, EndWhereTheFileIsDamaged) {
-    const std::string fbx = binary_fbx(true), dae = collada();
-    for (std::size_t at = 0; at < std::max(fbx.size(), dae.size()); ++at)
-        for (const char byte : {'\0', '\xff', '9'}) {
-            std::string bytes = fbx;
-            if (at < bytes.size()) bytes[at] = byte;
-            fbx_meshes(bytes);
-            bytes = dae;
-            if (at < bytes.size()) bytes[at] = byte;
-            collada_meshes(bytes);
-        }
+    for (const auto& [bytes, read] : source_files()) {
+        const std::vector<PolygonSoup> whole = read(bytes);
+        for (std::size_t at = 0; at < bytes.size(); ++at)
+            for (const char byte : {'\0', '\xff', '9'}) {
+                std::string damaged = bytes;
+                damaged[at] = byte;
+                ASSERT_TRUE(are_sound(read(damaged), whole)) << at << ": " << int(byte);
+            }
+    }
 }
 
 std::string message_of(const std::function<std::string()>& task, const Limits& limits) {

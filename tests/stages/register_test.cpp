@@ -6,7 +6,9 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "stages/register/answers.h"
+#include "stages/register/common_part.h"
 #include "stages/register/procrustes.h"
+#include "varimap/core/error.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {
@@ -178,6 +180,21 @@ TEST(TransferredLandmarks, AreTrustedWhereTheWayBackLeadsHome) {
     const TransferredLandmarks absent = transfer_landmarks({identity_answer()}, {{SurfacePoint{}}});
     EXPECT_EQ(absent.confidence[0], 0);
     EXPECT_TRUE(absent.positions.row(0).hasNaN());
+}
+
+TEST(CommonPart, LacksWhatOneSpecimenLacks) {
+    TriangleMesh square;
+    square.vertices = Points{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+    square.faces = Faces{{0, 1, 2}, {0, 2, 3}};
+    Points lacking = square.vertices;
+    lacking.row(1).setConstant(std::nan(""));
+    const CommonPart common = common_part(square, {square.vertices, lacking});
+    EXPECT_THAT(common.vertices, ElementsAre(0, 2, 3));
+    EXPECT_EQ(common.faces, (Faces{{0, 2, 3}}));
+    EXPECT_THAT(common.weights, Each(DoubleNear(1. / 3, 1e-12)));
+    EXPECT_EQ(common.of(lacking).row(2), square.vertices.row(3));
+    lacking.row(3).setConstant(std::nan(""));
+    EXPECT_THROW(common_part(square, {lacking}), InputError);
 }
 
 }  // namespace

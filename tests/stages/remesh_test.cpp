@@ -10,6 +10,7 @@
 
 #include "fixtures/sphere_pair.h"
 #include "stages/remesh/quality_json.h"
+#include "stages/remesh/warnings.h"
 #include "varimap/core/error.h"
 #include "varimap/core/warnings.h"
 #include "varimap/quality/quality.h"
@@ -255,6 +256,53 @@ TEST_F(Remesh, FewLandmarksThatAreOffAreNoShift) {
     EXPECT_EQ(warnings("around landmark 2 the map is elsewhere: it is met alone").size(), 1u);
 }
 
+/// One landmark missed, a choice that is sure no more, and a tear in either direction.
+MapQuality doubtful_quality() {
+    MapQuality quality;
+    quality.A_to_B.coverage.share = quality.B_to_A.coverage.share = 1;
+    quality.A_to_B.verification.reversed_area_percent = 5;
+    quality.B_to_A.coverage.share = .5;
+    quality.in_the_end.dirichlet = 2;
+    quality.landmarks = {{.5}, {LandmarkSurroundings{}}, {}};
+    quality.choice = ChoiceQuality{{.confident = true}, {.confident = false}, "finished, it is strained"};
+    quality.median_thinness_A = quality.median_thinness_B = .5;
+    return quality;
+}
+
+std::vector<std::string> said_of(const MapQuality& quality, const PairRecord& record) {
+    const std::size_t before = logged_warnings().size();
+    warn_of(quality, record);
+    const std::vector<std::string> all = logged_warnings();
+    return {all.begin() + std::ptrdiff_t(before), all.end()};
+}
+
+TEST(RemeshWarnings, AreOfLandmarksThenOfTheChoiceThenOfTears) {
+    PairRecord record;
+    record.candidates.resize(2);
+    const auto said = said_of(doubtful_quality(), record);
+    ASSERT_EQ(said.size(), 4u);
+    EXPECT_NE(said[0].find("landmark 1 is not met"), std::string::npos);
+    EXPECT_NE(said[1].find("less sure than its candidate was (finished, it is strained): look at the "
+                           "picture, try --candidate 2, or give landmarks"),
+              std::string::npos);
+    EXPECT_NE(said[2].find("source to target: the map tears: 5.0% of the area is reversed, 100.0%"),
+              std::string::npos);
+    EXPECT_NE(said[3].find("target to source: the map tears: 0.0% of the area is reversed, 50.0%"),
+              std::string::npos);
+}
+
+TEST(RemeshWarnings, SayStrainWhereNothingTearsAndNothingOfSoftLandmarks) {
+    MapQuality quality = doubtful_quality();
+    quality.choice.reset();
+    quality.A_to_B.verification.reversed_area_percent = 0;
+    quality.B_to_A.coverage.share = 1;
+    PairRecord record;
+    record.landmark_weight = .5;
+    const auto said = said_of(quality, record);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("a Dirichlet energy of 2.00"), std::string::npos);
+}
+
 TEST_F(Remesh, ServesMirroredSurfaces) {
     const TriangleMesh file = pair_.mirror_A();
     const SurfaceMap map = pair_.as_planned();
@@ -280,7 +328,7 @@ PolygonSoup as_polygons(const TriangleMesh& mesh) {
 }
 
 TEST_F(Remesh, KeepsPolygons) {
-    const TriangleMesh file = mesh_of_file(pair_.A);
+    const TriangleMesh file = file_as_read(pair_.A);
     PolygonSoup polygons = as_polygons(file);
     PointMap map = pair_.as_planned().A_to_B;
     const TriangleMesh moved = cross_remesh(map, pair_.A, pair_.B);

@@ -11,20 +11,6 @@ void skip_blanks(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
 }
 
-/// Takes a field in quotes off the line; false where its end is missing.
-bool take_quoted(std::string_view& line, std::string& field) {
-    line.remove_prefix(1);
-    for (;;) {
-        const std::size_t quote = line.find('"');
-        if (quote == line.npos) return false;
-        field += line.substr(0, quote);
-        line.remove_prefix(quote + 1);
-        if (!line.starts_with('"')) return true;
-        field += '"';
-        line.remove_prefix(1);
-    }
-}
-
 std::string take_plain(std::string_view& line) {
     const std::string_view field = line.substr(0, line.find(','));
     line.remove_prefix(field.size());
@@ -33,17 +19,28 @@ std::string take_plain(std::string_view& line) {
 
 }  // namespace
 
+std::optional<std::string> take_quoted(std::string_view& line) {
+    std::string field;
+    line.remove_prefix(1);
+    for (;;) {
+        const std::size_t quote = line.find('"');
+        if (quote == line.npos) return {};
+        field += line.substr(0, quote);
+        line.remove_prefix(quote + 1);
+        if (!line.starts_with('"')) return field;
+        field += '"';
+        line.remove_prefix(1);
+    }
+}
+
 std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
     std::vector<std::string> fields;
     for (;; line.remove_prefix(1)) {
         skip_blanks(line);
-        std::string field;
-        if (!line.starts_with('"'))
-            field = take_plain(line);
-        else if (!take_quoted(line, field))
-            return {};
+        std::optional<std::string> field = line.starts_with('"') ? take_quoted(line) : take_plain(line);
+        if (!field) return {};
         skip_blanks(line);
-        fields.push_back(std::move(field));
+        fields.push_back(std::move(*field));
         if (line.empty()) return fields;
         if (!line.starts_with(',')) return {};
     }

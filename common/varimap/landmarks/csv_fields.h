@@ -7,6 +7,10 @@
 
 namespace varimap {
 
+/// Takes a field in quotes off the front of a line: what is between them, where two quotes stand for one.
+/// None where the closing quote is missing.
+std::optional<std::string> take_quoted(std::string_view& line);
+
 /// What stands between the commas of a line, without blanks around it. As RFC 4180 says, a field in quotes
 /// may hold commas, and quotes as two of them. None where a quote has no end, or more than a comma behind it.
 std::optional<std::vector<std::string>> csv_fields(std::string_view line);

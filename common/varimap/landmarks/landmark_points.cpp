@@ -169,4 +169,16 @@ Snapped snap(const std::vector<Vec3>& positions, const TriangleMesh& mesh) {
     return snapped;
 }
 
+void require_near(const Snapped& snapped, const std::vector<Vec3>& positions, const TriangleMesh& mesh,
+                  const std::string& place, const char* what) {
+    const std::vector<double>& distances = snapped.distances;
+    const auto far = std::ranges::count_if(distances, [](double d) { return d > far_from_surface; });
+    if (2 * std::size_t(far) <= distances.size()) return;
+    throw InputError(
+        fmt::format("{}: {} of {} {} lie farther than {} from the surface, the farthest {:.3g}, in units of "
+                    "sqrt(area); {}",
+                    place, far, distances.size(), what, far_from_surface, std::ranges::max(distances),
+                    likely_cause(positions, mesh)));
+}
+
 }  // namespace varimap

@@ -51,6 +51,11 @@ Snapped snap(const std::vector<Vec3>& positions, const TriangleMesh& mesh);
 /// A point farther than this from its surface, in units of sqrt(area), was not picked on it: it is an edge of
 /// a mesh with 2500 vertices.
 inline constexpr double far_from_surface = .02;
+/// Throws InputError where most of some positions lie so far from the surface they were snapped to: they are
+/// read wrongly, or belong elsewhere. The message begins with `place`, the file or a line of it, and names
+/// the likely cause; `what`: the positions' name in it, "landmarks".
+void require_near(const Snapped& snapped, const std::vector<Vec3>& positions, const TriangleMesh& mesh,
+                  const std::string& place, const char* what);
 /// Why most positions may lie far from a surface, as the end of a message: other axes, other units, or
 /// another mesh.
 std::string likely_cause(const std::vector<Vec3>& positions, const TriangleMesh& mesh);

@@ -3,21 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 
-#include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
-#include "varimap/landmarks/csv_fields.h"
-#include "varimap/landmarks/landmark_points.h"
+#include "varimap/landmarks/list_rows.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
 
@@ -26,12 +21,6 @@ namespace varimap {
 namespace {
 
 constexpr double rounding = 1e-4;  ///< of coordinates in a list, relative to the mesh's bounding box diagonal
-
-struct Row {
-    int line;
-    std::vector<double> numbers;
-    std::string name = {};  ///< of a line with commas, where it holds one
-};
 
 constexpr int no_vertex = -1;  ///< of a point that is not defined
 
@@ -42,90 +31,8 @@ struct Named {
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
 
-bool has_commas(const TextScanner& scanner) {
-    return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
-}
-
-/// What stands between the commas of a line.
-std::vector<std::string> split_at_commas(const TextScanner& scanner) {
-    const auto fields = csv_fields(fmt::format("{}", fmt::join(scanner.words(), " ")));
-    if (!fields)
-        scanner.fail(
-            "a quote has no end before the line or, with #, its comment, or more than a comma behind it");
-    return *fields;
-}
-
-/// Whether a column of that heading names landmarks, though they may be called 1, 2, 3. Tables are often
-/// written with a first column of row numbers that has no heading.
-bool is_heading_of_names(std::string heading) {
-    std::ranges::transform(heading, heading.begin(), [](unsigned char c) { return std::tolower(c); });
-    constexpr std::array headings{"", "name", "label", "id", "landmark", "point"};
-    return std::ranges::find(headings, heading) != headings.end();
-}
-
-std::vector<double> numbers_of(std::span<const std::string> fields, const TextScanner& scanner) {
-    std::vector<double> numbers;
-    for (const std::string& field : fields) {
-        double number;
-        if (!to_number(field, number) || !std::isfinite(number))
-            scanner.fail(fmt::format("'{}' is not a number", excerpt(field)));
-        numbers.push_back(number);
-    }
-    return numbers;
-}
-
-/// A line with commas, whose first or last field may be a name.
-Row row_with_commas(std::span<const std::string> fields, bool first_is_name, const TextScanner& scanner) {
-    Row row{scanner.line(), {}};
-    if (first_is_name || !is_number(fields.front())) {
-        row.name = fields.front();
-        fields = fields.subspan(1);
-    } else if (!is_number(fields.back())) {
-        row.name = fields.back();
-        fields = fields.first(fields.size() - 1);
-    }
-    row.numbers = numbers_of(fields, scanner);
-    return row;
-}
-
-/// The lines that hold something, without the headings of a table.
-std::vector<Row> read_rows(const std::string& path) {
-    const std::string bytes = read_file(path);
-    TextScanner scanner(without_byte_order_mark(bytes, path), path);
-    std::vector<Row> rows;
-    bool first_is_name = false;
-    for (bool first = true; scanner.next_line(); first = false) {
-        if (!has_commas(scanner)) {
-            const std::vector<std::string> words(scanner.words().begin(), scanner.words().end());
-            rows.push_back({scanner.line(), numbers_of(words, scanner)});
-            continue;
-        }
-        const std::vector<std::string> fields = split_at_commas(scanner);
-        if (first && std::ranges::none_of(fields, is_number))
-            first_is_name = is_heading_of_names(fields.front());
-        else
-            rows.push_back(row_with_commas(fields, first_is_name, scanner));
-    }
-    if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
-    return rows;
-}
-
-void require_count(const std::vector<Row>& rows, const std::string& path, size_t count, size_t other_count,
-                   const char* expected) {
-    for (const Row& row : rows)
-        if (row.numbers.size() != count && row.numbers.size() != other_count)
-            fail_at(path, row.line,
-                    fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
-}
-
-/// Lines that each have one of the two counts of numbers.
-std::vector<Row> read_rows(const std::string& path, size_t count, size_t other_count, const char* expected) {
-    auto rows = read_rows(path);
-    require_count(rows, path, count, other_count, expected);
-    return rows;
-}
-
-int to_vertex(const Row& row, size_t column, int first, const std::string& path, const TriangleMesh* mesh) {
+int to_vertex(const ListRow& row, size_t column, int first, const std::string& path,
+              const TriangleMesh* mesh) {
     const double number = row.numbers[column];
     if (number != std::floor(number) || std::abs(number) > 2e9)
         fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
@@ -152,10 +59,10 @@ double coordinate_tolerance(const TriangleMesh& mesh) {
 
 /// Which first number makes more rows' coordinates those of the mesh's vertices; nothing if neither makes
 /// half of them.
-std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const TriangleMesh& mesh) {
+std::optional<int> base_from_coordinates(const std::vector<ListRow>& rows, const TriangleMesh& mesh) {
     const double tolerance = coordinate_tolerance(mesh);
     size_t matches[2] = {0, 0};
-    for (const Row& row : rows) {
+    for (const ListRow& row : rows) {
         if (row.numbers.size() < 4) continue;
         const Vec3 point(row.numbers[1], row.numbers[2], row.numbers[3]);
         for (int base : {0, 1}) {
@@ -170,15 +77,15 @@ std::optional<int> base_from_coordinates(const std::vector<Row>& rows, const Tri
 }
 
 /// Coordinates that are all the same (some programs write zeros) say nothing.
-bool carries_coordinates(const std::vector<Row>& rows) {
-    for (const Row& row : rows)
+bool carries_coordinates(const std::vector<ListRow>& rows) {
+    for (const ListRow& row : rows)
         if (row.numbers.size() == 4 && rows[0].numbers.size() == 4 &&
             !std::equal(row.numbers.begin() + 1, row.numbers.end(), rows[0].numbers.begin() + 1))
             return true;
     return false;
 }
 
-int first_number(const std::vector<Row>& rows, IndexBase base, const TriangleMesh* mesh,
+int first_number(const std::vector<ListRow>& rows, IndexBase base, const TriangleMesh* mesh,
                  const std::string& path) {
     if (base != IndexBase::automatic) return base == IndexBase::one ? 1 : 0;
     const auto found = mesh ? base_from_coordinates(rows, *mesh) : std::nullopt;
@@ -190,42 +97,23 @@ int first_number(const std::vector<Row>& rows, IndexBase base, const TriangleMes
     return 0;
 }
 
-std::vector<Named> read_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
-    const auto rows = read_rows(path, 1, 4, "a vertex number, alone or followed by x y z");
+std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std::string& path, IndexBase base,
+                                    const TriangleMesh* mesh) {
+    require_count(rows, path, {1, 4}, "a vertex number, alone or followed by x y z");
     const int first = first_number(rows, base, mesh, path);
     std::vector<Named> list;
-    for (const Row& row : rows) list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name});
+    for (const ListRow& row : rows)
+        list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name});
     return list;
-}
-
-/// One column (0 source, 1 target) of a file of pairs of vertices.
-std::vector<Named> read_column(const std::string& path, size_t column, const TriangleMesh* mesh) {
-    std::vector<Named> list;
-    for (const Row& row : read_rows(path, 2, 2, "two vertex numbers, of the source and of the target"))
-        list.push_back({row.line, to_vertex(row, column, 0, path, mesh), row.name});
-    return list;
-}
-
-/// Most of a list's points far from the surface: it is read wrongly, or belongs elsewhere.
-void refuse_far_list(const std::vector<Named>& list, const std::vector<Vec3>& positions,
-                     const std::vector<double>& distances, const std::string& path,
-                     const TriangleMesh& mesh) {
-    const auto far = std::count_if(distances.begin(), distances.end(),
-                                   [](double distance) { return distance > far_from_surface; });
-    if (2 * std::size_t(far) <= distances.size()) return;
-    const auto farthest = std::max_element(distances.begin(), distances.end()) - distances.begin();
-    throw InputError(
-        fmt::format("{}:{}: {} of {} landmarks lie farther than {} from the surface, in units of sqrt(area), "
-                    "this one {:.3g}; {}",
-                    path, list[std::size_t(farthest)].line, far, list.size(), far_from_surface,
-                    distances[std::size_t(farthest)], likely_cause(positions, mesh)));
 }
 
 /// Points in the mesh's axes, as the vertices nearest to where they lie on the surface.
 void place(std::vector<Named>& list, const std::vector<Vec3>& positions, const std::string& path,
            const TriangleMesh& mesh) {
     const Snapped snapped = snap(positions, mesh);
-    refuse_far_list(list, positions, snapped.distances, path, mesh);
+    const auto farthest = std::ranges::max_element(snapped.distances) - snapped.distances.begin();
+    require_near(snapped, positions, mesh, fmt::format("{}:{}", path, list[std::size_t(farthest)].line),
+                 "landmarks");
     for (std::size_t i = 0; i < list.size(); ++i) {
         const std::string what = fmt::format("{}:{}: landmark {}", path, list[i].line, excerpt(list[i].name));
         log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, snapped.distances[i],
@@ -258,9 +146,9 @@ std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const st
     return list;
 }
 
-std::vector<PickedPoint> points_of_rows(const std::vector<Row>& rows, size_t first_number) {
+std::vector<PickedPoint> points_of_rows(const std::vector<ListRow>& rows, size_t first_number) {
     std::vector<PickedPoint> points;
-    for (const Row& row : rows) {
+    for (const ListRow& row : rows) {
         const double* x = row.numbers.data() + first_number;
         points.push_back({row.line, row.name, {x[0], x[1], x[2]}});
     }
@@ -270,24 +158,35 @@ std::vector<PickedPoint> points_of_rows(const std::vector<Row>& rows, size_t fir
 /// The list of one side: picked points, rows of coordinates, or vertex numbers.
 std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh, LandmarkSpace space) {
     if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh, space);
-    const auto rows = read_rows(path);
+    const auto rows = read_list_rows(path);
     if (rows[0].numbers.size() == 3) {
-        require_count(rows, path, 3, 3, "the three coordinates of a point, as in the first row");
+        require_count(rows, path, {3}, "the three coordinates of a point, as in the first row");
         return snapped_list(points_of_rows(rows, 0), path, mesh, space);
     }
     const bool may_start_at_1 = has_ending(path, ".vts") || has_ending(path, ".csv");
-    return read_list(path, may_start_at_1 ? IndexBase::automatic : IndexBase::zero, &mesh);
+    return vertices_of_list(rows, path, may_start_at_1 ? IndexBase::automatic : IndexBase::zero, &mesh);
 }
 
-/// One column (0 source, 1 target) of a file of pairs: of vertices, or of points (x y z x y z).
-std::vector<Named> read_pair_side(const std::string& path, size_t column, const TriangleMesh& mesh,
-                                  LandmarkSpace space) {
-    const auto rows = is_picked_points(path) ? std::vector<Row>{} : read_rows(path);
-    if (rows.empty())
+/// The rows of a file of pairs: of vertices, or of points (x y z x y z).
+std::vector<ListRow> read_pair_rows(const std::string& path) {
+    if (is_picked_points(path))
         throw UsageError(path + ": holds the points of one surface; give one such file for each");
-    if (rows[0].numbers.size() != 6) return read_column(path, column, &mesh);
-    require_count(rows, path, 6, 6, "two points, x y z x y z, as in the first row");
-    return snapped_list(points_of_rows(rows, 3 * column), path, mesh, space);
+    auto rows = read_list_rows(path);
+    if (rows[0].numbers.size() == 6)
+        require_count(rows, path, {6}, "two points, x y z x y z, as in the first row");
+    else
+        require_count(rows, path, {2}, "two vertex numbers, of the source and of the target");
+    return rows;
+}
+
+/// One side (0 source, 1 target) of such rows.
+std::vector<Named> side_of_pairs(const std::vector<ListRow>& rows, const std::string& path, size_t side,
+                                 const TriangleMesh& mesh, LandmarkSpace space) {
+    if (rows[0].numbers.size() == 6) return snapped_list(points_of_rows(rows, 3 * side), path, mesh, space);
+    std::vector<Named> list;
+    for (const ListRow& row : rows)
+        list.push_back({row.line, to_vertex(row, side, 0, path, &mesh), row.name});
+    return list;
 }
 
 bool have_distinct_names(const std::vector<Named>& list) {
@@ -375,12 +274,21 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
 
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
     std::vector<int> vertices;
-    for (const Named& named : read_list(path, base, mesh)) vertices.push_back(named.vertex);
+    for (const Named& named : vertices_of_list(read_list_rows(path), path, base, mesh))
+        vertices.push_back(named.vertex);
     return vertices;
 }
 
+PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, const TriangleMesh& target) {
+    if (!landmarks.points.empty()) return landmarks.points;
+    PointPairs points;
+    for (const auto& [a, b] : landmarks.vertices)
+        points.emplace_back(point_at_vertex(source, a.index), point_at_vertex(target, b.index));
+    return points;
+}
+
 bool holds_points(const std::string& path) {
-    return is_picked_points(path) || read_rows(path)[0].numbers.size() == 3;
+    return is_picked_points(path) || read_list_rows(path)[0].numbers.size() == 3;
 }
 
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
@@ -389,11 +297,13 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
         throw UsageError(
             "landmarks: give one file of pairs, or a list for the source and one for the target");
     const TriangleMesh* meshes[] = {&source_input, &target_input};
+    const bool are_pairs = files.size() == 1;
+    const auto pairs = are_pairs ? read_pair_rows(files[0]) : std::vector<ListRow>{};
     std::vector<Named> lists[2];
     for (size_t side : {0, 1}) {
-        const std::string& path = files[files.size() == 1 ? 0 : side];
-        lists[side] = files.size() == 1 ? read_pair_side(path, side, *meshes[side], space)
-                                        : read_side(path, *meshes[side], space);
+        const std::string& path = files[are_pairs ? 0 : side];
+        lists[side] = are_pairs ? side_of_pairs(pairs, path, side, *meshes[side], space)
+                                : read_side(path, *meshes[side], space);
         require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
     }
     Landmarks landmarks;

@@ -28,6 +28,10 @@ struct Landmarks {
     PointPairs points;                  ///< where they are, if a file holds points; else empty
 };
 
+/// Where landmarks are on the meshes that they were read for, row by row: their points, or else those at
+/// their vertices (face -1 at one that no face uses).
+PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, const TriangleMesh& target);
+
 /// Landmarks from one file of pairs, or from two lists matched row by row (in
 /// a .vts or .csv, coordinates decide whether numbers start at 0; in any other list they do). Instead of
 /// vertices a file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of

@@ -1,7 +1,5 @@
 #include "varimap/mesh/closest_point.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "varimap/core/error.h"
+#include "varimap/mesh/private/embree_scene.h"
 
 namespace varimap {
 namespace {
@@ -73,7 +71,8 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }
 
 /// Faces along a Morton curve, so that those beside each other in space are so in memory.
-std::vector<int> along_a_curve(const TriangleMesh& mesh, const Vec3& low, double scale) {
+std::vector<int> along_a_curve(const TriangleMesh& mesh, double scale) {
+    const Vec3 low = bounding_box(mesh).low;
     std::vector<std::pair<std::uint64_t, int>> keys(std::size_t(mesh.face_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         const Vec3 middle =
@@ -112,47 +111,47 @@ TriangleMesh in_order(const TriangleMesh& mesh, const std::vector<int>& order) {
 }  // namespace
 
 struct ClosestPoint::State {
-    TriangleMesh mesh;                ///< its faces along a curve
-    std::vector<int> given, present;  ///< per face the number it was given with; and the other way
-    Vec3 centre = Vec3::Zero();
-    double scale = 1;  ///< Embree sees (x - centre) * scale, within the unit cube, in single precision
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
+    explicit State(const TriangleMesh& whole);
 
-    ~State() {
-        if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
-    }
-    void build(const TriangleMesh& whole);
+    Vec3 centre;
+    double scale;              ///< Embree sees (x - centre) * scale, within the unit cube
+    std::vector<int> given;    ///< per face the number it was given with
+    TriangleMesh mesh;         ///< its faces along a curve
+    std::vector<int> present;  ///< the other way: per face as given
+    EmbreeScene scene;
+
     Hit search(const Vec3& query, const Vec3* normal, int guess = -1) const;
 };
 
-void ClosestPoint::State::build(const TriangleMesh& whole) {
-    const auto [low, high] = bounding_box(whole);
-    centre = 0.5 * (low + high);
+namespace {
+
+/// The factor that makes the longest side of a mesh's box 1.
+double to_unit_size(const TriangleMesh& mesh) {
+    const auto [low, high] = bounding_box(mesh);
     const double extent = (high - low).maxCoeff();
-    if (extent > 0) scale = 1 / extent;
-    given = along_a_curve(whole, low, scale);
-    mesh = in_order(whole, given);
-    present.resize(given.size());
-    for (std::size_t f = 0; f < given.size(); ++f) present[std::size_t(given[f])] = int(f);
-    device = rtcNewDevice(nullptr);
-    if (!device) throw Error(ExitCode::internal, "Embree cannot start on this processor");
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertex_count()));
-    auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.face_count()));
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-        for (int i = 0; i < 3; ++i) vertices[3 * v + i] = float((mesh.vertices(v, i) - centre[i]) * scale);
-    std::copy(mesh.faces.data(), mesh.faces.data() + mesh.faces.size(), faces);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
+    return extent > 0 ? 1 / extent : 1;
 }
+
+Vec3 centre_of_box(const TriangleMesh& mesh) {
+    const auto [low, high] = bounding_box(mesh);
+    return 0.5 * (low + high);
+}
+
+std::vector<int> inverse(const std::vector<int>& permutation) {
+    std::vector<int> result(permutation.size());
+    for (std::size_t i = 0; i < permutation.size(); ++i) result[std::size_t(permutation[i])] = int(i);
+    return result;
+}
+
+}  // namespace
+
+ClosestPoint::State::State(const TriangleMesh& whole)
+    : centre(centre_of_box(whole)),
+      scale(to_unit_size(whole)),
+      given(along_a_curve(whole, scale)),
+      mesh(in_order(whole, given)),
+      present(inverse(given)),
+      scene(mesh, centre, scale) {}
 
 namespace {
 
@@ -230,13 +229,11 @@ ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* nor
     Search search{mesh, given, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};
     if (guess >= 0) offer(search, present[std::size_t(guess)]);
     RTCPointQuery ball{float(local[0]), float(local[1]), float(local[2]), 0, radius(search)};
-    rtcPointQuery(scene, &ball, &context, visit, &search);
+    rtcPointQuery(scene.get(), &ball, &context, visit, &search);
     return search.best;
 }
 
-ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<State>()) {
-    state_->build(mesh);
-}
+ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<State>(mesh)) {}
 ClosestPoint::~ClosestPoint() = default;
 ClosestPoint::ClosestPoint(ClosestPoint&&) noexcept = default;
 

@@ -1,6 +1,5 @@
 #include "varimap/mesh/coarsening.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -146,9 +146,9 @@ std::pair<double, int> GeodesicBall::pop() {
 RowMatrix distances_from_each(const GeodesicGraph& graph, const std::vector<int>& sources) {
     RowMatrix result = RowMatrix::Constant(Eigen::Index(sources.size()), graph.vertex_count(),
                                            std::numeric_limits<double>::infinity());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sources.size(), 8), [&](const auto& range) {
+    parallel_for_each_range(sources.size(), 8, [&](std::size_t begin, std::size_t end) {
         GeodesicBall ball(graph);
-        for (std::size_t k = range.begin(); k < range.end(); ++k)
+        for (std::size_t k = begin; k < end; ++k)
             ball.grow(sources[k], [&](int v, double d) { return result(Eigen::Index(k), v) = d, true; });
     });
     return result;

@@ -6,6 +6,7 @@
 
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/private/disjoint_sets.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -80,32 +81,23 @@ void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edge
         path, defect.count, a, b));
 }
 
-/// How many of the faces around v hang together with the first over edges at v. No edge has more than two
-/// faces.
-std::size_t faces_of_fan(const TriangleMesh& mesh, const Edges& edges, std::span<const int> faces, int v) {
-    const auto corner = [&](int f) { return mesh.faces(f, 0) == v ? 0 : mesh.faces(f, 1) == v ? 1 : 2; };
-    std::size_t count = 1;
-    // The two sides of a face at v: that which begins there, and that which ends there.
-    for (const int first : {0, 2}) {
-        int side = 3 * faces[0] + (corner(faces[0]) + first) % 3;
-        while (true) {
-            const auto sides = edges.sides[edges.of_side[std::size_t(side)]];
-            if (sides.size() < 2) break;
-            const int beyond = sides[0] == side ? sides[1] : sides[0], f = beyond / 3;
-            if (f == faces[0]) return count;  // all the way round
-            ++count;
-            const int at = 3 * f + corner(f);
-            side = beyond == at ? 3 * f + (at + 2) % 3 : at;
-        }
-    }
-    return count;
-}
-
+/// The faces around a vertex are one fan where its corners hang together over the edges at it. Edges have one
+/// or two sides, and those run in opposite directions.
 void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
-    const Adjacency faces = vertex_faces(mesh);
+    const auto next = [](int corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+    DisjointSets fans(3 * mesh.face_count());
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto sides = edges.sides[e];
+        if (sides.size() < 2) continue;
+        fans.join(sides[0], next(sides[1]));
+        fans.join(next(sides[0]), sides[1]);
+    }
+    VertexData<int> fans_at(mesh.vertex_count(), 0);
+    for (int c = 0; c < 3 * mesh.face_count(); ++c)
+        if (fans.lowest(c) == c) ++fans_at[mesh.faces(c / 3, c % 3)];
     Defect defect;
     for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (faces[v].size() > 1 && faces_of_fan(mesh, edges, faces[v], v) < faces[v].size()) defect.add(v);
+        if (fans_at[v] > 1) defect.add(v);
     if (defect.count > 0)
         throw InputError(
             fmt::format("{}: at {} vertices the faces form more than one fan, the first is vertex {}; "

@@ -1,44 +1,10 @@
 #include "varimap/mesh/ray_mesh.h"
 
-#include <embree3/rtcore.h>
-
-#include <algorithm>
 #include <limits>
 
-#include "varimap/core/error.h"
+#include "varimap/mesh/private/embree_scene.h"
 
 namespace varimap {
-
-struct RayMesh::State {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-
-    ~State() {
-        if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
-    }
-    void build(const TriangleMesh& mesh);
-};
-
-void RayMesh::State::build(const TriangleMesh& mesh) {
-    device = rtcNewDevice(nullptr);
-    if (!device) throw Error(ExitCode::internal, "Embree cannot start on this processor");
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no gaps along edges
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices =
-        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                    3 * sizeof(float), size_t(mesh.vertex_count())));
-    auto* faces =
-        static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                       3 * sizeof(unsigned), size_t(mesh.face_count())));
-    for (Eigen::Index i = 0; i < mesh.vertices.size(); ++i) vertices[i] = float(mesh.vertices.data()[i]);
-    std::copy(mesh.faces.data(), mesh.faces.data() + mesh.faces.size(), faces);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-}
 
 namespace {
 
@@ -53,9 +19,8 @@ RTCRay make_ray(const Vec3& origin, const Vec3& direction, double reach) {
 
 }  // namespace
 
-RayMesh::RayMesh(const TriangleMesh& mesh) : state_(std::make_unique<State>()) {
-    state_->build(mesh);
-}
+RayMesh::RayMesh(const TriangleMesh& mesh)
+    : scene_(std::make_unique<const EmbreeScene>(mesh, Vec3::Zero(), 1)) {}
 RayMesh::~RayMesh() = default;
 RayMesh::RayMesh(RayMesh&&) noexcept = default;
 
@@ -65,7 +30,7 @@ SurfacePoint RayMesh::first_hit(const Vec3& origin, const Vec3& direction) const
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRayHit hit{make_ray(origin, direction, std::numeric_limits<float>::infinity()), {}};
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(state_->scene, &context, &hit);
+    rtcIntersect1(scene_->get(), &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     const double u = hit.hit.u, v = hit.hit.v;
     return {int(hit.hit.primID), Vec3(1 - u - v, u, v)};
@@ -75,7 +40,7 @@ bool RayMesh::is_blocked(const Vec3& origin, const Vec3& direction, double reach
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay ray = make_ray(origin, direction, reach);
-    rtcOccluded1(state_->scene, &context, &ray);
+    rtcOccluded1(scene_->get(), &context, &ray);
     return ray.tfar < 0;
 }
 

@@ -6,6 +6,8 @@
 
 namespace varimap {
 
+class EmbreeScene;
+
 /// A mesh to be hit by rays (Embree, single precision; coordinates should be of order 1). Thread-safe once
 /// built.
 class RayMesh {
@@ -20,8 +22,7 @@ class RayMesh {
     bool is_blocked(const Vec3& origin, const Vec3& direction, double reach) const;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<const EmbreeScene> scene_;
 };
 
 }  // namespace varimap

@@ -27,6 +27,10 @@ void serialize(Archive& archive, Surface& surface) {
 
 namespace {
 
+void swap_last_corners(Faces& faces) {
+    faces.col(1).swap(faces.col(2));
+}
+
 void swap_last_corners(PointMap& points) {
     for (SurfacePoint& point : points) std::swap(point.barycentric[1], point.barycentric[2]);
 }
@@ -43,19 +47,23 @@ void decode(const std::string& payload, Surface& surface) {
 }
 
 Surface with_reversed_orientation(Surface surface) {
-    surface.mesh.faces.col(1).swap(surface.mesh.faces.col(2));
-    surface.input.faces.col(1).swap(surface.input.faces.col(2));
+    swap_last_corners(surface.mesh.faces);
+    swap_last_corners(surface.input.faces);
     swap_last_corners(surface.on_input);
     swap_last_corners(surface.on_mesh);
     surface.mirrored = !surface.mirrored;
     return surface;
 }
 
+TriangleMesh input_as_read(const Surface& surface) {
+    TriangleMesh mesh = surface.input;
+    if (surface.mirrored) swap_last_corners(mesh.faces);
+    return mesh;
+}
+
 PointMap to_file(PointMap map, const Surface& source, const Surface& target) {
     if (target.mirrored) swap_last_corners(map);
-    if (target.link.is_identity()) return to_file(map, source.link, target.link, target.input);
-    const TriangleMesh plain = target.mirrored ? with_reversed_orientation(target).input : target.input;
-    return to_file(map, source.link, target.link, plain);
+    return to_file(map, source.link, target.link, input_as_read(target));
 }
 
 PointMap from_file(const PointMap& map, const Surface& source, const Surface& target) {

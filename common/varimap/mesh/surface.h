@@ -42,6 +42,8 @@ void decode(const std::string& payload, Surface& surface);
 /// The surface with the opposite orientation: faces with their last two corners exchanged, `mirrored`
 /// toggled. A map from it that preserves orientation reverses that of the original.
 Surface with_reversed_orientation(Surface surface);
+/// `surface.input` in the orientation of its file, whether the surface is mirrored or not.
+TriangleMesh input_as_read(const Surface& surface);
 /// A map from `source.input` to `target.input` as one between their files (file_link.h), and back. Where a
 /// surface is mirrored, the last two corners of its file's faces are exchanged.
 PointMap to_file(PointMap map, const Surface& source, const Surface& target);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "varimap/core/index_set.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/private/disjoint_sets.h"
 
 namespace varimap {
@@ -163,22 +164,18 @@ std::vector<int> vertex_components(const TriangleMesh& mesh) {
 
 TopologySummary summarise_topology(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
-    DisjointSets loops(mesh.vertex_count()), components(mesh.vertex_count());
-    std::vector<char> used(mesh.vertex_count(), 0), on_boundary(mesh.vertex_count(), 0);
-    for (int e = 0; e < edges.size(); ++e) {
-        const auto [a, b] = edges.vertices[e];
+    DisjointSets components(mesh.vertex_count());
+    std::vector<char> used(mesh.vertex_count(), 0);
+    for (const auto& [a, b] : edges.vertices) {
         used[a] = used[b] = 1;
         components.join(a, b);
-        if (edges.sides[e].size() > 1) continue;
-        on_boundary[a] = on_boundary[b] = 1;
-        loops.join(a, b);
     }
     TopologySummary summary;
+    summary.boundary_loops = find_boundary(mesh, edges).loops;
     int component_count = 0;
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         summary.used_vertices += used[v];
         component_count += used[v] && components.lowest(v) == v;
-        summary.boundary_loops += on_boundary[v] && loops.lowest(v) == v;
     }
     const int euler = summary.used_vertices - edges.size() + mesh.face_count();
     summary.genus = (2 * component_count - summary.boundary_loops - euler) / 2;
@@ -186,17 +183,8 @@ TopologySummary summarise_topology(const TriangleMesh& mesh) {
 }
 
 double longest_boundary(const TriangleMesh& mesh) {
-    const Edges edges = find_edges(mesh);
-    DisjointSets loops(mesh.vertex_count());
-    for (int e = 0; e < edges.size(); ++e)
-        if (edges.sides[e].size() == 1) loops.join(edges.vertices[e][0], edges.vertices[e][1]);
-    std::vector<double> length(mesh.vertex_count(), 0);
-    for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() > 1) continue;
-        const auto [a, b] = edges.vertices[e];
-        length[loops.lowest(a)] += (mesh.vertex(a) - mesh.vertex(b)).norm();
-    }
-    return *std::max_element(length.begin(), length.end());
+    const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));
+    return lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
 }
 
 bool is_closed(const TriangleMesh& mesh) {

@@ -65,4 +65,9 @@ void add_landmark_term(LevelPair& pair, const PairContext& context, double weigh
     append_means(pair.B, nearness(context.graph_B(), context.landmarks_B()), scale);
 }
 
+void add_descriptor_terms(LevelPair& pair, const PairContext& context, const DescriptorWeights& weights) {
+    add_shape_term(pair, context, weights.shape);
+    add_landmark_term(pair, context, weights.vicinity);
+}
+
 }  // namespace varimap

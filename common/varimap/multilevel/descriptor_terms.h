@@ -24,4 +24,12 @@ void add_shape_term(LevelPair& pair, const PairContext& context, double weight);
 /// other species; errors stay the same in the mean. Between surfaces.
 void add_landmark_term(LevelPair& pair, const PairContext& context, double weight);
 
+/// How much the descriptors of shape and of nearness to landmarks count beside Eq. (3).
+struct DescriptorWeights {
+    double shape = .25;   ///< of add_shape_term; at .5 the map of a bust onto another was lost
+    double vicinity = 0;  ///< of add_landmark_term
+};
+/// Adds these two terms, in this order.
+void add_descriptor_terms(LevelPair& pair, const PairContext& context, const DescriptorWeights& weights);
+
 }  // namespace varimap

@@ -1,6 +1,6 @@
 #include "varimap/multilevel/orientation.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include "varimap/core/parallel.h"
 

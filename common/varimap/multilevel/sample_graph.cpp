@@ -1,10 +1,11 @@
 #include "varimap/multilevel/sample_graph.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <set>
+
+#include "varimap/core/parallel.h"
 
 namespace varimap {
 
@@ -52,9 +53,9 @@ Edges edge_to_own_sample(int vertex, const Level& level, GeodesicBall& ball) {
 GeodesicGraph sample_graph(const Level& level, const GeodesicGraph& graph) {
     const auto adjacent = adjacent_samples(level, graph);
     std::vector<Edges> edges(graph.vertex_count());
-    tbb::parallel_for(tbb::blocked_range<int>(0, graph.vertex_count(), 256), [&](const auto& range) {
+    parallel_for_each_range(edges.size(), 256, [&](std::size_t begin, std::size_t end) {
         GeodesicBall ball(graph);
-        for (int v = range.begin(); v < range.end(); ++v) {
+        for (int v = int(begin); v < int(end); ++v) {
             const int k = level.cell[v];
             edges[v] = level.samples[k] == v ? edges_of_sample(k, adjacent[k], level, ball)
                                              : edge_to_own_sample(v, level, ball);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "varimap/landmarks/landmark_points.h"
+#include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/stage/parameters.h"
 #include "varimap/transport/alternating_minimization.h"
@@ -54,6 +55,14 @@ inline void describe(ParameterList& list, IroningOptions& o) {
              0.0, 1.0);
     list.add("reflection_mass", o.reflected_mass,
              "a map that reverses more than this share of the mass is reflected", 0.0, 1.0);
+}
+
+inline void describe(ParameterList& list, DescriptorWeights& weights) {
+    list.add("shape_weight", weights.shape,
+             "how strongly places of like bending and shape diameter attract each other (0: not at all)", 0.0,
+             100.0);
+    list.add("vicinity_weight", weights.vicinity,
+             "how strongly landmarks hold the places around them, too (0: only themselves)", 0.0, 1000.0);
 }
 
 inline void describe(ParameterList& list, LandmarkSpace& space) {

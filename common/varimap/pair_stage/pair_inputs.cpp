@@ -204,13 +204,8 @@ PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const S
     const auto is_exact = [&](const auto& pair) {
         return is_at_vertex(A, pair.first) && is_at_vertex(B, pair.second);
     };
-    if (!landmarks.points.empty() ||
-        std::all_of(landmarks.vertices.begin(), landmarks.vertices.end(), is_exact))
-        return landmarks.points;
-    PointPairs points;
-    for (const auto& [a, b] : landmarks.vertices)
-        points.emplace_back(point_at_vertex(A.input, a.index), point_at_vertex(B.input, b.index));
-    return points;
+    if (landmarks.points.empty() && std::ranges::all_of(landmarks.vertices, is_exact)) return {};
+    return as_points(landmarks, A.input, B.input);
 }
 
 Correspondences correspondences_of(const PointMap& map, const Surface& A, const Surface& B) {
@@ -238,6 +233,12 @@ PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVer
         move_vertices(B, vertices_B, points_B);
     }
     return {std::move(A), std::move(B), landmarks, landmark_weight};
+}
+
+PairContext pair_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight) {
+    const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
+    const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
+    return pair_context(std::move(A), std::move(B), vertices, points, landmark_weight);
 }
 
 }  // namespace varimap

@@ -67,5 +67,7 @@ Correspondences correspondences_of(const PointMap& map, const Surface& A, const 
 /// them take their places, in space and in the eigenbasis.
 PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVertex>& landmarks,
                          const PointPairs& points, double landmark_weight);
+/// The same with landmarks of the inputs; throws as to_mesh_vertices.
+PairContext pair_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight);
 
 }  // namespace varimap

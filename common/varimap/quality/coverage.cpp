@@ -104,10 +104,10 @@ Coverage measure_coverage(const PointMap& map, const TriangleMesh& source, const
     std::vector<char> uncovered(std::size_t(target.face_count()), 1);
     if (image.face_count() > 0) {
         const ClosestPoint on_image(image), on_target(images.target);
-        tbb::parallel_for(tbb::blocked_range<int>(0, target.face_count(), 64), [&](const auto& range) {
+        parallel_for_each_range(uncovered.size(), 64, [&](std::size_t begin, std::size_t end) {
             int guess = -1;
-            for (int f = range.begin(); f < range.end(); ++f)
-                uncovered[std::size_t(f)] = !is_hit(f, images.target, image, on_image, on_target, guess);
+            for (std::size_t f = begin; f < end; ++f)
+                uncovered[f] = !is_hit(int(f), images.target, image, on_image, on_target, guess);
         });
     }
     double hit_area = 0, area = 0;

@@ -52,27 +52,6 @@ TriangleDistortion measure_triangle(const ImageMesh& images, int f) {
     return result;
 }
 
-Distortion summarise(const FaceData<TriangleDistortion>& triangles) {
-    Distortion total;
-    std::vector<double> areas, ratios, conformals;
-    double area = 0, flipped_area = 0;
-    for (const auto& triangle : triangles) {
-        if (triangle.area == 0) continue;
-        areas.push_back(triangle.area);
-        ratios.push_back(triangle.area_ratio);
-        conformals.push_back(triangle.conformal);
-        area += triangle.area;
-        if (triangle.flipped) flipped_area += triangle.area;
-        total.flipped_count += triangle.flipped;
-        total.collapsed_count += triangle.collapsed;
-        total.dirichlet_energy += triangle.area * triangle.squared_norm / 2;
-    }
-    total.flipped_area_percent = area > 0 ? 100 * flipped_area / area : 0;
-    total.area_ratio = weighted_quantiles(ratios, areas);
-    total.conformal_distortion = weighted_quantiles(conformals, areas);
-    return total;
-}
-
 /// Values in ascending order with the weight up to and including each.
 std::vector<std::pair<double, double>> cumulated(const std::vector<double>& values,
                                                  const std::vector<double>& weights) {
@@ -114,13 +93,38 @@ FaceData<TriangleDistortion> measure_triangles(const PointMap& map, const Triang
     return triangles;
 }
 
+Distortion measure_distortion(const FaceData<TriangleDistortion>& triangles) {
+    Distortion total;
+    std::vector<double> areas, ratios, conformals;
+    double area = 0, flipped_area = 0;
+    for (const auto& triangle : triangles) {
+        if (triangle.area == 0) continue;
+        areas.push_back(triangle.area);
+        ratios.push_back(triangle.area_ratio);
+        conformals.push_back(triangle.conformal);
+        area += triangle.area;
+        if (triangle.flipped) flipped_area += triangle.area;
+        total.flipped_count += triangle.flipped;
+        total.collapsed_count += triangle.collapsed;
+        total.dirichlet_energy += triangle.area * triangle.squared_norm / 2;
+    }
+    total.flipped_area_percent = area > 0 ? 100 * flipped_area / area : 0;
+    total.area_ratio = weighted_quantiles(ratios, areas);
+    total.conformal_distortion = weighted_quantiles(conformals, areas);
+    return total;
+}
+
 Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
-    return summarise(measure_triangles(map, source, target));
+    return measure_distortion(measure_triangles(map, source, target));
 }
 
 double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                                double bound) {
-    const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
+    return share_within_area_bound(measure_triangles(map, source, target), source, bound);
+}
+
+double share_within_area_bound(const FaceData<TriangleDistortion>& triangles, const TriangleMesh& source,
+                               double bound) {
     VertexData<double> area(source.vertex_count(), 0), image(source.vertex_count(), 0);
     for (int f = 0; f < source.face_count(); ++f)
         for (int k = 0; k < 3; ++k) {

@@ -6,6 +6,7 @@
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/relaxation/mirrored_parts.h"
 #include "varimap/relaxation/part_replacement.h"
+#include "varimap/results/map_pair.h"
 #include "varimap/results/untangling_report.h"
 
 namespace varimap {
@@ -25,10 +26,14 @@ struct UntanglingOptions {
     /// Excess energy at which a face counts half in global steps; 0: all count fully.
     double robustness = 0.3;
     double relief_weight = 2;  ///< of relief against the fold energy in global steps (relief_agreement.h)
+    /// It counts less, or not at all, where the reliefs do not agree on the map that is given.
+    bool weigh_relief = true;
     /// The surfaces are of opposite handedness: faces of one of them look inward.
     bool opposed = false;
     /// Of each direction's attraction to the other's inverse (soft_constraints.h) in the last global steps.
     double inverse_weight = 1000;
+    /// Of boundaries that correspond (boundary_agreement.h) in global steps.
+    double boundary_weight = 30;
     /// Over the whole map, before folds are removed: for a map that was relaxed at a lower resolution. With
     /// any, there is one round.
     int local_sweeps = 0;
@@ -48,9 +53,6 @@ struct UntanglingOptions {
     bool centre_stars = true;
 };
 
-struct MapPair {
-    PointMap A_to_B, B_to_A;
-};
 /// Landmarks of both meshes.
 struct PinnedPair {
     VertexData<bool> A, B;  ///< vertices that stay where they are

@@ -182,7 +182,7 @@ void require_vertices(Eigen::Index count, const TriangleMesh& mesh) {
                             "; rerun varimap-diffuse and varimap-refine");
 }
 
-void pin_landmarks(VertexMaps& maps, const PairRecord& record, const Surface& A, const Surface& B) {
+void pin_landmarks(MapPair& maps, const PairRecord& record, const Surface& A, const Surface& B) {
     if (!record.pins_landmarks() || !record.landmark_points.empty()) return;  // points lie between vertices
     for (const auto& [a, b] : record.landmarks) {
         maps.A_to_B[std::size_t(a.index)] = point_at_vertex(B.mesh, b.index);
@@ -199,10 +199,10 @@ PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target)
     return images;
 }
 
-VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B) {
+MapPair read_out(const Plan& plan, const Surface& A, const Surface& B) {
     require_vertices(plan.centre_A.rows(), A.mesh);
     require_vertices(plan.centre_B.rows(), B.mesh);
-    VertexMaps maps;
+    MapPair maps;
     if (is_every_vertex(plan.plan.samples_A, A.mesh) && is_every_vertex(plan.plan.samples_B, B.mesh)) {
         maps.A_to_B = supported_images(plan.centre_A, plan.plan.entries, A.mesh, B.mesh);
         const SparseMatrix transposed = plan.plan.entries.transpose();
@@ -215,10 +215,10 @@ VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B) {
     return maps;
 }
 
-VertexMaps read_out(const Diffusion& diffusion, const Surface& A, const Surface& B) {
+MapPair read_out(const Diffusion& diffusion, const Surface& A, const Surface& B) {
     require_vertices(Eigen::Index(diffusion.image_vertex_A.size()), A.mesh);
     require_vertices(Eigen::Index(diffusion.image_vertex_B.size()), B.mesh);
-    VertexMaps maps{images_at(diffusion.image_vertex_A, B.mesh), images_at(diffusion.image_vertex_B, A.mesh)};
+    MapPair maps{images_at(diffusion.image_vertex_A, B.mesh), images_at(diffusion.image_vertex_B, A.mesh)};
     pin_landmarks(maps, diffusion.record, A, B);
     return maps;
 }

@@ -2,24 +2,19 @@
 
 #include "varimap/mesh/surface.h"
 #include "varimap/results/diffusion.h"
+#include "varimap/results/map_pair.h"
 #include "varimap/results/plan.h"
 
 namespace varimap {
 
-/// Images on the other mesh of every vertex.
-struct VertexMaps {
-    PointMap A_to_B;  ///< per vertex of A's mesh, on faces of B's mesh
-    PointMap B_to_A;
-};
-
-/// Closest points from the centres (Sec. 5, cross-remeshing). On a plan with every vertex as a sample only
-/// faces that touch the row's support (entries of at least 5% of the row's maximum) are candidates, so that a
-/// point never jumps to another limb; otherwise the closest face whose normal agrees. Pinned landmarks are
-/// mapped exactly, unless they are points between vertices. Throws ArtifactError if the plan is not one of
-/// these surfaces.
-VertexMaps read_out(const Plan& plan, const Surface& A, const Surface& B);
+/// The images of the vertices of the surfaces' meshes: closest points from the centres (Sec. 5,
+/// cross-remeshing). On a plan with every vertex as a sample only faces that touch the row's support (entries
+/// of at least 5% of the row's maximum) are candidates, so that a point never jumps to another limb;
+/// otherwise the closest face whose normal agrees. Pinned landmarks are mapped exactly, unless they are
+/// points between vertices. Throws ArtifactError if the plan is not one of these surfaces.
+MapPair read_out(const Plan& plan, const Surface& A, const Surface& B);
 /// The image vertices, and pinned landmarks. Throws as above.
-VertexMaps read_out(const Diffusion& diffusion, const Surface& A, const Surface& B);
+MapPair read_out(const Diffusion& diffusion, const Surface& A, const Surface& B);
 
 /// Vertices of a mesh as points of it.
 PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target);

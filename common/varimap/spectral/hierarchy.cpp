@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/log.h"
@@ -43,11 +44,11 @@ void append_euclidean_levels(std::vector<Level>& levels, const GeodesicGraph& gr
     const int half = graph.vertex_count() / 2;
     double sigma = average_radius(levels.back().samples, levels.back().weights, graph) /
                    gaussian_distance(options.truncation);
-    for (;; sigma /= 2) {
-        Level level = builder.euclidean(sigma, levels.back().samples, half + 1);
+    for (; sigma > 0; sigma /= 2) {
         // Past half of the vertices a level of its own is not worth its time.
-        if (int(level.samples.size()) > half || !(sigma > 0)) break;
-        append(levels, std::move(level));
+        std::optional<Level> level = builder.euclidean_up_to(half, sigma, levels.back().samples);
+        if (!level) break;
+        append(levels, std::move(*level));
     }
     // Neighbourhoods on the last level are too small to move a patch: the one before must be fine enough.
     const int least = int(options.sampled_share * graph.vertex_count());

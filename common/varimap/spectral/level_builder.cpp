@@ -128,10 +128,33 @@ Level LevelBuilder::diffusion_with(const Level& level, const std::vector<int>& f
     return diffusion_level(sampling, level.scale, embedding);
 }
 
+namespace {
+
+FarthestPointSampling<GeodesicGrowth> geodesic_sampling(const GeodesicGraph& graph, double radius,
+                                                        const std::vector<int>& seeds, int limit) {
+    FarthestPointSampling sampling(graph.vertex_count(), GeodesicGrowth(graph));
+    for (const int s : seeds) sampling.insert(s);
+    sampling.cover(radius, limit);
+    return sampling;
+}
+
+}  // namespace
+
 Level LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int limit) const {
-    FarthestPointSampling sampling(domain_.mesh.vertex_count(), GeodesicGrowth(graph_));
-    for (int s : seeds) sampling.insert(s);
-    sampling.cover(sigma * gaussian_distance(options_.density), limit);
+    return euclidean_level(
+        geodesic_sampling(graph_, sigma * gaussian_distance(options_.density), seeds, limit), sigma);
+}
+
+std::optional<Level> LevelBuilder::euclidean_up_to(int most, double sigma,
+                                                   const std::vector<int>& seeds) const {
+    const auto sampling =
+        geodesic_sampling(graph_, sigma * gaussian_distance(options_.density), seeds, most + 1);
+    if (int(sampling.samples().size()) > most) return {};
+    return euclidean_level(sampling, sigma);
+}
+
+template <class Sampling>
+Level LevelBuilder::euclidean_level(const Sampling& sampling, double sigma) const {
     Level level = level_from(sampling, LevelKind::euclidean, sigma, domain_.mass);
     const BallRule rule{sigma * gaussian_distance(options_.truncation), options_.minimum_neighbours,
                         options_.truncation};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "varimap/mesh/domain.h"
@@ -33,6 +34,8 @@ class LevelBuilder {
     Level diffusion(double time, const std::vector<int>& seeds, int limit) const;
     /// The same in geodesic distance.
     Level euclidean(double sigma, const std::vector<int>& seeds, int limit) const;
+    /// The dense level; none if that takes more than `most` samples.
+    std::optional<Level> euclidean_up_to(int most, double sigma, const std::vector<int>& seeds) const;
     /// Every vertex a sample, with a sigma of its own: the distance to its `neighbours`-th neighbour has W =
     /// epsilon.
     Level full(int neighbours) const;
@@ -42,6 +45,8 @@ class LevelBuilder {
 
   private:
     Level diffusion_with(const Level& level, const std::vector<int>& further) const;
+    template <class Sampling>
+    Level euclidean_level(const Sampling& sampling, double sigma) const;
     template <class Sampling>
     Level diffusion_level(const Sampling& sampling, double time, const RowMatrix& embedding) const;
 

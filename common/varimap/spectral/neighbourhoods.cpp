@@ -80,11 +80,13 @@ double gaussian_distance(double weight) {
 }
 
 SparseMatrix diffusion_weights(const RowMatrix& embedding, double truncation) {
+    // Always the same rows at a time: in a product of other rows the last digits of its entries differ.
+    constexpr int block = 128;
     const int n = int(embedding.rows());
     const Eigen::VectorXd kernel = embedding.rowwise().squaredNorm();
     std::vector<Neighbourhood> rows(n);
-    tbb::parallel_for(tbb::blocked_range<int>(0, n, 128), [&](const tbb::blocked_range<int>& range) {
-        const int begin = range.begin(), count = range.end() - range.begin();
+    parallel_for_each_index((n + block - 1) / block, 1, [&](int b) {
+        const int begin = b * block, count = std::min(block, n - begin);
         const RowMatrix products = embedding.middleRows(begin, count) * embedding.transpose();
         for (int r = 0; r < count; ++r)
             for (int i = 0; i < n; ++i) {
@@ -100,10 +102,9 @@ SparseMatrix geodesic_weights(const std::vector<int>& samples, const Domain& dom
                               const GeodesicGraph& graph, const BallRule& rule) {
     const BallSamples all(samples, domain);
     std::vector<Neighbourhood> rows(samples.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, samples.size(), 256), [&](const auto& range) {
+    parallel_for_each_range(samples.size(), 256, [&](std::size_t begin, std::size_t end) {
         GeodesicBall ball(graph);
-        for (size_t k = range.begin(); k < range.end(); ++k)
-            rows[k] = ball_around(samples[k], all, rule, ball);
+        for (std::size_t k = begin; k < end; ++k) rows[k] = ball_around(samples[k], all, rule, ball);
     });
     return to_matrix(rows);
 }
@@ -111,10 +112,10 @@ SparseMatrix geodesic_weights(const std::vector<int>& samples, const Domain& dom
 double average_radius(const std::vector<int>& samples, const SparseMatrix& weights,
                       const GeodesicGraph& graph) {
     std::vector<double> radius(samples.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, radius.size(), 32), [&](const auto& range) {
+    parallel_for_each_range(radius.size(), 32, [&](std::size_t begin, std::size_t end) {
         GeodesicBall ball(graph);
         std::vector<char> wanted(graph.vertex_count(), 0);
-        for (size_t k = range.begin(); k < range.end(); ++k)
+        for (std::size_t k = begin; k < end; ++k)
             radius[k] = radius_of(int(k), samples, weights, ball, wanted);
     });
     return std::accumulate(radius.begin(), radius.end(), 0.0) / double(radius.size());

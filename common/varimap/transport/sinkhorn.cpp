@@ -50,9 +50,9 @@ double log_sum_line(int begin, int end, double log_background, const Term& term,
 /// Calls body(line, workspace) for every line, on several threads.
 template <class Body>
 void for_each_line(int lines, const Body& body) {
-    tbb::parallel_for(tbb::blocked_range<int>(0, lines, rows_per_task), [&](const auto& range) {
+    parallel_for_each_range(std::size_t(lines), rows_per_task, [&](std::size_t begin, std::size_t end) {
         std::vector<double> workspace;
-        for (int i = range.begin(); i < range.end(); ++i) body(i, workspace);
+        for (std::size_t i = begin; i < end; ++i) body(int(i), workspace);
     });
 }
 

@@ -46,10 +46,10 @@ class DistinctSet {
 std::vector<std::vector<int>> union_over_neighbours(const SparseMatrix& outer,
                                                     const std::vector<std::vector<int>>& inner, int bound) {
     std::vector<std::vector<int>> result(outer.rows());
-    tbb::parallel_for(tbb::blocked_range<int>(0, int(outer.rows()), 256), [&](const auto& range) {
+    parallel_for_each_range(result.size(), 256, [&](std::size_t begin, std::size_t end) {
         DistinctSet set(bound);
-        for (int k = range.begin(); k < range.end(); ++k) {
-            for (SparseMatrix::InnerIterator it(outer, k); it; ++it)
+        for (std::size_t k = begin; k < end; ++k) {
+            for (SparseMatrix::InnerIterator it(outer, Eigen::Index(k)); it; ++it)
                 for (int j : inner[it.col()]) set.add(j);
             result[k] = set.take();
         }
@@ -60,9 +60,9 @@ std::vector<std::vector<int>> union_over_neighbours(const SparseMatrix& outer,
 std::vector<std::vector<int>> union_over_entries(const std::vector<std::vector<int>>& kept,
                                                  const SparseMatrix& inner) {
     std::vector<std::vector<int>> result(kept.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, kept.size(), 256), [&](const auto& range) {
+    parallel_for_each_range(kept.size(), 256, [&](std::size_t begin, std::size_t end) {
         DistinctSet set(int(inner.cols()));
-        for (size_t i = range.begin(); i < range.end(); ++i) {
+        for (std::size_t i = begin; i < end; ++i) {
             for (int j : kept[i])
                 for (SparseMatrix::InnerIterator it(inner, j); it; ++it) set.add(int(it.col()));
             result[i] = set.take();

@@ -157,6 +157,17 @@ TEST_F(VertexList, KeepsWherePointsWerePicked) {
               1u);
 }
 
+TEST_F(VertexList, LandmarksArePointsInEveryForm) {
+    const PointPairs at_vertices = as_points({{{{4}, {7}}}, {}}, mesh_, mesh_);
+    ASSERT_EQ(at_vertices.size(), 1u);
+    EXPECT_EQ(position(mesh_, at_vertices[0].first), mesh_.vertex(4));
+    EXPECT_EQ(position(mesh_, at_vertices[0].second), mesh_.vertex(7));
+    const SurfacePoint picked{2, Vec3(.5, .25, .25)};
+    const PointPairs points = as_points({{{{4}, {7}}}, {{picked, picked}}}, mesh_, mesh_);
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_EQ(points[0].first.barycentric, picked.barycentric);
+}
+
 TEST_F(VertexList, ReadsCommasWhereBlanksAreRead) {
     const auto expected = are({{4, 7}, {2, 0}});
     const auto vertices_of = [&](const std::string& source, const std::string& target) {
@@ -331,7 +342,8 @@ TEST_F(VertexList, NamesTheLikelyCauseWhereMostPointsLieFarFromTheSurface) {
     EXPECT_EQ(complaint([](const Vec3& p) { return p; }), "");
     EXPECT_THAT(
         complaint([](const Vec3& p) { return Vec3(-p[0], -p[1], p[2]); }),
-        AllOf(HasSubstr("far.txt:3: 3 of 3"), HasSubstr("RAS for LPS"), HasSubstr("--landmark_space")));
+        AllOf(HasSubstr("far.txt:3: 3 of 3 landmarks lie farther than 0.02 from the surface, the farthest "),
+              HasSubstr("RAS for LPS"), HasSubstr("--landmark_space")));
     EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(1000 * p); }), HasSubstr("0.001 times"));
     EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(p[1], p[2], p[0]); }),
                 HasSubstr("z x y for x y z"));

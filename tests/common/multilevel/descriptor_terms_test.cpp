@@ -101,5 +101,15 @@ TEST(LandmarkTerm, GrowsWithItsWeightAndThatOfTheLandmarks) {
     EXPECT_LT((descriptors(1, .25) - once / 2).norm(), 1e-12 * once.norm());
 }
 
+TEST(DescriptorTerms, AreThoseOfShapeAndOfLandmarks) {
+    const PairContext context = shapes::figure_pair(1, true).context();
+    LevelPair both = context.diffusion_level(3), apart = both;
+    add_descriptor_terms(both, context, {.shape = .5, .vicinity = 4});
+    add_shape_term(apart, context, .5);
+    add_landmark_term(apart, context, 4);
+    EXPECT_EQ(both.A.side.descriptor, apart.A.side.descriptor);
+    EXPECT_EQ(both.B.side.descriptor, apart.B.side.descriptor);
+}
+
 }  // namespace
 }  // namespace varimap

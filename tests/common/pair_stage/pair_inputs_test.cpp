@@ -75,8 +75,7 @@ TEST_F(PairLandmarks, MoveTheirVerticesInSpaceAndInTheBasis) {
     data.basis.functions.col(0) = surface().mesh.vertices.col(0);  // linear, so known in between
     data.basis.functions.col(1).setOnes();
     const auto vertices = to_mesh_vertices(pairs, surface(), surface());
-    const PairContext context =
-        pair_context(data, data, vertices, landmark_points({pairs, {}}, surface(), surface()), 1);
+    const PairContext context = pair_context(data, data, Landmarks{pairs, {}}, 1);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Vec3 expected = position(surface().mesh, surface().on_mesh[std::size_t(pairs[i].first.index)]);
         const int v = vertices[i].first.index;

@@ -51,7 +51,7 @@ double largest_distance(const PointMap& map, const Surface& target, const Points
 TEST(ReadOut, IdentityGoesToItself) {
     const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
-    VertexMaps maps = read_out(plan, surface, surface);
+    MapPair maps = read_out(plan, surface, surface);
     EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
     EXPECT_LT(largest_distance(maps.B_to_A, surface, surface.mesh.vertices), 1e-12);
     plan.plan.samples_A.pop_back();  // no longer all vertices: closest points of the whole mesh
@@ -64,7 +64,7 @@ TEST(ReadOut, StaysOnTheSupportOfTheRow) {
     const Surface surface = sheet(0.1);
     Plan plan = identity_plan(surface);
     plan.centre_A.col(2) *= -1;  // every centre lies exactly on the wrong side
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     const int v = top(surface, 1);
     EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(v)])[2], 0);
 }
@@ -78,7 +78,7 @@ TEST(ReadOut, UsesTheTransposeForTheWayBack) {
         1;  // the row of `up` is supported below, the column of `up` is empty
     plan.centre_A.row(up) *= 0;
     plan.centre_B.row(down) *= 0;
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     EXPECT_LT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], -0.04);
     EXPECT_GT(position(surface.mesh, maps.B_to_A[std::size_t(down)])[2], 0.04);
 }
@@ -89,7 +89,7 @@ TEST(ReadOut, IgnoresFaintEntries) {
     const int up = top(surface, 1), down = top(surface, -1);
     plan.plan.entries.coeffRef(up, down) = 0.04;
     plan.centre_A.row(up) = surface.mesh.vertices.row(down);
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], 0);
 }
 
@@ -100,7 +100,7 @@ TEST(ReadOut, TakesTheSideWithMostOfTheMass) {
     plan.plan.entries.coeffRef(up, up) = 0.7;
     plan.plan.entries.coeffRef(up, down) = 0.3;
     plan.centre_A.row(up) *= -0.2;  // a little nearer to the lower side
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     EXPECT_GT(position(surface.mesh, maps.A_to_B[std::size_t(up)])[2], 0);
 }
 
@@ -111,7 +111,7 @@ TEST(ReadOut, OfAnIncompletePlanKeepsTheSidesApart) {
     plan.plan.entries.conservativeResize(int(plan.plan.samples_A.size()), plan.plan.entries.cols());
     plan.centre_A *= 0.5;                  // shrunken centres,
     plan.centre_A.col(2).array() -= 0.01;  // those of the upper side nearer to the lower one in part
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     for (int v = 0; v < surface.mesh.vertex_count(); ++v)
         if (std::abs(surface.mesh.vertices(v, 2)) > 0.01) {
             const double z = position(surface.mesh, maps.A_to_B[std::size_t(v)])[2];
@@ -124,7 +124,7 @@ TEST(ReadOut, FallsBackWhereARowIsEmpty) {
     Plan plan = identity_plan(surface);
     plan.plan.entries.coeffRef(3, 3) = 0;
     plan.plan.entries.prune(0.0);
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     EXPECT_LT(largest_distance(maps.A_to_B, surface, surface.mesh.vertices), 1e-12);
 }
 
@@ -132,7 +132,7 @@ TEST(ReadOut, LandmarksAreExact) {
     const Surface surface = plain_surface(shapes::ellipsoid(2));
     Plan plan = identity_plan(surface);
     plan.record.landmarks = {{{5}, {40}}};
-    const VertexMaps maps = read_out(plan, surface, surface);
+    const MapPair maps = read_out(plan, surface, surface);
     EXPECT_EQ(position(surface.mesh, maps.A_to_B[5]), surface.mesh.vertex(40));
     EXPECT_EQ(position(surface.mesh, maps.B_to_A[40]), surface.mesh.vertex(5));
 }
@@ -144,7 +144,7 @@ TEST(ReadOut, OfADiffusionIsAtItsImageVertices) {
     for (int v = 0; v < n; ++v) diffusion.image_vertex_A.push_back(n - 1 - v);
     diffusion.image_vertex_B = diffusion.image_vertex_A;
     diffusion.record.landmarks = {{{5}, {40}}};
-    const VertexMaps maps = read_out(diffusion, surface, surface);
+    const MapPair maps = read_out(diffusion, surface, surface);
     for (int v = 0; v < n; ++v)
         EXPECT_EQ(position(surface.mesh, maps.A_to_B[std::size_t(v)]),
                   surface.mesh.vertex(v == 5 ? 40 : n - 1 - v));

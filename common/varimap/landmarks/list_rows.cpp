@@ -1,0 +1,97 @@
+#include "varimap/landmarks/list_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/lower_case.h"
+#include "varimap/core/printable.h"
+#include "varimap/landmarks/csv_fields.h"
+#include "varimap/mesh/io/text_scanner.h"
+
+namespace varimap {
+
+namespace {
+
+bool has_commas(const TextScanner& scanner) {
+    return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
+}
+
+/// What stands between the commas of a line.
+std::vector<std::string> split_at_commas(const TextScanner& scanner) {
+    const auto fields = csv_fields(fmt::format("{}", fmt::join(scanner.words(), " ")));
+    if (!fields)
+        scanner.fail(
+            "a quote has no end before the line or, with #, its comment, or more than a comma behind it");
+    return *fields;
+}
+
+/// Whether a column of that heading names landmarks, though they may be called 1, 2, 3. Tables are often
+/// written with a first column of row numbers that has no heading.
+bool is_heading_of_names(const std::string& heading) {
+    constexpr std::array headings{"", "name", "label", "id", "landmark", "point"};
+    return std::ranges::find(headings, lower_case(heading)) != headings.end();
+}
+
+std::vector<double> numbers_of(std::span<const std::string> fields, const TextScanner& scanner) {
+    std::vector<double> numbers;
+    for (const std::string& field : fields) {
+        double number;
+        if (!to_number(field, number) || !std::isfinite(number))
+            scanner.fail(fmt::format("'{}' is not a number", excerpt(field)));
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+/// A line with commas, whose first or last field may be a name.
+ListRow row_with_commas(std::span<const std::string> fields, bool first_is_name, const TextScanner& scanner) {
+    ListRow row{scanner.line(), {}};
+    if (first_is_name || !is_number(fields.front())) {
+        row.name = fields.front();
+        fields = fields.subspan(1);
+    } else if (!is_number(fields.back())) {
+        row.name = fields.back();
+        fields = fields.first(fields.size() - 1);
+    }
+    row.numbers = numbers_of(fields, scanner);
+    return row;
+}
+
+}  // namespace
+
+std::vector<ListRow> read_list_rows(const std::string& path) {
+    const std::string bytes = read_file(path);
+    TextScanner scanner(without_byte_order_mark(bytes, path), path);
+    std::vector<ListRow> rows;
+    bool first_is_name = false;
+    for (bool first = true; scanner.next_line(); first = false) {
+        if (!has_commas(scanner)) {
+            const std::vector<std::string> words(scanner.words().begin(), scanner.words().end());
+            rows.push_back({scanner.line(), numbers_of(words, scanner)});
+            continue;
+        }
+        const std::vector<std::string> fields = split_at_commas(scanner);
+        if (first && std::ranges::none_of(fields, is_number))
+            first_is_name = is_heading_of_names(fields.front());
+        else
+            rows.push_back(row_with_commas(fields, first_is_name, scanner));
+    }
+    if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
+    return rows;
+}
+
+void require_count(const std::vector<ListRow>& rows, const std::string& path,
+                   std::initializer_list<std::size_t> counts, const char* expected) {
+    for (const ListRow& row : rows)
+        if (std::ranges::find(counts, row.numbers.size()) == counts.end())
+            fail_at(path, row.line,
+                    fmt::format("expected {}, found {} number(s)", expected, row.numbers.size()));
+}
+
+}  // namespace varimap

@@ -1,0 +1,37 @@
+#include "varimap/mesh/boundary.h"
+
+#include "varimap/mesh/private/disjoint_sets.h"
+
+namespace varimap {
+
+Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges) {
+    Boundary boundary;
+    DisjointSets sets(mesh.vertex_count());
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() > 1) continue;
+        boundary.edges.push_back(edges.vertices[e]);
+        sets.join(edges.vertices[e][0], edges.vertices[e][1]);
+    }
+    VertexData<int> number(mesh.vertex_count(), -1);  // of the loop, at its lowest vertex
+    for (const auto& [a, b] : boundary.edges) {
+        int& loop = number[sets.lowest(a)];
+        if (loop < 0) loop = boundary.loops++;
+        boundary.loop.push_back(loop);
+    }
+    return boundary;
+}
+
+Boundary find_boundary(const TriangleMesh& mesh) {
+    return find_boundary(mesh, find_edges(mesh));
+}
+
+std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary) {
+    std::vector<double> lengths(std::size_t(boundary.loops), 0);
+    for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
+        const auto [a, b] = boundary.edges[i];
+        lengths[std::size_t(boundary.loop[i])] += (mesh.vertex(a) - mesh.vertex(b)).norm();
+    }
+    return lengths;
+}
+
+}  // namespace varimap

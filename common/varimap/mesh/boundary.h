@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "varimap/mesh/topology.h"
+
+namespace varimap {
+
+/// The edges of a mesh that have one face, by the loops that they form. Loops that touch count as one.
+struct Boundary {
+    std::vector<std::array<int, 2>> edges;  ///< their vertices; ascending
+    std::vector<int> loop;                  ///< per edge: its loop, numbered by lowest vertex from 0
+    int loops = 0;
+};
+Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges);
+Boundary find_boundary(const TriangleMesh& mesh);
+
+/// Per loop its length.
+std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary);
+
+}  // namespace varimap

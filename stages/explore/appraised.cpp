@@ -1,0 +1,56 @@
+#include "stages/explore/appraised.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "varimap/core/timing.h"
+
+namespace varimap {
+
+std::vector<Appraised> ordered(std::vector<Appraised> list, const PairContext& context) {
+    // Where landmarks lead is given up only for what is better by more than scores err. Chosen by hand on
+    // half of the known pairs; no choice of the other half depends on it.
+    constexpr double preference = 0.5;
+    const auto rank = [](const Candidate& c) {
+        return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0));
+    };
+    std::stable_sort(list.begin(), list.end(), [&](const Appraised& a, const Appraised& b) {
+        return rank(a.candidate) < rank(b.candidate);
+    });
+    list.front().candidate.moved_mass = list.front().candidate.turn = 0;
+    for (std::size_t k = 1; k < list.size(); ++k)
+        compare(list.front().map.maps, list[k].map.maps, context, list[k].candidate);
+    return list;
+}
+
+std::vector<Candidate> ratings(const std::vector<Appraised>& list) {
+    std::vector<Candidate> candidates;
+    for (const Appraised& one : list) candidates.push_back(one.candidate);
+    return candidates;
+}
+
+void FinishedPool::add_new_of(const std::vector<PooledMap>& pool) {
+    const std::size_t before = origins_.size();
+    if (pool.size() == before) return;
+    const Timer timer("finishing");
+    std::vector<MapStart> starts;
+    for (std::size_t n = before; n < pool.size(); ++n) {
+        starts.push_back(
+            [&images = pool[n].images](const LevelPair& level) { return matching_of(images, level); });
+        origins_.push_back(pool[n].origin);
+    }
+    for (FinishedMap& map : finish(context_, appraisal_, starts, options_, maps_)) {
+        map.start += int(before);
+        measured_.push_back(origins_[std::size_t(map.start)]);
+        appraisal_.measure(map, measured_.back());
+        maps_.push_back(std::move(map));
+    }
+}
+
+std::vector<Appraised> FinishedPool::appraised() const {
+    std::vector<Appraised> list;
+    for (std::size_t n = 0; n < maps_.size(); ++n) list.push_back({maps_[n], measured_[n]});
+    return ordered(std::move(list), context_);
+}
+
+}  // namespace varimap

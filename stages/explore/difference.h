@@ -1,0 +1,16 @@
+#pragma once
+
+#include "varimap/mesh/surface.h"
+#include "varimap/multilevel/matching.h"
+
+namespace varimap {
+
+// How much two maps differ.
+
+/// Share of a surface whose vertices two maps take to places farther apart than `elsewhere`.
+double share_elsewhere(const Points& a, const Points& b, const Surface& from, double elsewhere);
+
+/// Share of both surfaces on which two maps differ by more than 0.15 of sqrt(area).
+double difference(const VertexImages& a, const VertexImages& b, const Surface& A, const Surface& B);
+
+}  // namespace varimap

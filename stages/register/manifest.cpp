@@ -1,0 +1,130 @@
+#include "stages/register/manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/landmarks/landmark_points.h"
+#include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/results/surface_map.h"
+
+namespace varimap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& object, const char* key) {
+    return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
+}
+
+TemplateLandmarks read_listed_landmarks(const std::string& path, const TriangleMesh& mesh) {
+    TemplateLandmarks result;
+    for (const int v : read_vertex_list(path, IndexBase::automatic, &mesh)) {
+        result.names.push_back(std::to_string(result.names.size() + 1));
+        result.points.push_back(point_at_vertex(mesh, v));
+    }
+    return result;
+}
+
+TemplateLandmarks read_picked_landmarks(const std::string& path, const TriangleMesh& mesh) {
+    TemplateLandmarks result;
+    std::vector<Vec3> positions;
+    for (const PickedPoint& point : read_picked_points(path)) {
+        if (!point.defined) continue;
+        result.names.push_back(point.name.empty() ? std::to_string(result.names.size() + 1) : point.name);
+        positions.push_back(in_axes_of(mesh, point, LandmarkSpace::stated));
+    }
+    Snapped snapped = snap(positions, mesh);
+    const auto far =
+        std::ranges::count_if(snapped.distances, [](double distance) { return distance > far_from_surface; });
+    if (2 * std::size_t(far) > positions.size())
+        throw InputError(fmt::format("{}: {} of {} landmarks lie far from the template's surface; {}", path,
+                                     far, positions.size(), likely_cause(positions, mesh)));
+    result.points = std::move(snapped.points);
+    return result;
+}
+
+TemplateLandmarks read_template_landmarks(const std::string& path, const TriangleMesh& mesh) {
+    return is_picked_points(path) ? read_picked_landmarks(path, mesh) : read_listed_landmarks(path, mesh);
+}
+
+Answer read_answer(const Json& entry, const std::string& specimen, const TriangleMesh& first) {
+    Answer answer{read_correspondence(
+                      {text_of(entry, "template"), specimen, text_of(entry, "there"), text_of(entry, "back")},
+                      false, UnplacedFaces::collapse),
+                  {}};
+    const std::string from_first = text_of(entry, "from_first");
+    if (!from_first.empty()) {
+        answer.from_first = read_csv_map(from_first);
+        if (int(answer.from_first.size()) != first.vertex_count() ||
+            !are_points(answer.from_first, answer.map.from.face_count()))
+            throw InputError(from_first + ": not a map from the template to " + answer.map.from_file);
+    } else if (answer.map.from.vertex_count() != first.vertex_count()) {
+        throw InputError(answer.map.from_file + ": not the template");
+    }
+    return answer;
+}
+
+/// The first template's landmarks where the map leads that the answer has from there.
+PointMap carried_landmarks(PointMap points, const TriangleMesh& first, const Answer& answer) {
+    const PointCarrier carry(first, answer.from_first, answer.map.from);
+    for (SurfacePoint& point : points) point = carry(point);
+    return points;
+}
+
+/// The first template's landmarks on the template of an answer: by a file of its own where it has one, with
+/// as many in the same order.
+PointMap landmarks_on_template_of(const Answer& answer, const std::string& own_file,
+                                  const Registration& all) {
+    if (answer.from_first.empty()) return all.landmarks->points;
+    if (own_file.empty()) return carried_landmarks(all.landmarks->points, all.first, answer);
+    TemplateLandmarks own = read_template_landmarks(own_file, answer.map.from);
+    if (own.names.size() != all.landmarks->names.size())
+        throw InputError(fmt::format("{}: {} landmarks, but the first template has {}", own_file,
+                                     own.names.size(), all.landmarks->names.size()));
+    return std::move(own.points);
+}
+
+/// `path`: of the manifest. The meshes and maps of a specimen are let go before the next one's are read.
+void add_specimen(const Json& specimen, const std::string& path, Registration& all) {
+    const std::string name = text_of(specimen, "name");
+    std::vector<Answer> answers;
+    std::vector<PointMap> landmarks;  // on the template of each answer
+    for (const Json& entry : specimen.at("answers")) {
+        answers.push_back(read_answer(entry, text_of(specimen, "mesh"), all.first));
+        if (all.landmarks)
+            landmarks.push_back(landmarks_on_template_of(answers.back(), text_of(entry, "landmarks"), all));
+    }
+    if (answers.empty()) throw InputError(path + ": " + name + ": no answers");
+    log("{}: {} answers", name, answers.size());
+    all.names.push_back(name);
+    all.spaces.push_back(answers.front().map.to.space);
+    all.points.push_back(corresponding_points(answers));
+    if (all.landmarks) all.transferred.push_back(transfer_landmarks(answers, landmarks));
+}
+
+}  // namespace
+
+Registration read_registration(const std::string& path) {
+    Registration all;
+    try {
+        const Json manifest = Json::parse(read_file(path));
+        all.first = read_mesh(text_of(manifest, "template"));
+        const std::string landmarks = text_of(manifest, "landmarks");
+        if (!landmarks.empty()) all.landmarks = read_template_landmarks(landmarks, all.first);
+        for (const Json& specimen : manifest.at("specimens")) add_specimen(specimen, path, all);
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(path + ": not a manifest of varimap register: " + error.what());
+    }
+    if (all.names.empty()) throw InputError(path + ": no specimens");
+    return all;
+}
+
+}  // namespace varimap

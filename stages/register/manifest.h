@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stages/register/answers.h"
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Landmarks on a template, as many points as names. Where the file names none, they are numbered from 1.
+struct TemplateLandmarks {
+    std::vector<std::string> names;
+    PointMap points;
+};
+
+/// The specimens of a manifest, each by what its maps say of it: lists have one entry per specimen, in order.
+struct Registration {
+    TriangleMesh first;                          ///< the first template
+    std::optional<TemplateLandmarks> landmarks;  ///< on it, where the manifest has some
+    std::vector<std::string> names;
+    std::vector<Space> spaces;                      ///< what the specimens' files say of their axes
+    std::vector<Points> points;                     ///< where the vertices of `first` lie; NaN: nowhere
+    std::vector<TransferredLandmarks> transferred;  ///< none without `landmarks`
+};
+
+/// Reads the manifest that `varimap register` writes (README.md) and all that it names; at least one
+/// specimen. Throws IoError; InputError naming the file that is malformed, that does not fit the meshes, or
+/// whose landmarks lie far from the template.
+Registration read_registration(const std::string& path);
+
+}  // namespace varimap

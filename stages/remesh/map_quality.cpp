@@ -1,0 +1,79 @@
+#include "stages/remesh/map_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "varimap/mesh/thin_faces.h"
+
+namespace varimap {
+
+double times_radius(const LandmarkSurroundings& around) {
+    return around.radius > 0 ? around.distance / around.radius : 0;
+}
+
+namespace {
+
+DirectionQuality measure_direction(const PointMap& map, const TriangleMesh& source,
+                                   const TriangleMesh& target, double area_bound) {
+    const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
+    return {measure_distortion(triangles), share_within_area_bound(triangles, source, area_bound),
+            measure_coverage(map, source, target), verify_map(map, source, target)};
+}
+
+InTheEnd of_both(const DirectionQuality& there, const DirectionQuality& back) {
+    return {std::sqrt(there.distortion.dirichlet_energy * back.distortion.dirichlet_energy),
+            std::min(there.coverage.share, back.coverage.share)};
+}
+
+LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A, const PointPairs& from_A,
+                                  const TriangleMesh& A, const TriangleMesh& B) {
+    if (from_A.empty()) return {};
+    const PointPairs from_B = swapped(from_A);
+    const std::vector<LandmarkSurroundings> there = landmark_surroundings(A_to_B, from_A, A, B),
+                                            back = landmark_surroundings(B_to_A, from_B, B, A);
+    LandmarkQuality found{landmark_residuals(A_to_B, from_A, A, B), there,
+                          exchanged_landmarks(there, from_A, B)};
+    for (std::size_t k = 0; k < there.size(); ++k)
+        if (times_radius(back[k]) > times_radius(there[k])) found.surroundings[k] = back[k];
+    for (const auto& pair : exchanged_landmarks(back, from_B, A)) found.exchanged.push_back(pair);
+    std::sort(found.exchanged.begin(), found.exchanged.end());
+    found.exchanged.erase(std::unique(found.exchanged.begin(), found.exchanged.end()), found.exchanged.end());
+    return found;
+}
+
+ChoiceQuality measure_choice(const PairRecord& record, const InTheEnd& in_the_end) {
+    // The finished map says nothing of the first candidate where another was continued.
+    const auto of_first = record.candidate == 1 ? std::optional(in_the_end) : std::nullopt;
+    return {confidence_of(record.candidates), confidence_of(record.candidates, of_first),
+            doubt(record.candidates, of_first)};
+}
+
+double median_thinness(const TriangleMesh& mesh) {
+    std::vector<double> heights, areas;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        heights.push_back(thinness(mesh, f));
+        areas.push_back(face_normal(mesh, f).norm() / 2);
+    }
+    return weighted_quantile(heights, areas, 0.5);
+}
+
+}  // namespace
+
+MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surface& B,
+                           const SolvedPair& pair) {
+    const PointMap A_to_B = from_file(map.A_to_B, A, B), B_to_A = from_file(map.B_to_A, B, A);
+    const double bound = pair.plan.area_bound;
+    MapQuality quality;
+    quality.A_to_B = measure_direction(A_to_B, without_added_faces(A), B.input, bound);
+    quality.B_to_A = measure_direction(B_to_A, without_added_faces(B), A.input, bound);
+    quality.in_the_end = of_both(quality.A_to_B, quality.B_to_A);
+    quality.round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
+    const PointPairs landmarks = landmarks_on_inputs(pair.record, A, B);
+    quality.landmarks = measure_landmarks(A_to_B, B_to_A, landmarks, A.input, B.input);
+    if (!pair.record.candidates.empty()) quality.choice = measure_choice(pair.record, quality.in_the_end);
+    quality.median_thinness_A = median_thinness(A.input);
+    quality.median_thinness_B = median_thinness(B.input);
+    return quality;
+}
+
+}  // namespace varimap

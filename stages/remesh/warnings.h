@@ -1,0 +1,18 @@
+#pragma once
+
+#include "stages/remesh/map_quality.h"
+#include "varimap/results/pair_record.h"
+
+namespace varimap {
+
+/// Warns (log.h) of what a map that is right does not have, so that one that cannot be right does not pass as
+/// one. In this order:
+///   pinned landmarks  that are not met, look exchanged, or around which the map is elsewhere; a list of them
+///                     that looks one row off
+///   exploration       which was sure of its candidate and is not of the finished map
+///   tears             of either direction: much is reversed or uncovered
+///   strain            where neither tears
+/// Where most of a surface's area lies on slivers, these are named as the likely cause of tears or strain.
+void warn_of(const MapQuality& quality, const PairRecord& record);
+
+}  // namespace varimap
