@@ -8,6 +8,7 @@
 #include "stages/explore/surface_comparison.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/results/landmark_words.h"
 
@@ -103,6 +104,14 @@ bool is_good(const Candidate& best, bool has_landmarks) {
     return plausibility(best) >= plausible_with_landmarks && best.dirichlet < strained;
 }
 
+/// Whether landmarks lay a sheet onto another without straining it, and two of them are far apart: as in the
+/// plane, that leaves no other map, though relief may say nothing. Chosen by hand on leaves and cloth.
+bool is_isometry_of_sheets(const Candidate& there, const PairContext& context) {
+    constexpr double isometric = 1.1;
+    return there.dirichlet < isometric && !is_mirrored(there) && is_sheet(context.A().surface.mesh) &&
+           is_sheet(context.B().surface.mesh) && landmarks_apart(context) >= 2;
+}
+
 /// Warns where the map that landmarks lead to would be far more probable with two or more of them exchanged:
 /// with left and right exchanged, the only map that meets all landmarks and mirrors nothing has the front of
 /// a body on its back, and is hardly strained. Asked only where relief agrees less than it does on right maps
@@ -137,9 +146,8 @@ Candidates led(std::vector<Appraised> list, const PairContext& context) {
 
 }  // namespace
 
-bool landmarks_are_apart(const PairContext& context) {
+int landmarks_apart(const PairContext& context) {
     constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
-    constexpr int enough = 3;
     const std::vector<int>& landmarks = context.landmarks_A();
     const RowMatrix distance = distances_from_each(context.graph_A(), landmarks);
     std::vector<int> apart;
@@ -147,13 +155,14 @@ bool landmarks_are_apart(const PairContext& context) {
         if (std::all_of(apart.begin(), apart.end(),
                         [&](int other) { return distance(other, landmarks[std::size_t(k)]) > far; }))
             apart.push_back(k);
-    return int(apart.size()) >= enough;
+    return int(apart.size());
 }
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
     // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
     // to is as plausible, not strained, and they decide it.
     constexpr double suffices = 0.995;
+    constexpr int decisive = 3;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
         log("{} landmarks: nothing else is looked for", context.landmarks().size());
@@ -166,8 +175,10 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         finished.add_new_of(led_there);
         std::vector<Appraised> alone = finished.appraised();
         const Candidate& there = alone.front().candidate;
+        if (is_isometry_of_sheets(there, context)) return led(std::move(alone), context);
         warn_of_exchanged_landmarks(there, context, appraisal, params);
-        if (logged_plausibility(there) >= suffices && is_good(there, true) && landmarks_are_apart(context))
+        if (logged_plausibility(there) >= suffices && is_good(there, true) &&
+            landmarks_apart(context) >= decisive)
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask.self_maps);

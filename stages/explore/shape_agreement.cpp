@@ -6,6 +6,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
 #include "varimap/core/statistics.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
@@ -89,7 +90,8 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph)
 ShapeAgreement::ShapeAgreement(const PairContext& context)
     : A_(context.A(), context.graph_A()),
       B_(context.B(), context.graph_B()),
-      opposed_(looks_inward(context.A().surface) != looks_inward(context.B().surface)) {}
+      opposed_(looks_inward(context.A().surface) != looks_inward(context.B().surface)),
+      sheets_(is_sheet(A_.mesh) && is_sheet(B_.mesh)) {}
 
 double ShapeAgreement::relief(const MapPair& maps) const {
     return (relief(maps.A_to_B, A_, B_) + relief(maps.B_to_A, B_, A_)) / 2;
@@ -111,16 +113,18 @@ double ShapeAgreement::stretch(const MapPair& maps) const {
     return sum / (A_.sample_mass.sum() * B_.sample_mass.sum());
 }
 
-double ShapeAgreement::relief(const PointMap& map, const Side& source, const Side& target) {
+double ShapeAgreement::relief(const PointMap& map, const Side& source, const Side& target) const {
     // About that of right maps of animals that differ; where one surface has none, it tells no map from
     // another.
     constexpr double without_relief = 0.75;
+    const auto agreement = [&](const Eigen::VectorXd& here, const Eigen::VectorXd& there) {
+        if (here.isZero() || there.isZero()) return without_relief;
+        const double r = correlation(here, pulled_back(there, target.mesh, map), source.mass);
+        return sheets_ ? trust_in_relief(r, true) * r : r;
+    };
     double sum = 0;
     for (std::size_t k = 0; k < source.relief.size(); ++k)
-        sum +=
-            source.relief[k].isZero() || target.relief[k].isZero()
-                ? without_relief
-                : correlation(source.relief[k], pulled_back(target.relief[k], target.mesh, map), source.mass);
+        sum += agreement(source.relief[k], target.relief[k]);
     return sum / double(source.relief.size());
 }
 

@@ -15,7 +15,7 @@ class ShapeAgreement {
     explicit ShapeAgreement(const PairContext& context);
 
     /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales. 0.75 at a scale at which
-    /// either surface has none.
+    /// either surface has none; of two sheets less, as far as it is not to be trusted.
     double relief(const MapPair& maps) const;
     /// How well patches can be laid onto their images: of all rotations R of a patch, with points x of
     /// normals n and images y of normals m, relative to the patch's and the image's centres and mean square
@@ -47,11 +47,12 @@ class ShapeAgreement {
 
         Side(const SurfaceData& data, const GeodesicGraph& graph);
     };
-    static double relief(const PointMap& map, const Side& source, const Side& target);
+    double relief(const PointMap& map, const Side& source, const Side& target) const;
     double alignment(const PointMap& map, const Side& source, const Side& target) const;
 
     Side A_, B_;
     bool opposed_;  ///< of opposite handedness
+    bool sheets_;   ///< both surfaces (mesh/boundary.h)
 };
 
 /// |log| of the ratio of two distances from which on they do not agree at all.

@@ -23,6 +23,8 @@ struct RelaxParams {
             "inverse_weight", o.inverse_weight,
             "weight of both directions' being each other's inverse against the isometry in the relaxation", 0,
             1e6);
+        list.add("boundary_weight", o.boundary_weight,
+                 "weight of boundaries' going to boundaries against the isometry in the relaxation", 0, 1e6);
         list.add(
             "settling_steps", o.settling_steps,
             "relaxation steps at the end, in which both directions become each other's inverse and keep the "

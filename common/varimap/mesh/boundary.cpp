@@ -1,5 +1,8 @@
 #include "varimap/mesh/boundary.h"
 
+#include <cmath>
+#include <numeric>
+
 #include "varimap/mesh/private/disjoint_sets.h"
 
 namespace varimap {
@@ -32,6 +35,12 @@ std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& bound
         lengths[std::size_t(boundary.loop[i])] += (mesh.vertex(a) - mesh.vertex(b)).norm();
     }
     return lengths;
+}
+
+bool is_sheet(const TriangleMesh& mesh) {
+    constexpr double least = 3;
+    const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0) >= least * std::sqrt(surface_area(mesh));
 }
 
 }  // namespace varimap

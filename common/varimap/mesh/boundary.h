@@ -19,4 +19,9 @@ Boundary find_boundary(const TriangleMesh& mesh);
 /// Per loop its length.
 std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary);
 
+/// Whether it is mostly rim, as a leaf, a shirt or the scan of a face are: its boundary is at least 3
+/// sqrt(area) long (a disc's 3.5, a hemisphere's 2.5). Chosen by hand. Such a surface bends easily, and its
+/// rim tells where its points are.
+bool is_sheet(const TriangleMesh& mesh);
+
 }  // namespace varimap

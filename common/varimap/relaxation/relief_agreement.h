@@ -14,6 +14,10 @@ namespace varimap {
 /// bounded to [-2, 2]; zeros where there is no deviation.
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 
+/// How far reliefs are to be trusted that agree by so much (a correlation), 0 to 1. What bends like cloth
+/// gets another relief, which leads astray; `sheets` (mesh/boundary.h) do so most.
+double trust_in_relief(double correlation, bool sheets);
+
 /// A data term that holds relief in place: the sum over two scales s and the source's vertices v, of area
 /// a_v, of
 ///     weight a_v rho(r),   r = h_A(v) - h_B(f(v)),   rho(r) = c^2 / 2 log(1 + r^2 / c^2)
@@ -27,6 +31,10 @@ class ReliefAgreement {
     /// Keeps a reference to the map. `opposed`: the faces of one mesh alone look inward, so that its bumps
     /// are hollows.
     ReliefAgreement(const SlidingMap& map, double weight, bool opposed = false);
+
+    /// Of both reliefs where the map takes them, mean of the scales.
+    double correlation() const;
+    void scale_weight(double factor) { weight_ *= factor; }
 
     struct Quadratic {
         Eigen::Vector2d gradient;

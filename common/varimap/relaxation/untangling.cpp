@@ -11,6 +11,7 @@
 #include "varimap/core/timing.h"
 #include "varimap/quality/quality.h"
 #include "varimap/relaxation/area_bound.h"
+#include "varimap/relaxation/boundary_agreement.h"
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
@@ -47,6 +48,9 @@ constexpr double last_fold_visits = 8;  ///< as in the first round
 constexpr int few_faults = 100;
 /// Energy of a direction, times the other's, from which on all of it may be taken from the other.
 constexpr double much_worse = 1.2;
+/// Times the steps for sheets, which boundaries make slide as a whole: slowly, since each direction holds the
+/// other. Of five sheets errors fall by 40 %; cut bodies stay as they are.
+constexpr int more_steps = 3;
 constexpr double large = 20'000;  ///< vertices from which on fewer global steps are taken
 constexpr int least_steps = 2;
 /// Share of the energy that a step must win to be followed by another. Swept, same bytes: 1e-6 to 1e-4.
@@ -76,7 +80,8 @@ class Relaxation {
           asked_(steps),
           vertices_(free_vertices(map, fixed, landmarks)),
           global_(map, fixed, relief),
-          local_(map, 99) {
+          local_(map, 99),
+          boundaries_(map) {
         // A factorisation takes more than linear time; the first steps are those that matter.
         const double affordable = steps * large / double(vertices_.size() + 1);
         most_ = std::min(steps, std::max(least_steps, int(affordable)));
@@ -88,6 +93,10 @@ class Relaxation {
         if (options_.inverse_weight > 0) {
             const auto inverse = inverse_constraints(map_, back, options_.inverse_weight * inverse_share());
             constraints_.insert(constraints_.end(), inverse.begin(), inverse.end());
+        }
+        if (options_.boundary_weight > 0) {
+            const auto boundaries = boundaries_.constraints(options_.boundary_weight);
+            constraints_.insert(constraints_.end(), boundaries.begin(), boundaries.end());
         }
         global_.set_constraints(constraints_);
         const double gain = global_.step(energy_);
@@ -114,6 +123,7 @@ class Relaxation {
     std::vector<int> vertices_;
     GlobalRelaxation global_;
     LocalRelaxation local_;
+    BoundaryAgreement boundaries_;
     std::vector<SoftConstraint> constraints_;
     int most_ = 0, steps_ = 0;
     bool converged_ = false;
@@ -156,7 +166,8 @@ class Untangling {
           options_(options),
           before_(measure_distortion(map, source, target)),
           sliding_(map, source, target),
-          landmarks_(landmark_constraints(sliding_, points)) {
+          landmarks_(landmark_constraints(sliding_, points)),
+          are_sheets_(is_sheet(source) && is_sheet(target)) {
         report_.flipped_before = report_.flipped_after = before_.flipped_count;
         report_.flipped_area_percent_before = report_.flipped_area_percent_after =
             before_.flipped_area_percent;
@@ -164,11 +175,20 @@ class Untangling {
             relief_ = std::make_unique<ReliefAgreement>(sliding_, options.relief_weight, options.opposed);
     }
 
+    bool are_sheets() const { return are_sheets_; }
+    double relief_correlation() const { return relief_ ? relief_->correlation() : 0; }
+    void trust_relief(double share) {
+        if (relief_ && share > 0)
+            relief_->scale_weight(share);
+        else
+            relief_.reset();
+    }
+
     /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
     void start_relaxation(const Round& round) {
         fixed_ = stay(sliding_, pinned_, options_.gate, report_);
         sweep(round);
-        relaxation_ = relaxation(round, options_.global_steps);
+        relaxation_ = relaxation(round, (are_sheets_ ? more_steps : 1) * options_.global_steps);
         if (options_.area_bound > 0 && AreaBound::is_tight(options_.area_bound)) keep_bound();
     }
     bool is_relaxed() const { return !relaxation_ || relaxation_->done(); }
@@ -352,6 +372,7 @@ class Untangling {
     Distortion before_;
     SlidingMap sliding_;
     const std::vector<SoftConstraint> landmarks_;  ///< that are points
+    const bool are_sheets_;                        ///< both surfaces
     VertexData<bool> fixed_;
     std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
@@ -378,6 +399,15 @@ void run(Untangling& there, Untangling& back, const Round& round) {
     tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
 }
 
+void weigh_relief(Untangling& there, Untangling& back) {
+    const double agreement = (there.relief_correlation() + back.relief_correlation()) / 2;
+    const double trust = trust_in_relief(agreement, there.are_sheets());
+    there.trust_relief(trust);
+    back.trust_relief(trust);
+    if (trust < 1)
+        log("reliefs agree by {:.2f} before the map is relaxed: they count by {:.2f}", agreement, trust);
+}
+
 /// The last round.
 void settle(Untangling& there, Untangling& back) {
     tbb::parallel_invoke([&] { there.start_settling(); }, [&] { back.start_settling(); });
@@ -393,6 +423,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     Untangling there(maps.A_to_B, A, B, pinned.A, pinned.points, options),
         back(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options);
     if (!options.enabled) return {there.report(), back.report()};
+    if (options.weigh_relief) weigh_relief(there, back);
     if (options.local_sweeps == 0) run(there, back, rounds[0]);
     with_each_other(there, back,
                     [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });
