@@ -120,7 +120,7 @@ double ShapeAgreement::relief(const PointMap& map, const Side& source, const Sid
     const auto agreement = [&](const Eigen::VectorXd& here, const Eigen::VectorXd& there) {
         if (here.isZero() || there.isZero()) return without_relief;
         const double r = correlation(here, pulled_back(there, target.mesh, map), source.mass);
-        return sheets_ ? trust_in_relief(r, true) * r : r;
+        return sheets_ ? std::max(r, agreement_of_bent_sheets) : r;
     };
     double sum = 0;
     for (std::size_t k = 0; k < source.relief.size(); ++k)

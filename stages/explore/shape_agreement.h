@@ -15,7 +15,7 @@ class ShapeAgreement {
     explicit ShapeAgreement(const PairContext& context);
 
     /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales. 0.75 at a scale at which
-    /// either surface has none; of two sheets less, as far as it is not to be trusted.
+    /// either surface has none. Of two sheets agreement_of_bent_sheets at least: less tells nothing.
     double relief(const MapPair& maps) const;
     /// How well patches can be laid onto their images: of all rotations R of a patch, with points x of
     /// normals n and images y of normals m, relative to the patch's and the image's centres and mean square

@@ -52,9 +52,9 @@ Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
 }
 
 double trust_in_relief(double correlation, bool sheets) {
-    // Of 36 known pairs of bodies the least agrees by .43 on the map that the plan gives (unlike animals).
-    // Sheets that were bent at random agree by -.9 to .6, faces and cut bodies by .67 to .88.
-    const double none = sheets ? 0.6 : 0.2, full = sheets ? 0.8 : 0.4;
+    // Of 36 known pairs of bodies the least agrees by .43 on the map that the plan gives (unlike animals); of
+    // sheets, faces and cut bodies by .67 to .88.
+    const double none = sheets ? agreement_of_bent_sheets : 0.2, full = none + 0.2;
     return std::clamp((correlation - none) / (full - none), 0.0, 1.0);
 }
 

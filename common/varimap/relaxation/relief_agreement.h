@@ -14,8 +14,10 @@ namespace varimap {
 /// bounded to [-2, 2]; zeros where there is no deviation.
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
 
-/// How far reliefs are to be trusted that agree by so much (a correlation), 0 to 1. What bends like cloth
-/// gets another relief, which leads astray; `sheets` (mesh/boundary.h) do so most.
+/// What bends like cloth gets another relief, which leads astray; sheets (mesh/boundary.h) do so most: those
+/// that were bent at random have reliefs that agree by up to this (a correlation).
+constexpr double agreement_of_bent_sheets = 0.6;
+/// How far reliefs are to be trusted that agree by so much, 0 to 1.
 double trust_in_relief(double correlation, bool sheets);
 
 /// A data term that holds relief in place: the sum over two scales s and the source's vertices v, of area
