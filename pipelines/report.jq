@@ -1,4 +1,5 @@
-# What quality.json says, for people: a verdict, every check with its grade, warnings, times.
+# What quality.json says, for people: a verdict, every check with its grade, warnings, the stages of those that make one look
+# (alarms), times.
 #   jq -f report.jq quality.json
 def fixed($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
 def grade($good; $usable): if . <= $good then "good" elif . <= $usable then "usable" else "look here" end;
@@ -17,17 +18,25 @@ def direction($words):
           .p95; 3; 6)),
       (.verification.degree // empty | check("how often covered, \($words)"; fixed(2); fabs - 1 | fabs; 0.02; 0.1));
 
+# Of what preprocess recorded: a few faces, edges or vertices were repaired, and nothing that changes the surface's form.
+def few_repaired:
+    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, .turned_faces, .cut_edges, .split_vertices, .closed_slits] | add // 0) as $elements
+    | $elements > 0 and $elements <= ([10, .001 * (.input_faces // 0)] | max)
+        and all(.opened_edges, .filled_holes, .unfilled_holes, .cut_handles, .bridges, .dropped_components; . == null);
+
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
     (.round_trip // empty | check("there and back, mean"; "\(.mean | fixed(4)) sqrt(area)"; .mean; 0.01; 0.03)),
     (.exploration // empty | check("choice among mirrored and turned maps";
         if .continued > 1 then "candidate \(.continued), as asked" elif .confident then "sure" else "not sure" end;
         if .confident or .continued > 1 then 0 else 2 - (.probability // 0) end; 1; 1))] as $checks
-| (.exploration.continued // 1) as $continued
+| (.exploration.continued // 1) as $continued | (.stages // {}) as $stages
 # Every textured mesh is welded at its seams: nothing to look at.
 | [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not))
-    | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not) | "\(.stage): \(.message)"] as $warnings
-| {verdict: (if any($checks[]; .grade == "look here") or ($warnings | length > 0) then "look here"
+    | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not)] as $warnings
+| [$warnings[] | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | few_repaired) | not)] as $alarms
+| {verdict: (if any($checks[]; .grade == "look here") or ($alarms | length > 0) then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),
-    warnings: $warnings, checks: $checks, command: (.provenance.command // ""), version: (.provenance.version // ""),
-    times: [.stages // {} | to_entries[] | select(.value.wall_seconds)
+    warnings: ($warnings | map("\(.stage): \(.message)")), alarms: ($alarms | map(.stage) | unique), checks: $checks,
+    command: (.provenance.command // ""), version: (.provenance.version // ""),
+    times: [$stages | to_entries[] | select(.value.wall_seconds)
         | {stage: .key, seconds: .value.wall_seconds, megabytes: (.value.peak_megabytes // 0)}]}

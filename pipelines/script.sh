@@ -7,7 +7,7 @@
 #   word TEXT             called for everything else
 # flag: no value; value: the next argument, or behind `=`; words: as flag, but `--NAME=WORD` is `--NAME WORD`.
 # Options that are not in the list go to the array `other_options` where that is set, as they stand.
-set -euo pipefail
+set -euo pipefail +fC  # -f and -C may come with an exported SHELLOPTS
 shopt -s inherit_errexit
 unset CDPATH
 : "${name:?}"
@@ -38,6 +38,9 @@ fail() {  # CODE MESSAGE
     exit "$1"
 }
 
+# say TEXT: on stdout, or the script ends and says that it could not.
+say() { printf '%s\n' "$1" 2>/dev/null || fail 6 "cannot write to standard output"; }
+
 require() {  # PROGRAM
     command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
 }
@@ -50,7 +53,8 @@ require_file() {  # FILE that is read: a pipe would be read twice, and wait
 
 make_folder() {
     [[ ! -e $1 || -d $1 ]] || fail 6 "$1: is a file, not a folder"
-    mkdir -p -- "$1" 2>/dev/null || fail 6 "$1: cannot be made"
+    local said
+    said=$(mkdir -p -- "$1" 2>&1) || fail 6 "$1: cannot be made: ${said##*: }"
     [[ -w $1 && -x $1 ]] || fail 6 "$1: cannot be written to"
 }
 
@@ -138,6 +142,10 @@ reliability='
     BEGIN { split("0 .5 .7 .9 .98 1", edge, " ") }
 '
 
+require_cores() {  # VALUE of -j; stages take no more threads
+    [[ $1 =~ ^[1-9][0-9]{0,3}$ && $1 -le 4096 ]] || fail 2 "-j $1: give a number of cores, from 1 to 4096"
+}
+
 require_number() {  # OPTION VALUE LEAST
     [[ $2 =~ ^[0-9]{1,6}$ && $((10#$2)) -ge $3 ]] || fail 2 "$1 $2: give a whole number, at least $3"
 }
@@ -192,6 +200,10 @@ parse_options() {
 # help_topic TOPIC: the page help/TOPIC.md as plain text; false where there is none.
 help_topic() {
     [[ $1 =~ ^[a-z][a-z-]*$ && -r $share/help/$1.md ]] || return
+    say "$(plain_topic "$1")"
+}
+
+plain_topic() {  # TOPIC
     awk '
         function show_table(    r, c, line) {
             for (r = 1; r <= rows; r++) {

@@ -12,9 +12,17 @@ std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs
                                           const Surface& A, const Surface& B) {
     if (path.empty()) return {};
     auto candidates = stage.read<Candidates>("candidates", path);
-    inputs.require_sketches(candidates.value, path);
+    inputs.require_sketches(candidates, path);
     require_surfaces(candidates.value, A.input, B.input);
     return std::move(candidates.value);
+}
+
+/// Options that change nothing would hide that something else was meant.
+void require_effect(const DiffuseParams& params, bool has_candidates, bool has_initial_map) {
+    if (params.candidate != DiffuseParams().candidate && !has_candidates)
+        throw UsageError("--candidate says which of the maps of --candidates is continued: give these, too");
+    if (params.map_base != DiffuseParams().map_base && !has_initial_map)
+        throw UsageError("--map_base says how --initial-map counts vertices: give that, too");
 }
 
 /// Read against the meshes' files, whose vertices and faces it names.
@@ -66,6 +74,7 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         if (!candidates_in.empty() && !initial_map_in.empty())
             throw UsageError("give --candidates or --initial-map, not both");
+        require_effect(params, !candidates_in.empty(), !initial_map_in.empty());
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto candidates = read_candidates(stage, inputs, candidates_in, A.surface, B.surface);
         const auto initial_map =

@@ -120,13 +120,6 @@ void require_surface(const Surface& surface) {
             "or --start wasserstein");
 }
 
-PairContext with_landmarks(SurfaceData A, SurfaceData B, const Landmarks& landmarks,
-                           const ExploreParams& params) {
-    const auto vertices = to_mesh_vertices(landmarks.vertices, A.surface, B.surface);
-    const PointPairs points = landmark_points(landmarks, A.surface, B.surface);
-    return pair_context(std::move(A), std::move(B), vertices, points, params.landmark_weight);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -153,6 +146,10 @@ int main(int argc, char** argv) {
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         require_surface(A.surface);
         require_surface(B.surface);
+        if (params.self_maps && !inputs.are_same())
+            throw UsageError(
+                "--onto_itself looks for maps of one surface: give it twice, with the same basis and "
+                "hierarchy");
         std::optional<SelfMaps> given;
         if (!self_map_files.empty())
             given = {read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input),
@@ -161,7 +158,8 @@ int main(int argc, char** argv) {
         if (!surface_files.empty()) surfaces = record_surfaces(stage, surface_files, inputs);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
-        const PairContext context = with_landmarks(std::move(A), std::move(B), landmarks, params);
+        const PairContext context =
+            pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
         OnDemand ask;
         if (given)
             ask.self_maps = [&] { return *given; };
@@ -169,7 +167,8 @@ int main(int argc, char** argv) {
             ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
         if (surfaces)
             ask.surfaces = [&] {
-                return with_landmarks(surfaces->A.read(), surfaces->B.read(), landmarks, params);
+                return pair_context(surfaces->A.read(), surfaces->B.read(), landmarks,
+                                    params.landmark_weight);
             };
         Candidates found = params.self_maps ? find_self_maps(context, params) : explore(context, params, ask);
         if (params.self_maps)

@@ -13,6 +13,7 @@
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
+#include "varimap/stage/stamp.h"
 
 namespace varimap {
 namespace {
@@ -226,6 +227,11 @@ void visit(const QualityNumbers& quality, ContentsVisitor& visitor) {
     visitor.text("quality.json", quality.json);
 }
 
+void visit(const Stamp& stamp, ContentsVisitor& visitor) {
+    visitor.fact("for --if-stale", "what these files beside it were made from; by their content's hash");
+    for (const StampedFile& file : stamp.files) visitor.fact(file.name, file.hash);
+}
+
 struct Kind {
     int schema;
     const char* stage;
@@ -263,6 +269,7 @@ Eigen::Index ArrayView::size() const {
 
 void visit_artifact(const std::string& path, ContentsVisitor& visitor) {
     const std::string kind = read_header(path).kind;
+    if (kind == stamp_kind) return visit(read_stamp(path), visitor);
     const auto found = kinds().find(kind);
     if (found == kinds().end())
         throw ArtifactError("'" + path + "' is a " + kind + ", which this version of varimap does not know");

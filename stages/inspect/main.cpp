@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <cstdio>
+#include <filesystem>
 
 #include "stages/inspect/inspect.h"
 #include "varimap/stage/stage_main.h"
@@ -7,23 +10,34 @@ namespace {
 
 using namespace varimap;
 
-void check_all(const std::vector<std::string>& files) {
-    std::size_t bad = 0;
-    ExitCode code = ExitCode::ok;
-    for (const auto& file : files) {
-        const auto failure = check(file);
+/// What a shell leaves of a pattern where there is no such file.
+bool is_unmatched_pattern(const std::string& name) {
+    std::error_code ignored;
+    return name.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(name, ignored);
+}
+
+void check_all(const std::vector<std::string>& names) {
+    std::size_t checked = 0, bad = 0;
+    for (const auto& name : names) {
+        if (is_unmatched_pattern(name)) {
+            log("no file matches {}", name);
+            continue;
+        }
+        ++checked;
+        const auto failure = check(name);
         if (!failure) continue;
+        ++bad;
         std::puts(failure->what());
-        if (bad++ == 0) code = failure->code();
     }
-    if (bad > 0) throw Error(code, fmt::format("{} of {} files failed the check", bad, files.size()));
+    if (checked == 0) throw IoError("nothing was checked: no file matches " + names.front());
+    if (bad > 0) throw ArtifactError(fmt::format("{} of {} files failed the check", bad, checked));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     Stage stage("inspect", "Shows, checks or exports artifacts");
-    const auto& files = stage.input_list("file", "artifacts of any kind");
+    const auto& files = stage.word_list("file", "artifacts of any kind");
     const bool& checks = stage.flag("check", "verify the files; one line on stdout for each bad one");
     const bool& trace = stage.flag("trace", "all there is to say: every iteration, and the whole lineage");
     const auto& folder =

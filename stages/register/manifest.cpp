@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -42,11 +41,7 @@ TemplateLandmarks read_picked_landmarks(const std::string& path, const TriangleM
         positions.push_back(in_axes_of(mesh, point, LandmarkSpace::stated));
     }
     Snapped snapped = snap(positions, mesh);
-    const auto far =
-        std::ranges::count_if(snapped.distances, [](double distance) { return distance > far_from_surface; });
-    if (2 * std::size_t(far) > positions.size())
-        throw InputError(fmt::format("{}: {} of {} landmarks lie far from the template's surface; {}", path,
-                                     far, positions.size(), likely_cause(positions, mesh)));
+    require_near(snapped, positions, mesh, path, "landmarks");
     result.points = std::move(snapped.points);
     return result;
 }

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
 #include <filesystem>
 
 #include "stages/remesh/quality_json.h"
@@ -18,22 +22,38 @@ SolvedPair read_solved(Stage& stage, const std::string& path) {
     return stage.read<Solved>("plan", path).value;
 }
 
-/// The source on the target, with the polygons of the source's file where that is known and has any.
+/// Whether these are the mesh's, in their order. Compared to the bit: coordinates may be no numbers.
+bool are_polygons_of(const PolygonSoup& polygons, const TriangleMesh& mesh) {
+    const std::vector<Vec3>& points = polygons.points;
+    const Faces faces = triangulated(polygons);
+    return int(points.size()) == mesh.vertex_count() && int(faces.rows()) == mesh.face_count() &&
+           std::memcmp(points.data(), mesh.vertices.data(), points.size() * sizeof(Vec3)) == 0 &&
+           faces == mesh.faces;
+}
+
+/// The polygons of the file that a surface was made from. Throws ArtifactError where it holds another mesh.
+PolygonSoup read_polygons_of(const Surface& surface, const std::string& surface_file,
+                             const std::string& file) {
+    PolygonSoup polygons = read_polygons(file);
+    if (!are_polygons_of(polygons, file_as_read(surface)))
+        throw ArtifactError(
+            fmt::format("'{}' is not the mesh that '{}' was made from: it has changed since, or is another "
+                        "file; run again",
+                        file, surface_file));
+    return polygons;
+}
+
+/// The source on the target, with the polygons of the source's file; `polygons`: none where these are not
+/// known.
 std::string remeshed_ply(const PointMap& map, const Surface& source, const Surface& target,
-                         const std::string& file, PlyFormat format) {
+                         const PolygonSoup& polygons, PlyFormat format) {
     const TriangleMesh moved = cross_remesh(map, source, target);
-    if (file.empty()) return to_ply(moved, format);
-    const PolygonSoup polygons = read_polygons(file);
     if (polygons.corners.size() == 3 * polygons.ends.size()) return to_ply(moved, format);
-    try {
-        return to_ply(cross_remeshed_polygons(moved, polygons, map, source, target), format);
-    } catch (const InputError& error) {
-        throw InputError(file + ": " + error.what());
-    }
+    return to_ply(cross_remeshed_polygons(moved, polygons, map, source, target), format);
 }
 
 void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, const SamplePlan& plan,
-                const Surface& A, const Surface& B, const std::vector<std::string>& meshes,
+                const Surface& A, const Surface& B, const std::array<PolygonSoup, 2>& polygons,
                 PlyFormat format) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
@@ -48,10 +68,8 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
                      masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B));
     stage.write_file(folder + "/source_vertices.csv", vertices_csv(A));
     stage.write_file(folder + "/target_vertices.csv", vertices_csv(B));
-    stage.write_file(folder + "/source_on_target.ply",
-                     remeshed_ply(map.A_to_B, A, B, meshes.empty() ? "" : meshes[0], format));
-    stage.write_file(folder + "/target_on_source.ply",
-                     remeshed_ply(map.B_to_A, B, A, meshes.empty() ? "" : meshes[1], format));
+    stage.write_file(folder + "/source_on_target.ply", remeshed_ply(map.A_to_B, A, B, polygons[0], format));
+    stage.write_file(folder + "/target_on_source.ply", remeshed_ply(map.B_to_A, B, A, polygons[1], format));
 }
 
 }  // namespace
@@ -91,11 +109,16 @@ int main(int argc, char** argv) {
         Stage::require_lineage(map.header, map_file, "plan", plan, plan_file);
         require_surfaces(pair, A.value, B.value);
         require_surfaces(map.value, A.value, B.value);
+        std::array<PolygonSoup, 2> polygons;
+        if (!meshes.empty()) {
+            polygons = {read_polygons_of(A.value, surface_A, meshes[0]),
+                        read_polygons_of(B.value, surface_B, meshes[1])};
+            stage.record_file("meshes.A", meshes[0]);
+            stage.record_file("meshes.B", meshes[1]);
+        }
         const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
-        for (std::size_t i = 0; i < meshes.size(); ++i)
-            stage.record_file(i == 0 ? "meshes.A" : "meshes.B", meshes[i]);
         if (!folder.empty())
-            export_map(stage, folder, map.value, pair.plan, A.value, B.value, meshes,
+            export_map(stage, folder, map.value, pair.plan, A.value, B.value, polygons,
                        ascii ? PlyFormat::ascii : PlyFormat::binary);
         if (!json_file.empty()) stage.write_file(json_file, quality.json + "\n");
         stage.write(out, quality);  // last, so that it tells that the rest is there

@@ -6,6 +6,7 @@
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/candidates.h"
+#include "varimap/results/correspondence.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/stage_main.h"
 
@@ -60,7 +61,8 @@ int main(int argc, char** argv) {
         const RepairedMesh A = repaired(read_mesh(source), params.repair, source),
                            B = repaired(read_mesh(target), params.repair, target);
         PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);
-        require_fit(A_to_B, B_to_A, file_of(A), file_of(B));
+        require_fit(A_to_B, there, file_of(A), source, file_of(B), target);
+        require_fit(B_to_A, back, file_of(B), target, file_of(A), source);
         A_to_B = from_file(A_to_B, A.link, B.link);
         B_to_A = from_file(B_to_A, B.link, A.link);
         Candidates candidates;

@@ -58,13 +58,14 @@ std::string checkerboard_text(double cell, const TriangleMesh& source) {
                        cell * std::sqrt(surface_area(source)));
 }
 
-}  // namespace
-
+/// Each map has a row for every vertex of the one mesh, on faces of the other.
 void require_fit(const PointMap& source_to_target, const PointMap& target_to_source,
                  const TriangleMesh& source, const TriangleMesh& target) {
     require_fit(source_to_target, source, target, "source_to_target", "source", "target");
     require_fit(target_to_source, target, source, "target_to_source", "target", "source");
 }
+
+}  // namespace
 
 Image render(const TriangleMesh& source, const TriangleMesh& target, const PointMap& source_to_target,
              const PointMap& target_to_source, const RenderParams& params, const PointPairs& landmarks) {

@@ -43,10 +43,6 @@ Image render_distortion(const TriangleMesh& source, const TriangleMesh& target,
 /// Reads `vertex,ratio` of varimap-remesh; vertices that it does not name get NaN.
 Eigen::VectorXd read_csv_masses(const std::string& path, int vertices);
 
-/// Throws InputError unless each map has a row for every vertex of the one mesh, on faces of the other.
-void require_fit(const PointMap& source_to_target, const PointMap& target_to_source,
-                 const TriangleMesh& source, const TriangleMesh& target);
-
 /// The bytes of a PNG file.
 std::string to_png(const Image& image);
 

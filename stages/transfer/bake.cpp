@@ -129,7 +129,7 @@ TextureImage bake(const Correspondence& map, const PointCarrier& back, const Tex
             image.rgba[4 * std::size_t(i) + std::size_t(k)] =
                 static_cast<unsigned char>(std::clamp(std::lround(colour[k]), k == 3 ? 1l : 0l, 255l));
     });
-    for (int i = 0; i < size.padding; ++i) grow(image);
+    for (int i = 0; i < (size.padding < 0 ? 8 : size.padding); ++i) grow(image);
     return image;
 }
 

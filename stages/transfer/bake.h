@@ -14,7 +14,8 @@ struct Texture {
 
 struct BakeSize {
     int pixels = 2048;  ///< width and height
-    int padding = 8;  ///< pixels beyond the rim of every patch, so that no background shows when it is shrunk
+    /// Pixels beyond the rim of every patch, so that no background shows when it is shrunk; -1: 8.
+    int padding = -1;
 };
 
 /// The texture of `map.from` drawn onto the texture coordinates that `map.to` has of its own; transparent

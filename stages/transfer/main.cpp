@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 struct TransferParams {
     int bake = 0;
-    int padding = 8;
+    int padding = -1;
     int influences = 0;
     LandmarkSpace space = LandmarkSpace::stated;
 
@@ -23,7 +23,7 @@ struct TransferParams {
                  "texture: width and height, in pixels, of an image for the target's own texture "
                  "coordinates; 0: the source's coordinates, cut at seams",
                  0, 16384);
-        list.add("padding", padding, "baking: pixels coloured beyond the rim of every patch", 0, 256);
+        list.add("padding", padding, "baking: pixels coloured beyond the rim of every patch; -1: 8", -1, 256);
         list.add("influences", influences, "weights: how many to keep in each row, the largest; 0: all", 0,
                  1 << 20);
         list.add("landmark_space", space, "points: their axes, as their file states them or others");

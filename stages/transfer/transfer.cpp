@@ -65,6 +65,12 @@ void require_effect(const TransferRequest& request) {
         throw UsageError("--bake draws what --texture carries: give --texture an OBJ of the source, too");
     if (!request.onto.empty() && request.bake.pixels == 0)
         throw UsageError("--onto says what to bake onto: give --bake a number of pixels, too");
+    if (request.bake.padding >= 0 && request.bake.pixels == 0)
+        throw UsageError("--padding is that of what is baked: give --bake a number of pixels, too");
+    if (request.influences > 0 && request.weights.empty())
+        throw UsageError("--influences says how many of --weights are kept: give a file of these, too");
+    if (request.space != LandmarkSpace::stated && request.points.empty())
+        throw UsageError("--landmark-space says which axes --points have: give a file of these, too");
 }
 
 /// Vertices without an image go where those near them went; that is a guess.

@@ -17,8 +17,8 @@ struct TransferRequest {
     std::string onto;     ///< OBJ of the target with its own, to bake onto; empty: the target's mesh
     std::string mesh;     ///< OBJ of the source whose polygons are wanted on the target
     LandmarkSpace space = LandmarkSpace::stated;
-    BakeSize bake{0, 8};  ///< pixels 0: no baking, but coordinates cut at seams
-    int influences = 0;   ///< weights kept in each row; 0: all
+    BakeSize bake{0};    ///< pixels 0: no baking, but coordinates cut at seams
+    int influences = 0;  ///< weights kept in each row; 0: all
 
     bool empty() const {
         return points.empty() && values.empty() && labels.empty() && weights.empty() && regions.empty() &&

@@ -24,6 +24,30 @@ refuse 2 a.off b.off -o out -j 0
 refuse 2 a.off b.off -o out --set eigen
 refuse 2 a.off b.off -o out --set eigne.count=10
 refuse 2 a.off b.off -o out --set eigen.count=10 --set refine.threads=1
+for setting in explore.{onto_itself,only_if_needed}=true explore.{surfaces,self_maps}=x diffuse.initial_map=one.txt remesh.{meshes,export}=x \
+    eigen.{config,parameters,help,version,if-stale,error_file}=x; do
+    refuse 2 a.off b.off -o out --set "$setting"
+    [[ $(<log) == "varimap: error: --set $setting: "*" is not a parameter"* ]] || fail "--set $setting: $(<log)"
+done
+for option in '--set eigen.count=abc' '--area-bound 0.5' '--candidate x' '--set refine.colour=1'; do
+    # shellcheck disable=SC2086
+    refuse 2 a.off b.off -o out $option
+    [[ $(<log) == "varimap: error: $option: "* ]] || fail "$option is not named: $(<log)"
+done
+refuse 2 a.off b.off -o out --repair ''
+[[ $(<log) == "varimap: error: --repair '': "* ]] || fail "--repair without a value: $(<log)"
+refuse 2 a.off b.off -o out -j 4097
+refuse 2 a.off b.off -o out -j 9999
+# shellcheck disable=SC2016
+for line in 'repair = "`touch obeyed`"' 'repair = "weld;touch obeyed"'; do
+    printf '[preprocess]\n%s\n' "$line" >bad.toml
+    refuse 2 a.off b.off -o out --config bad.toml
+    grep -q 'error: bad.toml: ' log || fail "$line: $(<log)"
+done
+printf '[explore]\nonto_itself = true\n' >bad.toml
+refuse 2 a.off b.off -o out --config bad.toml
+grep -q 'error: bad.toml: onto_itself is not a parameter' log || fail "onto_itself in a file: $(<log)"
+[[ ! -e obeyed ]] || fail "a shell obeys what is in a file"
 refuse 2 a.off b.off -o out --area-bound
 refuse 2 a.off b.off -o out --landmark-weight
 refuse 2 a.off b.off -o out --landmark-weight 0.2

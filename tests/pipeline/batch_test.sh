@@ -204,7 +204,10 @@ printf '[eigen]\ncuont = 3\n' >bad.toml
 for option in --set=eigen.cout=3 --set=eigen.count=many --area-bound=0.5 --config=bad.toml --fill-holes=some --landmark-weight=2; do
     expect_exit 2 "$varimap" batch --all-pairs meshes -o none --plan $option
 done
-grep -q '^batch: error: .*landmark_weight' log || fail "a wrong option is not said: $(<log)"
+grep -q '^batch: error: --landmark-weight 2: ' log || fail "a wrong option is not said: $(<log)"
+expect_exit 2 "$varimap" batch --all-pairs meshes -o none --set eigen.count=abc
+grep -q '^batch: error: --set eigen.count=abc: ' log || fail "which stage has no such value is not said: $(<log)"
+expect_exit 2 "$varimap" batch --all-pairs meshes -o none -j 9999
 printf 'source,target,name\nmeshes/a.off,meshes/b.off,%0201d\n' 1 >long.csv
 expect_exit 3 "$varimap" batch long.csv -o none
 mkdir own

@@ -19,11 +19,19 @@ jq -e '[.warnings[] | select(.stage == "explore a--b") | .message] | length == 1
 # Another candidate is continued: nobody asks again to choose.
 map a.off b.off -o out --candidate 2
 ! grep -q 'not sure\|candidates.png' out.txt || fail "after --candidate 2 the summary still asks"
-grep -q 'candidate 2 of' out.txt || fail "the summary does not say which candidate it is"
+grep -q 'explored: candidate 2 of [0-9]*, as asked; the first is right with a probability of' out.txt ||
+    fail "the summary does not say which candidate it is, or gives it the probability of the first: $(<out.txt)"
 "$varimap" report out >report.txt 2>log || fail "report"
 grep -q 'candidate 2, as asked' report.txt || fail "the report does not say which candidate it is"
 ! grep -q '^warning  explore' report.txt || fail "the report still warns"
 map a.off b.off -o out
+
+# By hand, what has no effect is refused.
+both=(out/artifacts/{a,b}.{coarse,basis,hierarchy})
+expect_exit 2 "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" new.diffusion --candidate 2
+grep -q 'maps of --candidates' log || fail "--candidate alone"
+expect_exit 2 "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" new.diffusion --map_base 1 --candidates out/artifacts/a--b.candidates
+grep -q 'how --initial-map counts' log || fail "--map_base alone"
 
 # The long axis runs up to 1.3, the next one to 0.7.
 tips() {

@@ -24,6 +24,13 @@ for part in 0 1 100 $((size / 2)) $((size - 1)); do
     expect_exit 4 "$eigen" cut.surface new.basis
     expect_exit 4 "$inspect" --check cut.surface
 done
+# What is missing is bad as well, but keeps nothing from being looked at; a pattern without a match is not missed.
+expect_exit 4 "$inspect" --check absent.surface $here/a.surface cut.surface
+[[ $(wc -l <out.txt) == 2 ]] && grep -q "'absent.surface'" out.txt && grep -q "'cut.surface'" out.txt || fail "which files are bad"
+expect_exit 0 "$inspect" --check "$here/*.none" $here/*.surface
+expect_exit 6 "$inspect" --check "$here/*.none"
+expect_exit 6 "$inspect" absent.surface
+expect_exit 0 "$inspect" --check out/.exports
 for offset in 0 30 200 $((size / 3)) $((size / 2)) $((size - 2)); do
     cp $here/a.surface flipped.surface
     flip flipped.surface "$offset"

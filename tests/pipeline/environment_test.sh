@@ -28,6 +28,18 @@ env -i PATH="$PATH" VARIMAP_BIN="$VARIMAP_BIN" "$varimap" map -v "${small_pictur
     fail "an empty environment"
 same_results plain empty
 
+# Options of a shell, exported.
+(
+    set -C
+    export SHELLOPTS
+    "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o empty >|out.txt 2>|log || fail "noclobber"
+)
+(
+    set -f
+    export SHELLOPTS
+    "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o empty >out.txt 2>log || fail "noglob"
+)
+
 # Locales: all that are here, and the Turkish one, in which i is no lower case of I and the point a comma.
 locales=(C.UTF-8)
 if command -v localedef >/dev/null && localedef -i tr_TR -f UTF-8 "$work/tr_TR.UTF-8" 2>/dev/null; then
@@ -59,6 +71,14 @@ exits 6 "$varimap" map a.off absent.off -o none 2>&- || fail "$(cat codes)"
 exits 2 "$varimap" map a.off b.off -o none --set eigen.count=x 2>/dev/full || fail "$(cat codes)"
 exits 6 "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o plain >/dev/full 2>log || fail "$(cat codes)"
 exits 6 "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o plain >&- 2>log || fail "$(cat codes)"
+[[ $(tail -n 1 log) == "varimap: error: cannot write to standard output" && $(grep -c 'write error' log) == 0 ]] || fail "a closed stdout: $(<log)"
+exits 6 "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain -q >/dev/full 2>log || fail "$(cat codes)"
+[[ $(<log) == "varimap: error: cannot write to standard output" ]] || fail "a full stdout: $(<log)"
+for words in "help map" "map --help" "help" "--help" "--version" "batch --help" "transfer --help" "report --help" "report plain"; do
+    # shellcheck disable=SC2086
+    exits 6 "$varimap" $words >/dev/full 2>log || fail "$(cat codes)"
+    [[ $(<log) == *": error: cannot write to standard output" && $(wc -l <log) == 1 ]] || fail "$words: $(<log)"
+done
 exits 6 "$VARIMAP_BIN/varimap-inspect" $artifact >/dev/full 2>log || fail "$(cat codes)"
 exits 6 "$VARIMAP_BIN/varimap-inspect" $artifact >&- 2>log || fail "$(cat codes)"
 # With all of them closed the artifact is still whole.

@@ -48,7 +48,7 @@ for arguments in "pipe.off b.off" "a.off pipe.off" "a.off b.off --landmarks pipe
 done
 expect_exit 6 timeout 10 "$VARIMAP_BIN/varimap-preprocess" pipe.off x.surface
 expect_exit 6 timeout 10 "$VARIMAP_BIN/varimap-eigen" plain/artifacts/a.surface x.basis --config pipe.off
-expect_exit 6 timeout 10 "$VARIMAP_BIN/varimap-inspect" --check pipe.off
+expect_exit 4 timeout 10 "$VARIMAP_BIN/varimap-inspect" --check pipe.off
 expect_exit 6 timeout 10 "$VARIMAP_BIN/varimap-verify" a.off b.off pipe.off
 expect_exit 6 "$VARIMAP_BIN/varimap-preprocess" . x.surface
 
@@ -65,6 +65,22 @@ for name in source_to_target.csv quality.json picture.png; do
     expect_exit 6 "$varimap" map a.off b.off -o blocked
     rmdir "blocked/$name"
 done
+
+# Errors say where, as seen from where the user is: of artifacts, results, and folders that are gone or cannot be made.
+mkdir -p blocked/artifacts/a.basis
+expect_exit 6 "$varimap" map a.off b.off -o ./blocked
+last_line_names "'./blocked/artifacts/a.basis'"
+rmdir blocked/artifacts/a.basis
+map a.off b.off -o linked --artifacts away --until preprocess
+rm -r away
+expect_exit 6 "$varimap" map a.off b.off -o linked
+last_line_names "linked/artifacts: leads to $PWD/away, which is gone"
+map a.off b.off -o linked --artifacts away --until preprocess
+expect_exit 6 "$varimap" map a.off b.off -o /proc/none
+last_line_names '/proc/none: cannot be made: No such file or directory'
+map a.off b.off -o halfway --until remesh
+"$varimap" report halfway >out.txt 2>log || fail "report"
+! grep -q '^picture' out.txt || fail "a picture that is not there"
 
 # A run does not write over what it reads.
 cp -r plain self

@@ -38,6 +38,28 @@ make -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=plain.off TARGET=bent.off
     RENDER_FLAGS="--width 64 --samples 1" 2>log
 expect_ran ""
 
+# A folder that was moved with its meshes, results in it: nothing is made again. So with copies, and meshes that are elsewhere now.
+mkdir project
+cp plain.off bent.off tips.txt project
+map project/plain.off project/bent.off -o project/out --landmarks project/tips.txt
+mv project renamed
+map renamed/plain.off renamed/bent.off -o renamed/out --landmarks renamed/tips.txt
+expect_ran ""
+cp -r renamed copy
+map copy/plain.off copy/bent.off -o copy/out --landmarks copy/tips.txt
+expect_ran ""
+[[ $(ls copy/out/artifacts/inputs) == $'bent\nplain' ]] || fail "moved meshes have other names"
+# Two of one name and content are two; so are two of one name.
+mkdir twin
+cp plain.off twin
+map plain.off twin/plain.off -o twins --until preprocess
+map plain.off twin/plain.off -o twins --until preprocess
+expect_ran ""
+[[ $(ls twins/artifacts/inputs) == $'plain\nplain-2' ]] || fail "names of twins: $(ls twins/artifacts/inputs)"
+cp bent.off twin/plain.off
+map twin/plain.off bent.off -o twins --until preprocess
+[[ $(readlink twins/artifacts/inputs/plain) == "$PWD/plain.off" ]] || fail "another mesh took a name"
+
 # A folder whose name begins with a dash, and results that were damaged.
 cp -r plain ./-dash
 "$varimap" report -dash >out.txt 2>log || fail "report of a folder with a dash"

@@ -135,7 +135,7 @@ grep -q 'register: error: template.off: .* twice' log || fail "the template as a
 expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates other.off ./other.off
 
 # Options of maps are looked at first; what a run writes is not what the next one reads.
-for option in --set=eigen.cout=3 --area-bound=0.5 --mirror; do
+for option in --set=eigen.cout=3 --area-bound=0.5 --mirror -j9999; do
     expect_exit 2 "$varimap" register template.off meshes -o none $option
 done
 expect_exit 2 "$varimap" register template.off meshes -o meshes

@@ -132,6 +132,44 @@ map handle/source.ply handle/target.ply -o whole --landmarks handle/landmarks.tx
 jq -e '.stages["preprocess target"] | .genus == 1 and (has("cut_handles") | not)' whole/quality.json >/dev/null ||
     fail "a handle is cut that should stay"
 
+# The picture is of what was mapped, however that was asked for: a second component is left out of it, too.
+awk 'NR == 2 { n = $1; print "OFF\n" n + 4, $2 + 4, 0 } NR > 2 && NR <= n + 2 { print }
+    NR == n + 3 { print "3 0 0\n3.8 0 0\n3 .8 0\n3 0 .8" } NR > n + 2 { print }
+    END { print "3", n, n + 2, n + 1; print "3", n, n + 1, n + 3; print "3", n, n + 3, n + 2; print "3", n + 1, n + 2, n + 3 }' a.off >two.off
+map two.off b.off -o spelt --landmarks tips.txt "${coarse[@]}" --components largest
+map two.off b.off -o spelt --landmarks tips.txt "${coarse[@]}" --set preprocess.components=largest
+expect_ran ""
+printf '[preprocess]\ncomponents = "largest"\n' >largest.toml
+map two.off b.off -o spelt --landmarks tips.txt "${coarse[@]}" --config largest.toml
+expect_ran ""
+cp spelt/picture.png largest.png
+map two.off b.off -o spelt --landmarks tips.txt "${coarse[@]}" --set preprocess.least_component=.2
+same spelt/picture.png largest.png
+map two.off b.off -o spelt --landmarks tips.txt "${coarse[@]}"
+! cmp -s spelt/picture.png largest.png || fail "the second component is in no picture"
+
+# A few repaired elements of many are told, and nothing to look at; a part that is left out is.
+verdict() {  # RECORD OF PREPROCESS: the verdict and the alarms of a good map with that, and how many warnings are told
+    jq --argjson record "$1" '{source_to_target: {flipped_area_percent: 0, coverage: 1, conformal_distortion: {p50: 1, p95: 1}},
+        stages: {"preprocess a": $record}, warnings: [{stage: "preprocess a", message: "repaired: this; varimap help meshes says how"}]}' <<<null |
+        jq -rf "$VARIMAP_SOURCE/pipelines/report.jq" | jq -r '"\(.verdict): \(.alarms | join(", ")) of \(.warnings | length)"'
+}
+while read -r record says; do
+    [[ $(verdict "$record") == "$says" ]] || fail "$record: $(verdict "$record"), not $says"
+done <<'LIST'
+{"input_faces":13800,"cut_edges":1,"split_vertices":1} good:  of 1
+{"input_faces":200,"degenerate_faces":10} good:  of 1
+{"input_faces":200,"degenerate_faces":11} look here: preprocess a of 1
+{"input_faces":13800,"turned_faces":13,"welded_vertices":5000} good:  of 1
+{"input_faces":13800,"turned_faces":14} look here: preprocess a of 1
+{"input_faces":13800,"cut_edges":1,"dropped_components":1} look here: preprocess a of 1
+{"input_faces":13800,"cut_handles":1} look here: preprocess a of 1
+{} look here: preprocess a of 1
+LIST
+"$varimap" report out >report.txt 2>log || fail "report"
+grep -q '^verdict  look here: before you use this map, see what preprocess a-spoiled warns of; what preprocess b-spoiled warns of' report.txt ||
+    fail "what to look at is not said: $(head -n 1 report.txt)"
+
 # Which meshes are taken, and what is repaired.
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 0\n3 0 1 0\n' >nothing.off
 "$varimap" survey a.off holed.off >survey.csv 2>log || fail "survey"

@@ -63,6 +63,37 @@ same_results good left
 map a.off b.off -o right --artifacts disputed --set eigen.count=30
 same_results good_30 right
 
+# Between two stages of a run another one makes all of both surfaces anew, with other parameters: all fits together again.
+landmarks_of_figure a.off >tips.txt
+map a.off b.off -o good_tips --landmarks tips.txt --set eigen.count=30
+run left a.off b.off --landmarks tips.txt --artifacts taken --set eigen.count=30 -j 1
+one=$!
+until grep -qs '^\[explore' left/log.txt || ! kill -0 $one 2>/dev/null; do sleep .02; done
+run right a.off b.off --artifacts taken --until hierarchy -j 1
+wait $! || true  # it may give up
+finish left $one
+same_results good_tips left
+jq -e '.stages["eigen a"].eigenpairs == 30' left/quality.json >/dev/null || fail "a map of another run's parameters"
+# The one whose own folder it is does not know of the other from its command line.
+run owner a.off b.off --set eigen.count=30 -j 1
+one=$!
+until grep -qs '^\[explore' owner/log.txt || ! kill -0 $one 2>/dev/null; do sleep .02; done
+run right a.off b.off --artifacts owner/artifacts --until hierarchy -j 1
+wait $! || true  # it may give up
+finish owner $one
+same_results good_30 owner
+# Where that goes on and on, it is said.
+mkdir busy
+until [[ -e busy/end ]]; do
+    "$VARIMAP_BIN/varimap-preprocess" --least_component .0$((RANDOM % 8 + 2)) a.off busy/artifacts/a.surface 2>busy/log || true
+done &
+one=$!
+expect_exit 4 "$varimap" map -q "${small_picture[@]}" a.off b.off -o left --artifacts busy/artifacts -j 1
+touch busy/end
+wait $one
+grep -q 'error: left/artifacts: other runs make the same files there with other parameters' log || fail "never settled: $(<log)"
+[[ ! -e left/quality.json ]] || fail "a map of nobody knows which parameters"
+
 # Killed: everything, or the front end alone, or one stage.
 victims() {  # KIND SESSION
     case $1 in

@@ -98,5 +98,27 @@ expect_exit 4 "$VARIMAP_BIN/varimap-remesh" good/artifacts/{a,b}.surface good_30
 "$VARIMAP_BIN/varimap-explore" "${both[@]}" found.candidates --landmarks four.txt --random_starts 1 2>log || fail "explore"
 expect_exit 4 "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" new.diffusion --candidates found.candidates --landmarks tips.txt
 grep -q 'do not belong together' log || fail "the reason is not given"
+# A basis and a hierarchy that candidates were not found with, of either side; --surfaces were given, or not.
+for side in a b; do
+    mixed=("${both[@]}")
+    for i in "${!both[@]}"; do
+        [[ ${both[i]} == */$side.coarse || ${both[i]} != */$side.* ]] || mixed[i]=good_30/artifacts/${both[i]##*/}
+    done
+    for found in found.candidates good/artifacts/a--b.landmarks.candidates; do
+        expect_exit 4 "$VARIMAP_BIN/varimap-diffuse" "${mixed[@]}" new.diffusion --candidates $found --landmarks tips.txt
+        grep -q "'$found' and 'good_30/artifacts/$side.basis' do not belong together" log || fail "which do not belong together"
+    done
+done
+# Self-maps of two surfaces.
+expect_exit 2 "$VARIMAP_BIN/varimap-explore" "${both[@]}" new.selfmaps --onto_itself true
+expect_exit 4 "$VARIMAP_BIN/varimap-explore" "${both[@]}" new.candidates --self-maps found.candidates found.candidates
+grep -Fq '(B.sketch.hierarchy)' log || fail "the other side of self-maps is not looked at"
+# Another mesh, of as many vertices and triangles, in place of that which a surface was made from.
+for meshes in "c.off b.off c.off a" "a.off a.off a.off b" "a.off c.off c.off b"; do
+    read -r source target wrong side <<<"$meshes"
+    expect_exit 4 "$VARIMAP_BIN/varimap-remesh" good/artifacts/{a,b}.coarse good/artifacts/a--b.{plan,map} new.quality \
+        --export new.folder --meshes "$source" "$target"
+    grep -q "'$wrong' is not the mesh that 'good/artifacts/$side.coarse' was made from" log || fail "which mesh is another"
+done
 [[ $(find . -maxdepth 1 -name 'new.*') == "" ]] || fail "something was written"
 nothing_left out

@@ -53,6 +53,9 @@ refuse 6 "holds no finished map" empty --values heat.txt
 refuse 2 "has no texture coordinates to bake onto" good --texture a.obj --bake 64
 refuse 2 "give --texture" good --values heat.txt --bake 64
 refuse 2 "give --bake" good --texture a.obj --onto a.obj
+refuse 2 "give --bake" good --texture a.obj --padding 8
+refuse 2 "how many of --weights" good --values heat.txt --influences 4
+refuse 2 "which axes --points have" good --values heat.txt --landmark-space lps
 rm a.mtl
 refuse 6 "its materials a.mtl are missing" good --texture a.obj
 printf 'newmtl skin\nmap_Kd skin.png\n' >a.mtl

@@ -16,6 +16,7 @@
 #include "varimap/results/quality_numbers.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/hierarchy.h"
+#include "varimap/stage/stamp.h"
 
 namespace varimap {
 namespace {
@@ -141,6 +142,21 @@ TEST(Inspect, CheckRefusesUnknownKindsAndPayloadsOfAnotherForm) {
     header.schema = ArtifactType<Plan>::schema;
     write_payload(folder / "a", header, "not a plan");
     EXPECT_EQ(check(folder / "a")->code(), ExitCode::bad_artifact);
+}
+
+TEST(Inspect, StampsAreSummarisedByTheFilesTheySpeakOf) {
+    const TemporaryFolder folder;
+    write_file_atomically(folder / "table.csv", "1,2\n");
+    Header header;
+    header.kind = stamp_kind;
+    header.schema = stamp_schema;
+    header.stage = "varimap-test";
+    header.inputs = {{"mesh", "off", content_hash("mesh")}};
+    write_stamp(folder / ".stamp", header, {folder / "table.csv"});
+    const std::string text = summarise(folder / ".stamp");
+    EXPECT_THAT(text, HasSubstr("mesh: off " + content_hash("mesh")));
+    EXPECT_THAT(text, testing::ContainsRegex("table.csv +" + content_hash("1,2\n")));
+    EXPECT_FALSE(check(folder / ".stamp"));
 }
 
 TEST(Inspect, ExportWritesWhatTheArtifactHolds) {

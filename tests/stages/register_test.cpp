@@ -5,10 +5,14 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "fixtures/temporary_folder.h"
 #include "stages/register/answers.h"
 #include "stages/register/common_part.h"
+#include "stages/register/manifest.h"
 #include "stages/register/procrustes.h"
+#include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {
@@ -17,6 +21,7 @@ namespace {
 using ::testing::DoubleNear;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::Lt;
 
 const TriangleMesh& body() {
@@ -180,6 +185,22 @@ TEST(TransferredLandmarks, AreTrustedWhereTheWayBackLeadsHome) {
     const TransferredLandmarks absent = transfer_landmarks({identity_answer()}, {{SurfacePoint{}}});
     EXPECT_EQ(absent.confidence[0], 0);
     EXPECT_TRUE(absent.positions.row(0).hasNaN());
+}
+
+TEST(Manifest, PickedLandmarksFarFromTheTemplateAreRefused) {
+    const TemporaryFolder folder;
+    write_file_atomically(folder / "template.ply", to_ply(body()));
+    write_file_atomically(folder / "far.pp",
+                          "<PickedPoints><point x=\"90\" y=\"0\" z=\"0\" name=\"a\"/></PickedPoints>");
+    write_file_atomically(folder / "manifest", R"({"template": ")" + (folder / "template.ply") +
+                                                   R"(", "landmarks": ")" + (folder / "far.pp") + R"("})");
+    try {
+        read_registration(folder / "manifest");
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(),
+                    HasSubstr("far.pp: 1 of 1 landmarks lie farther than 0.02 from the surface"));
+    }
 }
 
 TEST(CommonPart, LacksWhatOneSpecimenLacks) {

@@ -866,9 +866,20 @@ TEST_F(Transfer, RefusesWhatWouldHaveNoEffect) {
     request.regions = {write("r.txt", "3\n")};
     request.bake = {16, 1};
     EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("give --texture"));
-    request.bake = {0, 8};
+    request.bake = {0};
     request.onto = "b.obj";
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("give --bake"));
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("--onto says what to bake onto"));
+    request.onto.clear();
+    request.bake = {0, 8};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("--padding is that of what is baked"));
+    request.bake = {0};
+    request.influences = 4;
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("how many of --weights are kept"));
+    request.influences = 0;
+    request.space = LandmarkSpace::lps;
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("which axes --points have"));
+    request.space = LandmarkSpace::stated;
+    EXPECT_EQ(carry(request, identity(ball_)).size(), 1u);
 }
 
 /// The description within a .glb.

@@ -11,14 +11,13 @@
 #include "varimap/mesh/private/embree_scene.h"
 
 namespace varimap {
-namespace {
-
-/// Coordinate along ab of the point closest to q, in [0, 1].
-double closest_on_segment(const Vec3& q, const Vec3& a, const Vec3& b) {
+double closest_on_segment(const Vec3& query, const Vec3& a, const Vec3& b) {
     const Vec3 ab = b - a;
-    const double length = ab.squaredNorm(), t = (q - a).dot(ab);
+    const double length = ab.squaredNorm(), t = (query - a).dot(ab);
     return t <= 0 || length <= 0 ? 0 : std::min(1.0, t / length);
 }
+
+namespace {
 
 /// Barycentric coordinates of q's projection onto the plane; all -1 if rounding leaves the triangle none.
 Vec3 project_to_plane(const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {

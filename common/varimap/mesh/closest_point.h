@@ -50,6 +50,8 @@ class ClosestPointOnDemand {
     mutable std::optional<ClosestPoint> closest_;
 };
 
+/// Closest point of a segment as coordinate along ab, in [0, 1].
+double closest_on_segment(const Vec3& query, const Vec3& a, const Vec3& b);
 /// Closest point of one triangle as barycentric coordinates.
 Vec3 closest_barycentric(const Vec3& query, const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -92,6 +92,21 @@ std::string finer_surface(const Header& surface) {
     return finer.empty() ? surface.payload_hash : finer;
 }
 
+/// Content hashes of what candidates were found with on one side: on the surfaces themselves where
+/// varimap-explore was given these, too (--surfaces), or else on their sketches.
+struct RecordedSide {
+    std::string surface, basis, hierarchy;
+};
+
+RecordedSide recorded_side(const Header& candidates, const std::string& side) {
+    const auto in_list = [&](int k) {
+        return candidates.input_hash(std::string("surfaces.") + char((side == "A" ? 'A' : 'D') + k));
+    };
+    const auto of_sketch = [&](const char* what) { return candidates.input_hash(side + ".sketch." + what); };
+    if (!in_list(0).empty()) return {in_list(0), in_list(1), in_list(2)};
+    return {of_sketch("surface"), of_sketch("basis"), of_sketch("hierarchy")};
+}
+
 }  // namespace
 
 Artifact<Surface> read_surface_or_domain(Stage& stage, const std::string& role, const std::string& path) {
@@ -122,7 +137,7 @@ SurfaceData PairInputs::read(Stage& stage, const std::string& side, const Paths&
     Stage::require_lineage(basis.header, paths.basis, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "surface", surface.header, paths.surface);
     Stage::require_lineage(hierarchy.header, paths.hierarchy, "basis", basis.header, paths.basis);
-    headers_[side] = {surface.header, hierarchy.header};
+    headers_[side] = {surface.header, basis.header, hierarchy.header};
     SurfaceData data{std::move(surface.value), std::move(basis.value), std::move(hierarchy.value)};
     require_fit(data);
     return data;
@@ -131,27 +146,47 @@ SurfaceData PairInputs::read(Stage& stage, const std::string& side, const Paths&
 void PairInputs::require_same(const Header& plan, const std::string& plan_path) const {
     for (const auto& [side, headers] : headers_)
         Stage::require_lineage(plan, plan_path, side + "." + kind_ + "hierarchy", headers.hierarchy,
-                               side == "A" ? A_.hierarchy : B_.hierarchy);
+                               paths(side).hierarchy);
 }
 
 std::string PairInputs::sketched(const std::string& side) const {
     return finer_surface(headers_.at(side).surface);
 }
 
-void PairInputs::require_sketches(const Candidates& candidates, const std::string& path) const {
+void PairInputs::require_sketches(const Artifact<Candidates>& candidates, const std::string& path) const {
     for (const auto& [side, headers] : headers_) {
-        const std::string& of = side == "A" ? candidates.sketched_A : candidates.sketched_B;
+        const std::string& of = side == "A" ? candidates.value.sketched_A : candidates.value.sketched_B;
         if (of != headers.surface.payload_hash && of != finer_surface(headers.surface))
             throw ArtifactError(
                 fmt::format("'{}' was found on a sketch of another surface than '{}'; rerun varimap-explore",
-                            path, side == "A" ? A_.surface : B_.surface));
+                            path, paths(side).surface));
+        const RecordedSide found = recorded_side(candidates.header, side);
+        if (found.surface != headers.surface.payload_hash) continue;
+        const auto require = [&](const std::string& hash, const Header& given,
+                                 const std::string& given_path) {
+            if (hash != given.payload_hash)
+                throw ArtifactError(
+                    fmt::format("'{}' and '{}' do not belong together: the candidates were found with "
+                                "another {} of '{}'; "
+                                "rerun varimap-explore",
+                                path, given_path, given.kind, paths(side).surface));
+        };
+        require(found.basis, headers.basis, paths(side).basis);
+        require(found.hierarchy, headers.hierarchy, paths(side).hierarchy);
     }
+}
+
+bool PairInputs::are_same() const {
+    const Headers &A = headers_.at("A"), &B = headers_.at("B");
+    return A.surface.payload_hash == B.surface.payload_hash && A.basis.payload_hash == B.basis.payload_hash &&
+           A.hierarchy.payload_hash == B.hierarchy.payload_hash;
 }
 
 void PairInputs::require_self_maps(const Header& self_maps, const std::string& path,
                                    const std::string& side) const {
-    Stage::require_lineage(self_maps, path, "A." + kind_ + "hierarchy", headers_.at(side).hierarchy,
-                           side == "A" ? A_.hierarchy : B_.hierarchy);
+    for (const char* of : {"A.", "B."})
+        Stage::require_lineage(self_maps, path, of + kind_ + "hierarchy", headers_.at(side).hierarchy,
+                               paths(side).hierarchy);
 }
 
 namespace {

@@ -27,8 +27,11 @@ class PairInputs {
     void require_same(const Header& plan, const std::string& plan_path) const;
     /// Payload hash of the surface of which that of a side ("A" or "B") is a sketch.
     std::string sketched(const std::string& side) const;
-    /// Refuses candidates that were found on sketches of other surfaces than those read.
-    void require_sketches(const Candidates& candidates, const std::string& path) const;
+    /// Refuses candidates that were found on sketches of other surfaces than those read, or with another
+    /// basis or hierarchy of these.
+    void require_sketches(const Artifact<Candidates>& candidates, const std::string& path) const;
+    /// Whether both sides are the same files, or files of the same content.
+    bool are_same() const;
     /// Refuses self-maps of another surface than that of the side ("A" or "B").
     void require_self_maps(const Header& self_maps, const std::string& path, const std::string& side) const;
 
@@ -39,8 +42,9 @@ class PairInputs {
     static Paths declare(Stage& stage, const std::string& role);
     SurfaceData read(Stage& stage, const std::string& side, const Paths& paths);
     struct Headers {
-        Header surface, hierarchy;
+        Header surface, basis, hierarchy;
     };
+    const Paths& paths(const std::string& side) const { return side == "A" ? A_ : B_; }
     std::string kind_;
     Paths A_, B_;
     std::map<std::string, Headers> headers_;  ///< by side

@@ -118,11 +118,6 @@ Distortion measure_distortion(const PointMap& map, const TriangleMesh& source, c
     return measure_distortion(measure_triangles(map, source, target));
 }
 
-double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-                               double bound) {
-    return share_within_area_bound(measure_triangles(map, source, target), source, bound);
-}
-
 double share_within_area_bound(const FaceData<TriangleDistortion>& triangles, const TriangleMesh& source,
                                double bound) {
     VertexData<double> area(source.vertex_count(), 0), image(source.vertex_count(), 0);

@@ -55,10 +55,7 @@ Distortion measure_distortion(const FaceData<TriangleDistortion>& triangles);
 
 /// Share of the source's area around vertices whose faces together have an image of 1/bound to `bound` times
 /// their area, both surfaces of unit area: how far a map keeps the bound of Sec. 3.4 where it is finished.
-/// Bounds below 1.05 count as 1.05: no finished map keeps areas exactly.
-double share_within_area_bound(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-                               double bound);
-/// The same of triangles that were measured already.
+/// Bounds below 1.05 count as 1.05: no finished map keeps areas exactly. `triangles`: measure_triangles.
 double share_within_area_bound(const FaceData<TriangleDistortion>& triangles, const TriangleMesh& source,
                                double bound);
 

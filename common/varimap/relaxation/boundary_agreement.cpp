@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "varimap/mesh/closest_point.h"
+
 namespace varimap {
 
 namespace {
@@ -11,19 +13,14 @@ namespace {
 constexpr double most_longer = 2;
 constexpr double radius = 0.05;  ///< of the constraints, in sqrt(area), as of those of the inverse
 
-Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-    const Vec3 ab = b - a;
-    const double squared = ab.squaredNorm();
-    return squared > 0 ? Vec3(a + std::clamp((x - a).dot(ab) / squared, 0.0, 1.0) * ab) : a;
-}
-
 /// Per loop the point of it that is closest to x.
 std::vector<Vec3> closest_on_loops(const Vec3& x, const TriangleMesh& mesh, const Boundary& boundary) {
     std::vector<Vec3> closest(std::size_t(boundary.loops));
     std::vector<double> least(closest.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
         const auto [a, b] = boundary.edges[i];
-        const Vec3 point = closest_on_segment(x, mesh.vertex(a), mesh.vertex(b));
+        const Vec3 from = mesh.vertex(a), to = mesh.vertex(b);
+        const Vec3 point = from + closest_on_segment(x, from, to) * (to - from);
         const auto loop = std::size_t(boundary.loop[i]);
         if (const double d = (point - x).squaredNorm(); d < least[loop]) {
             least[loop] = d;

@@ -176,12 +176,11 @@ class Untangling {
     }
 
     bool are_sheets() const { return are_sheets_; }
-    double relief_correlation() const { return relief_ ? relief_->correlation() : 0; }
+    bool has_relief() const { return relief_ != nullptr; }
+    double relief_correlation() const { return relief_->correlation(); }
     void trust_relief(double share) {
-        if (relief_ && share > 0)
-            relief_->scale_weight(share);
-        else
-            relief_.reset();
+        relief_->scale_weight(share);
+        if (share == 0) relief_.reset();
     }
 
     /// A round begins with `start_relaxation`, takes relaxation steps, and ends with `end_relaxation`.
@@ -423,7 +422,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     Untangling there(maps.A_to_B, A, B, pinned.A, pinned.points, options),
         back(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options);
     if (!options.enabled) return {there.report(), back.report()};
-    if (options.weigh_relief) weigh_relief(there, back);
+    if (options.weigh_relief && there.has_relief()) weigh_relief(there, back);
     if (options.local_sweeps == 0) run(there, back, rounds[0]);
     with_each_other(there, back,
                     [](Untangling& map, const PointMap& inverse) { map.replace_parts(inverse); });

@@ -13,17 +13,6 @@ namespace varimap {
 
 namespace {
 
-void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& from,
-                 const std::string& from_file, const TriangleMesh& to, const std::string& to_file) {
-    if (int(map.size()) != from.vertex_count())
-        throw InputError(fmt::format("{}: {} rows, but {} has {} vertices: this is a map of another mesh",
-                                     path, map.size(), from_file, from.vertex_count()));
-    for (std::size_t v = 0; v < map.size(); ++v)
-        if (map[v].face >= to.face_count())
-            throw InputError(fmt::format("{}:{}: face {}, but {} has {} faces: this is a map to another mesh",
-                                         path, v + 2, map[v].face, to_file, to.face_count()));
-}
-
 bool is_finite(const TriangleMesh& mesh, int f) {
     return mesh.vertex(mesh.faces(f, 0)).allFinite() && mesh.vertex(mesh.faces(f, 1)).allFinite() &&
            mesh.vertex(mesh.faces(f, 2)).allFinite();
@@ -47,6 +36,17 @@ TriangleMesh read_finite_mesh(const std::string& path, UnplacedFaces unplaced) {
 }
 
 }  // namespace
+
+void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& from,
+                 const std::string& from_file, const TriangleMesh& to, const std::string& to_file) {
+    if (int(map.size()) != from.vertex_count())
+        throw InputError(fmt::format("{}: {} rows, but {} has {} vertices: this is a map of another mesh",
+                                     path, map.size(), from_file, from.vertex_count()));
+    for (std::size_t v = 0; v < map.size(); ++v)
+        if (map[v].face >= to.face_count())
+            throw InputError(fmt::format("{}:{}: face {}, but {} has {} faces: this is a map to another mesh",
+                                         path, v + 2, map[v].face, to_file, to.face_count()));
+}
 
 void require_unchanged(const std::string& path, const std::string& hash) {
     if (!hash.empty() && file_hash(path) != hash)

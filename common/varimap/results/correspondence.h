@@ -24,6 +24,10 @@ struct MapFiles {
 /// and faces of a map would be other places. An empty hash is not asked about.
 void require_unchanged(const std::string& path, const std::string& hash);
 
+/// Throws InputError where a table, read from `path`, is not one of these meshes, naming the files.
+void require_fit(const PointMap& map, const std::string& path, const TriangleMesh& from,
+                 const std::string& from_file, const TriangleMesh& to, const std::string& to_file);
+
 /// What to do with faces that have a corner which is not finite; maps leave them out.
 enum class UnplacedFaces { refuse, collapse };
 

@@ -39,11 +39,8 @@ void add_parameter(CLI::App& app, const Parameter& parameter) {
 }
 
 void add_positionals(CLI::App& app, CommandLine& line) {
-    // Questions are answered without naming files to work on.
-    const bool required = !line.asks_parameters;
-    for (auto& file : line.positionals) app.add_option(file.name, file.value, file.help)->required(required);
-    if (line.files)
-        app.add_option(line.files->name, line.files->values, line.files->help)->required(required);
+    for (auto& file : line.positionals) app.add_option(file.name, file.value, file.help)->required();
+    if (line.files) app.add_option(line.files->name, line.files->values, line.files->help)->required();
 }
 
 void add_options(CLI::App& app, CommandLine& line) {
@@ -56,6 +53,16 @@ void add_options(CLI::App& app, CommandLine& line) {
     for (auto& flag : line.flags) app.add_flag("--" + flag.name, flag.value, flag.help);
 }
 
+/// What the question for parameters may hold besides these.
+void add_parameter_options(CLI::App& app, CommandLine& line) {
+    app.add_option("--config", line.config,
+                   "TOML file of parameters; a section counts for the stage it names")
+        ->take_last()
+        ->type_name("FILE");
+    app.add_flag("--parameters", line.asks_parameters,
+                 "print the parameters that are not at their defaults, as options, and exit");
+}
+
 void add_common_options(CLI::App& app, CommandLine& line) {
     app.add_option("--threads", line.threads,
                    fmt::format("threads; results do not depend on it (default {}: the processors this "
@@ -64,12 +71,7 @@ void add_common_options(CLI::App& app, CommandLine& line) {
         ->check(CLI::Range(1, most_threads))
         ->take_last()
         ->type_name("N");
-    app.add_option("--config", line.config,
-                   "TOML file of parameters; a section counts for the stage it names")
-        ->take_last()
-        ->type_name("FILE");
-    app.add_flag("--parameters", line.asks_parameters,
-                 "print the parameters that are not at their defaults, as options, and exit");
+    add_parameter_options(app, line);
     app.add_option(
            "--if-stale", line.if_stale,
            "do nothing where the output is what would be written now, from the same content of the inputs; "
@@ -82,6 +84,10 @@ void add_common_options(CLI::App& app, CommandLine& line) {
         ->type_name("FILE");
     app.add_option("--error-file", line.error_file,
                    "file to append \"CODE MESSAGE\" to when the stage fails, instead of saying it on stderr")
+        ->take_last()
+        ->type_name("FILE");
+    app.add_option("--ran-file", line.ran_file,
+                   "file to append the stage's name to when it had something to do")
         ->take_last()
         ->type_name("FILE");
     app.set_version_flag("--version", "varimap-" + line.stage + " " + version());
@@ -121,14 +127,29 @@ void use_declared_spelling(std::vector<std::string>& arguments, const CLI::App& 
     }
 }
 
+/// The value of the option `name` among arguments that may be refused.
+std::string value_among(const std::vector<std::string>& arguments, const std::string& name) {
+    std::string value;
+    for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i)
+        if (arguments[i].starts_with(name + "="))
+            value = arguments[i].substr(name.size() + 1);
+        else if (arguments[i] == name && i + 1 < arguments.size())
+            value = arguments[i + 1];
+    return value;
+}
+
 /// What CLI11 says, and which option may have been meant.
 std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments,
-                      const CLI::App& app) {
+                      const CLI::App& app, const CommandLine& line) {
     const auto names = option_names(app);
     for (const auto& argument : arguments) {
         const std::string name = argument.substr(0, argument.find('='));
         if (!name.starts_with("--") || name == "--" || app.get_option_no_throw(name) != nullptr) continue;
-        if (const std::string nearest = nearest_name(name.substr(2), names); !nearest.empty())
+        const std::string nearest = nearest_name(name.substr(2), names);
+        if (line.asks_parameters)
+            return fmt::format("{} is not a parameter{}", printable(name.substr(2)),
+                               nearest.empty() ? "" : "; did you mean " + nearest + "?");
+        if (!nearest.empty())
             return fmt::format("there is no option {}; did you mean --{}?", printable(name), nearest);
     }
     return one_line(error.what());
@@ -163,10 +184,15 @@ std::optional<std::string> CommandLine::parse(int argc, char** argv) {
     CLI::App app(summary, "varimap-" + stage);
     app.footer("Names of options may be written with dashes or underscores.");
     for (const auto& parameter : parameters.all()) add_parameter(app, parameter);
-    add_positionals(app, *this);
-    add_options(app, *this);
-    add_common_options(app, *this);
+    if (asks_parameters) {
+        add_parameter_options(app, *this);
+    } else {
+        add_positionals(app, *this);
+        add_options(app, *this);
+        add_common_options(app, *this);
+    }
     use_declared_spelling(arguments, app);
+    error_file = value_among(arguments, "--error-file");
     try {
         app.parse(
             std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes the last first
@@ -175,7 +201,7 @@ std::optional<std::string> CommandLine::parse(int argc, char** argv) {
     } catch (const CLI::CallForVersion&) {
         return app.version() + "\n";
     } catch (const CLI::ParseError& error) {
-        throw UsageError(explained(error, arguments, app) + "; see varimap-" + stage + " --help");
+        throw UsageError(explained(error, arguments, app, *this) + "; see varimap-" + stage + " --help");
     }
     if (!config.empty()) use_config(*this, app);
     if (asks_parameters) return changed_parameters(*this, defaults);

@@ -42,12 +42,13 @@ struct CommandLine {
     bool asks_parameters = false;
     std::string if_stale;  ///< folder that remembers hashes; empty: always run
     std::string stamp;     ///< what the files that are no artifacts were made from
-
     std::string error_file;
+    std::string ran_file;  ///< takes the name of a stage that had something to do
 
     /// Fills the values. Returns text to print on stdout instead of running (--help, --version,
-    /// --parameters). Names of options may be written with dashes or underscores. Throws UsageError; IoError
-    /// where the file of --config cannot be opened.
+    /// --parameters, beside which there are only parameters and --config). Names of options may be written
+    /// with dashes or underscores. Throws UsageError; IoError where the file of --config cannot be opened;
+    /// error_file is known then.
     std::optional<std::string> parse(int argc, char** argv);
     /// The files that are read, with the roles they have in headers: an option's two files are NAME.A and
     /// NAME.B.

@@ -15,6 +15,7 @@
 
 #include "varimap/artifact/header.h"
 #include "varimap/core/error.h"
+#include "varimap/core/lower_case.h"
 
 namespace varimap {
 namespace {
@@ -99,9 +100,7 @@ std::string kind_of_file(const std::string& path) {
         !ending.empty() && ending.size() <= 8 &&
         std::all_of(ending.begin(), ending.end(), [](unsigned char c) { return std::isalnum(c); });
     if (!plain) return "file";
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return ending;
+    return lower_case(ending);
 }
 
 InputRecord KnownHashes::identify(const std::string& role, const std::string& path) const {

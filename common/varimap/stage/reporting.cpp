@@ -55,7 +55,8 @@ int guarded(const ErrorReport& report, const std::function<void()>& run) {
     } catch (const Error& error) {
         return say(report, error.code(), error.what());
     } catch (const std::bad_alloc&) {
-        return say(report, ExitCode::internal, "out of memory; use a smaller mesh or a machine with more");
+        return say(report, ExitCode::input_output,
+                   "out of memory; use a smaller mesh or a machine with more");
     } catch (const std::system_error& error) {
         return say(report, ExitCode::input_output, error.what());
     } catch (const std::exception& error) {

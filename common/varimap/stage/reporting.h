@@ -14,7 +14,8 @@ void print_result(const std::string& text);
 
 /// Where failures are said: as `PROGRAM: error: MESSAGE` on stderr, or behind the exit code in a file.
 struct ErrorReport {
-    std::string program, file;
+    std::string program;
+    const std::string& file;  ///< known only once the command line is read
 };
 
 /// Runs `run` and returns the exit code: the one place where failures become exit codes. `report` is read

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -55,6 +56,7 @@ struct Stage::State {
     void require_possible_files() const;
     void require_possible_output() const;
     void log_parameters() const;
+    void note_run() const;
 };
 
 Header Stage::State::header(std::string kind, std::vector<InputRecord> from) const {
@@ -145,6 +147,12 @@ void Stage::State::log_parameters() const {
     log("{}threads={}", text, line.threads);
 }
 
+void Stage::State::note_run() const {
+    if (line.ran_file.empty()) return;
+    std::ofstream notes(line.ran_file, std::ios::app);
+    if (!(notes << line.stage << std::endl)) throw IoError("cannot write '" + line.ran_file + "'");
+}
+
 Stage::Stage(const std::string& name, const std::string& summary) : state_(std::make_unique<State>()) {
     state_->line.stage = name;
     state_->line.summary = summary;
@@ -170,6 +178,12 @@ const std::string& Stage::word(const std::string& role, const std::string& help)
 const std::vector<std::string>& Stage::input_list(const std::string& role, const std::string& help) {
     return state_->line.files
         .emplace(CommandLine::TextList{role, help, CommandLine::Use::input, 1, 1 << 20, {}})
+        .values;
+}
+
+const std::vector<std::string>& Stage::word_list(const std::string& role, const std::string& help) {
+    return state_->line.files
+        .emplace(CommandLine::TextList{role, help, CommandLine::Use::other, 1, 1 << 20, {}})
         .values;
 }
 
@@ -209,10 +223,9 @@ const bool& Stage::flag(const std::string& name, const std::string& help) {
 int Stage::main(int argc, char** argv, const std::function<void()>& body) {
     open_standard_descriptors();
     std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead, which is reported
-    ErrorReport report{"varimap-" + state_->line.stage, ""};
+    const ErrorReport report{"varimap-" + state_->line.stage, state_->line.error_file};
     return guarded(report, [&] {
         if (const auto text = state_->line.parse(argc, argv)) return print_result(*text);
-        report.file = state_->line.error_file;
         state_->require_possible_files();
         for (const auto& path : state_->outputs()) remove_dead_temporaries(path);
         if (state_->is_current() && !FileLock::exists(*state_->output_path)) return;
@@ -235,6 +248,7 @@ void Stage::run(const std::function<void()>& body) {
     for (const auto& [role, path] : state.line.input_files()) state.states_at_start[path] = file_state(path);
     if (!state.line.stamp.empty()) state.identities = state.identify_inputs();
     state.log_parameters();
+    state.note_run();
     using tbb::global_control;
     const global_control limit(global_control::max_allowed_parallelism, std::size_t(threads()));
     body();

@@ -43,6 +43,8 @@ class Stage {
     const std::string& word(const std::string& role, const std::string& help);
     /// One or more positional files behind the others.
     const std::vector<std::string>& input_list(const std::string& role, const std::string& help);
+    /// The same of names that the stage looks at itself: there may be no such files.
+    const std::vector<std::string>& word_list(const std::string& role, const std::string& help);
     /// The positional file that is written; at most one per stage. Schema 0: a file that is no artifact, such
     /// as a picture; it gets no side file, and --if-stale needs --stamp for it.
     const std::string& output(const std::string& kind, int schema, const std::string& help);

@@ -184,7 +184,7 @@ TEST_F(StageRun, EveryFailureHasItsExitCodeAndWritesNothing) {
         {[](Stage&) { throw ArtifactError("a"); }, 4},
         {[](Stage&) { throw ConvergenceError("c"); }, 5},
         {[](Stage&) { throw IoError("o"); }, 6},
-        {[](Stage&) { throw std::bad_alloc(); }, 70},
+        {[](Stage&) { throw std::bad_alloc(); }, 6},
         {[](Stage&) { throw std::runtime_error("two\nlines"); }, 70},
         {[](Stage&) { throw 1; }, 70}};
     for (const auto& [fail, code] : failures) {
@@ -294,6 +294,16 @@ TEST_F(StageRun, PrintsTheParametersThatAreNotAtTheirDefaults) {
         run_sample({"--parameters", "--config", folder / "preset.toml", "--count=5", "--start", "both"}).out,
         "--length 0.5 --start both\n");
     EXPECT_EQ(run_sample({"--parameters", "--count", "0"}).code, 2);
+}
+
+TEST_F(StageRun, ParametersAreAskedForWithParametersAlone) {
+    for (const char* other : {"--stamp=x", "--threads=1", "--if-stale=x", "--files=x", "--version"}) {
+        const Outcome run = run_sample({"--parameters", other});
+        EXPECT_EQ(run.code, 2) << other;
+        EXPECT_THAT(run.err, HasSubstr(" is not a parameter"));
+    }
+    EXPECT_THAT(run_sample({"--parameters", "--cuont=1"}).err,
+                HasSubstr("cuont is not a parameter; did you mean count?"));
 }
 
 TEST(NearestName, CountsLettersAndGivesUpOnStrangers) {
@@ -557,6 +567,32 @@ TEST_F(StageRun, AnErrorFileTakesTheMessage) {
     EXPECT_EQ(run.code, 3);
     EXPECT_THAT(run.err, testing::Not(HasSubstr("error")));
     EXPECT_EQ(read_file(errors), "3 varimap-sample: error: bad\\x1b[2J\n");
+}
+
+TEST_F(StageRun, AnErrorFileTakesWhatIsSaidOfTheCommandLine) {
+    const std::string errors = folder / "errors";
+    for (const auto& file :
+         std::vector<std::vector<std::string>>{{"--error-file", errors}, {"--error_file=" + errors}}) {
+        std::vector<std::string> arguments{in, out, "--threads", "9999"};
+        arguments.insert(arguments.end(), file.begin(), file.end());
+        const Outcome run = run_sample(arguments);
+        EXPECT_EQ(run.code, 2);
+        EXPECT_EQ(run.err, "");
+        EXPECT_THAT(read_file(errors), testing::StartsWith("2 varimap-sample: error: --threads: "));
+        std::filesystem::remove(errors);
+    }
+}
+
+TEST_F(StageRun, ARanFileTellsWhetherThereWasSomethingToDo) {
+    const std::string ran = folder / "ran";
+    const std::vector<std::string> arguments{in, out, "--if-stale", folder / "hashes", "--ran-file", ran};
+    run_sample(arguments);
+    EXPECT_EQ(read_file(ran), "sample\n");
+    run_sample(arguments);
+    EXPECT_EQ(read_file(ran), "sample\n");
+    write_file_atomically(in, "other input");
+    run_sample(arguments);
+    EXPECT_EQ(read_file(ran), "sample\nsample\n");
 }
 
 TEST_F(StageRun, RefusesInputsOfDifferentOrigin) {

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/io/obj_model.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -15,13 +15,6 @@ namespace varimap {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Keywords count in either case.
-std::string lower(std::string_view word) {
-    std::string text(word);
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 std::string with_slashes(std::string path) {
     std::replace(path.begin(), path.end(), '\\', '/');
@@ -51,7 +44,7 @@ ImageOptions read_options(const std::vector<std::string_view>& words) {
     ImageOptions options;
     std::size_t& i = options.name;
     while (i + 1 < words.size() && words[i].starts_with('-')) {
-        const std::string option = lower(words[i++]);
+        const std::string option = lower_case(words[i++]);
         Vec2* placed = option == "-s" ? &options.scale : option == "-o" ? &options.offset : nullptr;
         for (Eigen::Index axis = 0; i + 1 < words.size() && is_option_value(words[i], option); ++axis, ++i) {
             double number;
@@ -76,7 +69,7 @@ class LibraryReader {
   private:
     void read_line(const TextScanner& scanner) {
         const auto& words = scanner.words();
-        const std::string keyword = lower(words[0]);
+        const std::string keyword = lower_case(words[0]);
         if (words.size() > 1 && names_image(keyword)) return read_image(scanner, keyword);
         if (keyword == "newmtl") materials_.list.emplace_back().name = scanner.rest_of_line();
         if (words.size() > 1 && !materials_.list.empty()) read_number(scanner, keyword);

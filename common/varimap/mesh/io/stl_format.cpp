@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "varimap/core/error.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -65,10 +66,8 @@ PolygonSoup parse_binary(std::string_view bytes, const std::string& path) {
 }
 
 /// Some programs write the words of the format in capitals.
-bool is_word(std::string_view word, std::string_view lower_case) {
-    return std::ranges::equal(word, lower_case, [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b;
-    });
+bool is_word(std::string_view word, std::string_view expected) {
+    return std::ranges::equal(word, expected, {}, [](char c) { return lower_case(c); });
 }
 
 PolygonSoup parse_ascii(std::string_view bytes, const std::string& path) {
