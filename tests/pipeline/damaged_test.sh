@@ -26,7 +26,8 @@ for part in 0 1 100 $((size / 2)) $((size - 1)); do
 done
 # What is missing is bad as well, but keeps nothing from being looked at; a pattern without a match is not missed.
 expect_exit 4 "$inspect" --check absent.surface $here/a.surface cut.surface
-[[ $(wc -l <out.txt) == 2 ]] && grep -q "'absent.surface'" out.txt && grep -q "'cut.surface'" out.txt || fail "which files are bad"
+[[ $(wc -l <out.txt) == 2 ]] || fail "how many files are bad"
+for bad in absent cut; do grep -q "'$bad.surface'" out.txt || fail "which files are bad"; done
 expect_exit 0 "$inspect" --check "$here/*.none" $here/*.surface
 expect_exit 6 "$inspect" --check "$here/*.none"
 expect_exit 6 "$inspect" absent.surface

@@ -3,7 +3,7 @@
 const verdictWords = {
   good: 'Good: nothing speaks against this map. Whether it is the right one, the pattern shows.',
   usable: 'Usable: some numbers are worse than usual; look at the layers Area, Angles and Flips.',
-  'look here': 'Look here: something needs your eye before you use this map.',
+  'look here': 'Look here before you use this map: ',
 };
 
 function add(parent, tag, text = '', className = '') {
@@ -20,11 +20,18 @@ function addTable(parent, rows) {
   }
 }
 
+/** What makes the verdict "look here", as pipelines/varimap report says it. */
+function placesToLook({ alarms, checks }) {
+  const checked = checks.filter(({ grade }) => grade === 'look here').map(({ what }) => what);
+  return [...alarms.map((of) => `what ${of} warns of`), ...checked].join('; ');
+}
+
 export function drawReport(element, report) {
   element.replaceChildren();
   add(element, 'h2', 'Report');
   if (!report) return;
-  add(element, 'p', verdictWords[report.verdict], 'verdict');
+  const look = report.verdict === 'look here' ? placesToLook(report) : '';
+  add(element, 'p', verdictWords[report.verdict] + look, 'verdict');
   for (const warning of report.warnings) add(element, 'p', `Warning: ${warning}`, 'warning');
   addTable(element, report.checks.map(({ what, value, grade }) => [what, value, grade]));
   add(element, 'h2', 'What was done');
