@@ -70,7 +70,7 @@ std::vector<int> free_vertices(const SlidingMap& map, VertexData<bool> fixed,
 class Relaxation {
   public:
     Relaxation(SlidingMap& map, const VertexData<bool>& fixed, const ReliefAgreement* relief,
-               const std::vector<SoftConstraint>& landmarks, const Round& round, int steps,
+               const std::vector<SoftConstraint>& landmarks, bool sheets, const Round& round, int steps,
                const UntanglingOptions& options)
         : map_(map),
           options_(options),
@@ -81,6 +81,7 @@ class Relaxation {
           vertices_(free_vertices(map, fixed, landmarks)),
           global_(map, fixed, relief),
           local_(map, 99),
+          are_sheets_(sheets),
           boundaries_(map) {
         // A factorisation takes more than linear time; the first steps are those that matter.
         const double affordable = steps * large / double(vertices_.size() + 1);
@@ -95,7 +96,9 @@ class Relaxation {
             constraints_.insert(constraints_.end(), inverse.begin(), inverse.end());
         }
         if (options_.boundary_weight > 0) {
-            const auto boundaries = boundaries_.constraints(options_.boundary_weight);
+            // Rims of bodies' holes find each other late, once the map around them is about right.
+            const double share = are_sheets_ ? 1 : inverse_share();
+            const auto boundaries = boundaries_.constraints(options_.boundary_weight * share);
             constraints_.insert(constraints_.end(), boundaries.begin(), boundaries.end());
         }
         global_.set_constraints(constraints_);
@@ -123,6 +126,7 @@ class Relaxation {
     std::vector<int> vertices_;
     GlobalRelaxation global_;
     LocalRelaxation local_;
+    const bool are_sheets_;  ///< both surfaces
     BoundaryAgreement boundaries_;
     std::vector<SoftConstraint> constraints_;
     int most_ = 0, steps_ = 0;
@@ -299,8 +303,8 @@ class Untangling {
   private:
     std::unique_ptr<Relaxation> relaxation(const Round& round, int steps) {
         if (options_.global_steps == 0 || steps == 0) return nullptr;
-        return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, round, steps,
-                                            options_);
+        return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, are_sheets_, round,
+                                            steps, options_);
     }
     void keep_bound() { bound_ = std::make_unique<AreaBound>(sliding_, options_.area_bound, exempt()); }
     int most_settling_steps() const {
