@@ -171,7 +171,7 @@ class Untangling {
           before_(measure_distortion(map, source, target)),
           sliding_(map, source, target),
           landmarks_(landmark_constraints(sliding_, points)),
-          are_sheets_(is_sheet(source) && is_sheet(target)) {
+          are_sheets_(options.global_steps > 0 && is_sheet(source) && is_sheet(target)) {
         report_.flipped_before = report_.flipped_after = before_.flipped_count;
         report_.flipped_area_percent_before = report_.flipped_area_percent_after =
             before_.flipped_area_percent;
@@ -375,7 +375,7 @@ class Untangling {
     Distortion before_;
     SlidingMap sliding_;
     const std::vector<SoftConstraint> landmarks_;  ///< that are points
-    const bool are_sheets_;                        ///< both surfaces
+    const bool are_sheets_;                        ///< both surfaces; asked for global steps alone
     VertexData<bool> fixed_;
     std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
