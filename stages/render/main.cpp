@@ -77,9 +77,10 @@ int main(int argc, char** argv) {
         log("{} x {} pixels to {}", image.width, image.height, out);
         if (candidates.previews.empty()) return;
         const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
-        params.samples = std::min(params.samples, 2);  // rough maps need no smooth picture
+        RenderParams rough = params;                 // the stamp is to hold those that were asked for
+        rough.samples = std::min(rough.samples, 2);  // rough maps need no smooth picture
         for (PointMap& preview : candidates.previews) preview = from_file(preview, B.link, A.link);
-        stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, params)));
+        stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, rough)));
         log("the first candidates to {}", beside);
     });
 }

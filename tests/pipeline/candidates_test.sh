@@ -15,6 +15,10 @@ expect_ran ""
 head -n 1 out.txt | grep -q '^warning  explore a--b: .*candidates.png' || fail "the summary does not begin with the warning"
 jq -e '[.warnings[] | select(.stage == "explore a--b") | .message] | length == 1' out/quality.json >/dev/null ||
     fail "the warning in quality.json"
+# Nor is a smooth picture drawn again; runs that share artifacts wait until nothing is to be done.
+map a.off b.off -o smooth --artifacts shared --set render.samples=4
+map a.off b.off -o smooth --artifacts shared --set render.samples=4
+expect_ran ""
 
 # Another candidate is continued: nobody asks again to choose.
 map a.off b.off -o out --candidate 2
