@@ -11,6 +11,7 @@
 #include "varimap/mesh/private/embree_scene.h"
 
 namespace varimap {
+
 double closest_on_segment(const Vec3& query, const Vec3& a, const Vec3& b) {
     const Vec3 ab = b - a;
     const double length = ab.squaredNorm(), t = (query - a).dot(ab);
@@ -70,8 +71,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }
 
 /// Faces along a Morton curve, so that those beside each other in space are so in memory.
-std::vector<int> along_a_curve(const TriangleMesh& mesh, double scale) {
-    const Vec3 low = bounding_box(mesh).low;
+std::vector<int> along_a_curve(const TriangleMesh& mesh, const Vec3& low, double scale) {
     std::vector<std::pair<std::uint64_t, int>> keys(std::size_t(mesh.face_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         const Vec3 middle =
@@ -110,7 +110,7 @@ TriangleMesh in_order(const TriangleMesh& mesh, const std::vector<int>& order) {
 }  // namespace
 
 struct ClosestPoint::State {
-    explicit State(const TriangleMesh& whole);
+    State(const TriangleMesh& whole, const Box& box);
 
     Vec3 centre;
     double scale;              ///< Embree sees (x - centre) * scale, within the unit cube
@@ -124,16 +124,10 @@ struct ClosestPoint::State {
 
 namespace {
 
-/// The factor that makes the longest side of a mesh's box 1.
-double to_unit_size(const TriangleMesh& mesh) {
-    const auto [low, high] = bounding_box(mesh);
-    const double extent = (high - low).maxCoeff();
+/// The factor that makes the longest side 1.
+double to_unit_size(const Box& box) {
+    const double extent = (box.high - box.low).maxCoeff();
     return extent > 0 ? 1 / extent : 1;
-}
-
-Vec3 centre_of_box(const TriangleMesh& mesh) {
-    const auto [low, high] = bounding_box(mesh);
-    return 0.5 * (low + high);
 }
 
 std::vector<int> inverse(const std::vector<int>& permutation) {
@@ -144,10 +138,10 @@ std::vector<int> inverse(const std::vector<int>& permutation) {
 
 }  // namespace
 
-ClosestPoint::State::State(const TriangleMesh& whole)
-    : centre(centre_of_box(whole)),
-      scale(to_unit_size(whole)),
-      given(along_a_curve(whole, scale)),
+ClosestPoint::State::State(const TriangleMesh& whole, const Box& box)
+    : centre(0.5 * (box.low + box.high)),
+      scale(to_unit_size(box)),
+      given(along_a_curve(whole, box.low, scale)),
       mesh(in_order(whole, given)),
       present(inverse(given)),
       scene(mesh, centre, scale) {}
@@ -232,7 +226,8 @@ ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* nor
     return search.best;
 }
 
-ClosestPoint::ClosestPoint(const TriangleMesh& mesh) : state_(std::make_unique<State>(mesh)) {}
+ClosestPoint::ClosestPoint(const TriangleMesh& mesh)
+    : state_(std::make_unique<State>(mesh, bounding_box(mesh))) {}
 ClosestPoint::~ClosestPoint() = default;
 ClosestPoint::ClosestPoint(ClosestPoint&&) noexcept = default;
 

@@ -16,23 +16,28 @@ namespace varimap {
 /// small holes that only one surface has are left alone.
 class BoundaryAgreement {
   public:
-    /// Of the loops that correspond as the map is now; keeps a reference to it.
+    /// Keeps a reference to the map. No loops correspond until they are matched.
     explicit BoundaryAgreement(const SlidingMap& map);
+    /// Finds the loops that correspond as the map is now.
+    void match();
     /// Each vertex on one of these loops, of length l (half of its two edges), draws its image to the closest
     /// point of the other loop, as that is now, with the weight l * weight.
     std::vector<SoftConstraint> constraints(double weight) const;
 
   private:
-    /// A vertex of the source's boundary and the target's loop that it goes to.
-    struct Drawn {
-        SurfacePoint vertex;
-        double length;
-        int loop;
+    /// Of the source's boundary.
+    struct Vertex {
+        int vertex, loop;
+        double length;  ///< half of its two edges
+        SurfacePoint point;
     };
+    static std::vector<Vertex> vertices_of(const TriangleMesh& mesh, const Boundary& boundary);
+    Eigen::MatrixXd mean_distances() const;
 
     const SlidingMap& map_;
-    Boundary target_;
-    std::vector<Drawn> drawn_;
+    Boundary source_, target_;
+    std::vector<Vertex> vertices_;  ///< ascending
+    std::vector<int> partner_;      ///< per loop of the source that of the target, or -1
 };
 
 }  // namespace varimap

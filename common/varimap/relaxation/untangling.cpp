@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
@@ -70,8 +71,8 @@ std::vector<int> free_vertices(const SlidingMap& map, VertexData<bool> fixed,
 class Relaxation {
   public:
     Relaxation(SlidingMap& map, const VertexData<bool>& fixed, const ReliefAgreement* relief,
-               const std::vector<SoftConstraint>& landmarks, bool sheets, const Round& round, int steps,
-               const UntanglingOptions& options)
+               const std::vector<SoftConstraint>& landmarks, const BoundaryAgreement& boundaries, bool sheets,
+               const Round& round, int steps, const UntanglingOptions& options)
         : map_(map),
           options_(options),
           landmarks_(landmarks),
@@ -82,7 +83,7 @@ class Relaxation {
           global_(map, fixed, relief),
           local_(map, 99),
           are_sheets_(sheets),
-          boundaries_(map) {
+          boundaries_(boundaries) {
         // A factorisation takes more than linear time; the first steps are those that matter.
         const double affordable = steps * large / double(vertices_.size() + 1);
         most_ = std::min(steps, std::max(least_steps, int(affordable)));
@@ -127,7 +128,7 @@ class Relaxation {
     GlobalRelaxation global_;
     LocalRelaxation local_;
     const bool are_sheets_;  ///< both surfaces
-    BoundaryAgreement boundaries_;
+    const BoundaryAgreement& boundaries_;
     std::vector<SoftConstraint> constraints_;
     int most_ = 0, steps_ = 0;
     bool converged_ = false;
@@ -303,8 +304,10 @@ class Untangling {
   private:
     std::unique_ptr<Relaxation> relaxation(const Round& round, int steps) {
         if (options_.global_steps == 0 || steps == 0) return nullptr;
-        return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, are_sheets_, round,
-                                            steps, options_);
+        if (!boundaries_) boundaries_.emplace(sliding_);
+        boundaries_->match();
+        return std::make_unique<Relaxation>(sliding_, fixed_, relief_.get(), landmarks_, *boundaries_,
+                                            are_sheets_, round, steps, options_);
     }
     void keep_bound() { bound_ = std::make_unique<AreaBound>(sliding_, options_.area_bound, exempt()); }
     int most_settling_steps() const {
@@ -377,6 +380,7 @@ class Untangling {
     const std::vector<SoftConstraint> landmarks_;  ///< that are points
     const bool are_sheets_;                        ///< both surfaces; asked for global steps alone
     VertexData<bool> fixed_;
+    std::optional<BoundaryAgreement> boundaries_;  ///< once there are global steps
     std::unique_ptr<ReliefAgreement> relief_;
     std::unique_ptr<Relaxation> relaxation_;
     std::unique_ptr<AreaBound> bound_;
