@@ -2,21 +2,22 @@
 # What a run shows of itself while it goes on. To be sourced.
 
 # How long each stage usually takes beside the others, in the order in which they run; and what it does.
-progress_stages=(import preprocess coarsen eigen hierarchy explore diffuse refine relax remesh render)
-declare -A progress_share=([import]=1 [preprocess]=2 [coarsen]=3 [eigen]=5 [hierarchy]=3 [explore]=150 [diffuse]=12 [refine]=8
+progress_stages=(import preprocess coarsen eigen hierarchy locate explore diffuse refine relax remesh render)
+declare -A progress_share=([import]=1 [preprocess]=2 [coarsen]=3 [eigen]=5 [hierarchy]=3 [locate]=30 [explore]=150 [diffuse]=12 [refine]=8
     [relax]=14 [remesh]=2 [render]=6)
 declare -A progress_words=([import]="importing" [preprocess]="reading and repairing" [coarsen]="coarsening" [eigen]="eigenfunctions"
-    [hierarchy]="choosing samples" [explore]="looking for the map" [diffuse]="the map, roughly" [refine]="the map, finely"
+    [hierarchy]="choosing samples" [locate]="looking for the part" [explore]="looking for the map" [diffuse]="the map, roughly" [refine]="the map, finely"
     [relax]="smoothing it, no folds" [remesh]="measuring, writing" [render]="drawing the picture")
 
-# show_progress LOG KIND EXPLORES: reads what the stages say, line by line, appends it to LOG, and shows on stderr how far
+# show_progress LOG KIND EXPLORES LOCATES: reads what the stages say, line by line, appends it to LOG, and shows on stderr how far
 # they are. KIND: line (one line for each stage, with a bar, redrawn: for terminals), plain (a line every ten seconds) or
-# json (an object for each stage that begins or ends). EXPLORES: yes where the map is looked for. A LOG that cannot be
+# json (an object for each stage that begins or ends). EXPLORES: yes where the map is looked for, LOCATES: where a part is. A LOG that cannot be
 # written stops nothing.
 show_progress() {
     local kind=$2 line='' piece log fd_open=yes
     local begun=$SECONDS stage='' stage_begun=$SECONDS told=$SECONDS at=0 all=0 before=0 name shown='' colour='' plain=''
     [[ $3 ]] || progress_share[explore]=0
+    [[ ${4:-} ]] || progress_share[locate]=0
     for name in "${progress_stages[@]}"; do ((all += progress_share[$name])); done
     if [[ $kind == line && -z ${NO_COLOR:-} ]]; then colour=$'\e[36m' plain=$'\e[0m'; fi
     true >&2 || exec 2>/dev/null  # closed

@@ -2,7 +2,7 @@
 # where everything comes from.
 #   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH
 #       --arg source_import FILE --arg target_import FILE (what a mesh was imported from, or nothing) --arg landmarks_1 FILE
-#       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT RUN_FILE...
+#       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT --arg part (source, target or nothing) RUN_FILE...
 def stage_and_artifact($file): .stage + " " + ($file | sub(".*/"; "") | sub("[.][a-z]+[.]run[.]json$"; ""));
 def of_stage($stage): map(.value | select(.stage == $stage));
 def mesh($file; $origin): {file: $file, hash: .inputs.mesh, area: (1 / (.scale * .scale)), scale}
@@ -15,6 +15,7 @@ def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
 | ($all | map(select(.value | type == "object" and has("stage")))) as $runs
 | ($runs | of_stage("preprocess")) as $surfaces
 | $numbers[0]
++ ([$runs | of_stage("locate")[] | {part: ({is: $part} + {area_percent, scale, strain})}] | add // {})
 + {stages: [$runs[] | {key: (.key as $file | .value | stage_and_artifact($file)),
         value: (.value | del(.stage, .version, .warnings, .artifact, .inputs))}] | from_entries,
     warnings: ([$runs[] | .key as $file | .value | stage_and_artifact($file) as $stage | .warnings[]?

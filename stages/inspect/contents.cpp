@@ -5,6 +5,7 @@
 #include <map>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/part_region.h"
 #include "varimap/mesh/surface.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
@@ -223,6 +224,12 @@ void visit(const SurfaceMap& map, ContentsVisitor& visitor) {
     visit_points("B_to_A", map.B_to_A, visitor);
 }
 
+void visit(const PartRegion& region, ContentsVisitor& visitor) {
+    visitor.fact("the part",
+                 fmt::format("{} of {} faces of the whole", region.faces.size(), region.face_count));
+    visitor.array("faces", view(region.faces));
+}
+
 void visit(const QualityNumbers& quality, ContentsVisitor& visitor) {
     visitor.text("quality.json", quality.json);
 }
@@ -253,9 +260,9 @@ std::pair<const std::string, Kind> kind_of() {
 
 const std::map<std::string, Kind>& kinds() {
     static const std::map<std::string, Kind> table{
-        kind_of<Surface>(),   kind_of<Domain>(),     kind_of<Basis>(),
-        kind_of<Hierarchy>(), kind_of<Candidates>(), kind_of<Diffusion>(),
-        kind_of<Plan>(),      kind_of<SurfaceMap>(), kind_of<QualityNumbers>()};
+        kind_of<Surface>(),        kind_of<Domain>(),    kind_of<Basis>(), kind_of<Hierarchy>(),
+        kind_of<Candidates>(),     kind_of<Diffusion>(), kind_of<Plan>(),  kind_of<SurfaceMap>(),
+        kind_of<QualityNumbers>(), kind_of<PartRegion>()};
     return table;
 }
 

@@ -1,5 +1,7 @@
 #include "stages/preprocess/preprocess.h"
+#include "varimap/mesh/bridges.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/part_region.h"
 #include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/stage/stage_main.h"
@@ -48,10 +50,14 @@ int main(int argc, char** argv) {
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     const std::string& in = stage.input("mesh", "OBJ, PLY, OFF or STL file");
     const std::string& out = stage.output("surface", ArtifactType<Surface>::schema, "artifact to write");
+    const std::string& region =
+        stage.input_option("region", "artifact of varimap-locate: the faces outside of it are left out");
     return stage.main(argc, argv, [&] {
         const TriangleMesh file = read_mesh(in);
         RepairedMesh input = prepared(file, params, in);
         stage.record_file("mesh", in);
+        if (!region.empty())
+            input = bridged(cropped(std::move(input), stage.read<PartRegion>("region", region).value));
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());

@@ -12,6 +12,7 @@
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/mass.h"
+#include "varimap/mesh/part_region.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_file.h"
@@ -92,6 +93,10 @@ void use(const Plan& read) {
 
 void use(const Candidates& read) {
     if (read.list.size() != read.maps.size()) throw std::logic_error("bad candidates");
+}
+
+void use(const PartRegion& read) {
+    if (read.faces.back() >= read.face_count) throw std::logic_error("a face is none of the whole's");
 }
 
 void use(const QualityNumbers& read) {
@@ -233,6 +238,7 @@ std::vector<Target> artifact_targets() {
             artifact(diffusion()),
             artifact(plan()),
             artifact(candidates()),
+            artifact(PartRegion{9, {1, 2, 5, 8}}),
             artifact(SurfaceMap{point_map(), point_map(), {}}),
             artifact(QualityNumbers{
                 R"({"energy": 0.5, "landmarks": [0, 1e-3], "levels": [{"kind": "diffusion"}]})"}),

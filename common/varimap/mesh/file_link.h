@@ -18,12 +18,14 @@ enum class VertexFate : std::uint8_t {
     not_finite,         ///< a coordinate is not a number
     faces_dropped,      ///< all its faces were degenerate, duplicates, or had corners that are not finite
     component_dropped,  ///< it lies on a component that is not mapped
+    outside_part,       ///< it lies outside of the part that is mapped (part_region.h)
 };
 
 template <>
 struct EnumNames<VertexFate> {
-    static constexpr std::array names{"kept",          "welded",           "split", "unused", "not_finite",
-                                      "faces_dropped", "component_dropped"};
+    static constexpr std::array names{
+        "kept",        "welded", "split", "unused", "not_finite", "faces_dropped", "component_dropped",
+        "outside_part"};
 };
 
 /// The way from a repaired mesh back to its file, whose vertices and faces users count. Where nothing was

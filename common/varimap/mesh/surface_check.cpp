@@ -72,7 +72,7 @@ void require_link(const Surface& surface) {
     require<Surface>(std::any_of(link.face.begin(), link.face.end(), [](int f) { return f >= 0; }),
                      "link to the file");
     for (const VertexFate fate : link.fate)
-        require<Surface>(fate <= VertexFate::component_dropped, "link to the file");
+        require<Surface>(fate <= VertexFate::outside_part, "link to the file");
 }
 
 /// Preprocessing leaves no face thinner than 1e-6, of which bisection makes ones down to a quarter. On

@@ -18,6 +18,12 @@ constexpr double long_loop = 0.25;
 /// Of that loop: where the other's longest is no longer, it has no such opening.
 constexpr double much_shorter = 0.5;
 
+/// To a part of itself.
+bool is_cut(const Surface& surface) {
+    return std::find(surface.link.fate.begin(), surface.link.fate.end(), VertexFate::outside_part) !=
+           surface.link.fate.end();
+}
+
 double opening(const Surface& surface) {
     return longest_boundary(surface.input) / std::sqrt(surface_area(surface.input));
 }
@@ -27,14 +33,16 @@ void warn_of_part(double own, double other, const char* which, const char* whole
     warn(
         "the {} looks like a part of the {}: it ends at a loop of {:.2f} sqrt(area), where the {} has none "
         "beyond {:.2f}; "
-        "a part is stretched over the whole, so cut the {} to the same part",
-        which, whole, own, whole, other, whole);
+        "a part is stretched over the whole, so give --part {} and three landmarks, or cut the {} to the "
+        "same "
+        "part",
+        which, whole, own, whole, other, which, whole);
 }
 
 }  // namespace
 
 void warn_of_part(const Surface& A, const Surface& B) {
-    if (!A.is_surface() || !B.is_surface()) return;
+    if (!A.is_surface() || !B.is_surface() || is_cut(A) || is_cut(B)) return;
     const double a = opening(A), b = opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");

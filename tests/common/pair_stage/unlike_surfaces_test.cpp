@@ -51,6 +51,10 @@ TEST(UnlikeSurfaces, PartsAreSaid) {
         EXPECT_NE(logged_warnings().back().find("the target looks like a part"), std::string::npos);
         EXPECT_EQ(warnings_of(part, part, warn_of_part), 0u);
     }
+    Surface cut = half;
+    cut.link = link_to_itself(half.input);
+    cut.link.fate.front() = VertexFate::outside_part;
+    EXPECT_EQ(warnings_of(cut, whole, warn_of_part), 0u) << "it was cut to its part";
     EXPECT_EQ(warnings_of(holed, whole, warn_of_part), 0u);
     EXPECT_EQ(warnings_of(whole, whole, warn_of_part), 0u);
 }

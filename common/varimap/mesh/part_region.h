@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "varimap/artifact/artifact.h"
+#include "varimap/core/indexed.h"
+#include "varimap/mesh/mesh_repair.h"
+
+namespace varimap {
+
+/// Where a part lies on the whole that it belongs to: the artifact of varimap-locate, by which
+/// varimap-preprocess cuts the whole.
+struct PartRegion {
+    int face_count = 0;      ///< of the whole's input (Surface)
+    std::vector<int> faces;  ///< those of them that the part covers, ascending
+};
+
+template <>
+struct ArtifactType<PartRegion> {
+    static constexpr const char* kind = "region";
+    static constexpr const char* stage = "varimap-locate";
+    static constexpr int schema = 1;
+};
+std::string encode(const PartRegion& region);
+void decode(const std::string& payload, PartRegion& region);
+
+/// The marked faces of a manifold mesh, of which at least one is marked, as a surface with boundary: unmarked
+/// patches of less than a thousandth of the mesh's area are added, marked ones of less than a twentieth of
+/// the marked area taken away, and where marked faces meet in a vertex alone, all faces there are added.
+PartRegion tidy_region(const TriangleMesh& mesh, FaceData<char> marked);
+
+/// The whole without the faces outside of the region; vertices of the file that have none any more are
+/// `outside_part`. Throws ArtifactError where the region has not the mesh's number of faces.
+RepairedMesh cropped(RepairedMesh whole, const PartRegion& region);
+
+}  // namespace varimap

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "varimap/core/indexed.h"
+#include "varimap/mesh/surface.h"
+
+namespace varimap {
+
+/// The faces of the whole's input that a part covers: those whose middles lie at the image of the part's
+/// mesh, inside of its rim. `images`: of the vertices of the part's mesh, on the whole's.
+FaceData<char> covered_faces(const PointMap& images, const TriangleMesh& part, const Surface& whole);
+
+}  // namespace varimap

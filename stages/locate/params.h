@@ -1,0 +1,34 @@
+#pragma once
+
+#include "varimap/multilevel/ironing.h"
+#include "varimap/pair_stage/alternation_params.h"
+#include "varimap/relaxation/placed_part.h"
+#include "varimap/stage/parameters.h"
+
+namespace varimap {
+
+struct LocateParams {
+    Part part = Part::none;
+    AlternationOptions alternation;
+    IroningOptions ironing;
+    PartPlacing placing;
+    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    double enough = 0.05;  ///< strain of a try on sketches after which no others follow
+
+    void describe(ParameterList& list) {
+        list.add("part", part, "which surface is a part of the other: source or target");
+        describe_exact(list, alternation);
+        varimap::describe(list, ironing);
+        list.add("placing_steps", placing.steps,
+                 "relaxation steps that place the part, in each of two rounds", 0, 10000);
+        list.add("robustness", placing.robustness,
+                 "excess energy at which a triangle counts half while the part is placed; 0: all count fully",
+                 0, 1e6);
+        list.add("relief_weight", placing.relief_weight,
+                 "weight of like relief against the isometry while the part is placed", 0, 1e3);
+        list.add("enough", enough, "a part that is strained less is looked for no longer", 0, 1e6);
+        varimap::describe(list, landmark_space);
+    }
+};
+
+}  // namespace varimap

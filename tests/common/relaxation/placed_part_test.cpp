@@ -1,0 +1,73 @@
+#include "varimap/relaxation/placed_part.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+#include "varimap/mesh/closest_point.h"
+
+namespace varimap {
+namespace {
+
+/// The figure of unit area, the part of it in front of a place along it, and images of the part's vertices
+/// that lie around their places, farther apart or nearer by a factor.
+struct Pair {
+    TriangleMesh whole, part;
+    PointMap start;
+    double share;
+
+    Pair(double behind, double stretch) {
+        whole = shapes::figure(.15);
+        whole.vertices /= std::sqrt(surface_area(whole));
+        std::vector<int> in_front;
+        for (int f = 0; f < whole.face_count(); ++f)
+            if (whole.vertices(whole.faces.row(f), 0).minCoeff() > behind) in_front.push_back(f);
+        part = {whole.vertices, whole.faces(in_front, Eigen::all)};
+        share = surface_area(part);
+        const ClosestPoint closest(whole);
+        const Vec3 middle(.2, 0, 0);
+        for (int v = 0; v < part.vertex_count(); ++v)
+            start.push_back(closest(middle + stretch * (part.vertex(v) - middle)).point);
+    }
+
+    PlacedPart placed() const {
+        PartPlacing placing;
+        placing.share = share;
+        return place_part(start, part, whole, VertexData<bool>(part.vertex_count()), placing);
+    }
+    double mean_error(const PointMap& map) const {
+        double sum = 0, count = 0;
+        for (const int v : part.faces.reshaped()) {
+            sum += (position(whole, map[std::size_t(v)]) - part.vertex(v)).norm();
+            ++count;
+        }
+        return sum / count;
+    }
+};
+
+/// Nothing but the surfaces' forms says where the rim is.
+TEST(PlacedPart, FindsItsRim) {
+    for (const double stretch : {.9, 1.1}) {
+        const Pair pair(-.05, stretch);
+        const double before = pair.mean_error(pair.start);
+        const PlacedPart placed = pair.placed();
+        EXPECT_GT(before, .014) << stretch;
+        EXPECT_LT(pair.mean_error(placed.images), .006) << stretch;  // a quarter of an edge
+        EXPECT_LT(placed.strain, .01) << stretch;
+    }
+}
+
+/// A part of another size is strained.
+TEST(PlacedPart, IsStrainedWhereItDoesNotFit) {
+    Pair pair(-.05, 1);
+    const double right = pair.placed().strain;
+    PartPlacing placing;
+    placing.share = .5 * pair.share;
+    VertexData<bool> pinned(pair.part.vertex_count());
+    for (const int v : pair.part.faces.reshaped())
+        if (v % 20 == 0) pinned[v] = true;
+    EXPECT_GT(place_part(pair.start, pair.part, pair.whole, pinned, placing).strain, 10 * right + .01);
+}
+
+}  // namespace
+}  // namespace varimap

@@ -1,0 +1,96 @@
+#include "stages/locate/locate.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/known_pair.h"
+#include "fixtures/shapes.h"
+#include "fixtures/surface_data.h"
+#include "stages/coarsen/coarsen.h"
+#include "stages/preprocess/preprocess.h"
+#include "varimap/core/error.h"
+#include "varimap/pair_stage/pair_inputs.h"
+
+namespace varimap {
+namespace {
+
+bool is_in_front(const TriangleMesh& mesh, int f) {
+    return mesh.vertices(mesh.faces.row(f), 0).minCoeff() > -.2;
+}
+
+Surface sketch_of(const Surface& surface, int vertices) {
+    CoarsenParams params;
+    params.vertices = vertices;
+    params.most_lost = 1;
+    return coarsened(surface, params);
+}
+
+/// A figure in another pose, the front of the figure at rest, and which faces of the other are that
+/// part. Both have the same vertices.
+struct Pair {
+    Surface part, whole;
+    std::vector<char> in_front;
+    Landmarks landmarks;
+
+    Pair() {
+        const TriangleMesh rest = shapes::figure(.1);
+        const TriangleMesh posed = shapes::figure_pose(1)(rest);
+        std::vector<int> faces;
+        for (int f = 0; f < rest.face_count(); ++f) {
+            in_front.push_back(is_in_front(rest, f));
+            if (in_front.back()) faces.push_back(f);
+        }
+        part = preprocess(TriangleMesh{rest.vertices, rest.faces(faces, Eigen::all)}, {});
+        whole = preprocess(posed, {});
+        // Front feet, the back, the head.
+        for (const Vec3& at : {Vec3(.75, .34, -1.38), Vec3(.8, -.36, -1.58), Vec3(.3, 0, 1), Vec3(3, 0, 1)})
+            landmarks.vertices.emplace_back(InputVertex{nearest(at)}, InputVertex{nearest(at)});
+    }
+    int nearest(const Vec3& at) const {
+        int best = -1;
+        for (const int v : part.input.faces.reshaped())
+            if (best < 0 || (part.input.vertex(v) - at).norm() < (part.input.vertex(best) - at).norm())
+                best = v;
+        return best;
+    }
+    Place locate(bool part_is_source, std::size_t count = 4) const {
+        const Surface &A = part_is_source ? part : whole, &B = part_is_source ? whole : part;
+        Landmarks used = landmarks;
+        used.vertices.resize(count, landmarks.vertices.front());
+        LocateParams params;
+        params.part = part_is_source ? Part::source : Part::target;
+        const auto sketch = [&](const Surface& surface) {
+            return shapes::surface_data(sketch_of(surface, &surface == &part ? 400 : 700), 60);
+        };
+        return varimap::locate(pair_context(sketch(A), sketch(B), used, 1), A, B,
+                               to_mesh_vertices(used.vertices, A, B), params);
+    }
+    /// Shares of the whole's area: in both, and in one of them.
+    double overlap(const PartRegion& region) const {
+        std::vector<char> inside(in_front.size(), 0);
+        for (const int f : region.faces) inside[std::size_t(f)] = 1;
+        double both = 0, one = 0;
+        for (std::size_t f = 0; f < in_front.size(); ++f) {
+            const double area = face_normal(whole.input, int(f)).norm();
+            both += area * (inside[f] && in_front[f]);
+            one += area * (inside[f] || in_front[f]);
+        }
+        return both / one;
+    }
+};
+
+TEST(LocateStage, FindsThePartOnTheWhole) {
+    const Pair pair;
+    for (const bool part_is_source : {true, false}) {
+        const Place place = pair.locate(part_is_source);
+        EXPECT_GT(pair.overlap(place.region), .93);
+        EXPECT_LT(place.strain, .1);
+        EXPECT_EQ(place.scale, 1);
+    }
+}
+
+TEST(LocateStage, NeedsThreeLandmarks) {
+    EXPECT_THROW(Pair().locate(true, 2), UsageError);
+}
+
+}  // namespace
+}  // namespace varimap
