@@ -17,27 +17,6 @@ handful() {
     echo "$text"
 }
 
-# require_map_options OPTION...: refuses what `varimap map` and its stages would refuse, before anything else is done. They
-# check options first, and then find that a device is no folder for results.
-require_map_options() {
-    local code=0 said
-    said=$("$varimap" map "$share/batch/job" "$share/batch/job" --landmarks "$share/batch/job" "$@" -o /dev/null 2>&1 >/dev/null) || code=$?
-    said=${said##*$'\n'}
-    ((code == 0)) || [[ $said == *'/dev/null: is a file'* ]] || fail "$code" "${said#*: error: }"
-    [[ ! $* =~ repair|fill.holes|cut.handles ]] || require_repairs "$@"
-}
-
-# The values of these are looked at when there is a mesh.
-require_repairs() {  # OPTION...
-    local folder code=0 said
-    folder=$(mktemp -d) || fail 6 "no folder for temporary files can be written to"
-    printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >"$folder/a.off"
-    said=$("$varimap" map "$folder/a.off" "$folder/a.off" --landmarks "$share/batch/job" "$@" --until preprocess -q -j 1 \
-        -o "$folder/out" 2>&1 >/dev/null) || code=$?
-    rm -rf -- "$folder"
-    ((code != 2)) || fail 2 "${said#*: error: }"
-}
-
 # files_named_in MESH: the files beside it without which it is not whole, as it names them: those of a .gltf.
 files_named_in() {
     [[ ${1,,} == *.gltf ]] || return 0

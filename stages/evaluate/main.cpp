@@ -61,7 +61,8 @@ MapErrors vertex_errors(const RepairedMesh& target, const PointMap& map,
 /// The same at landmarks of any form, which the map carries as points.
 MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const TriangleMesh& source,
                           const std::vector<std::string>& files) {
-    const Landmarks landmarks = read_landmarks(files, source, file_of(target));
+    const Landmarks landmarks =
+        read_landmarks(files, source, file_of(target), LandmarkSpace::stated, Repeats::allow);
     const PointCarrier carry(source, map, file_of(target));
     PointMap images, truths;
     for (const auto& [point, truth] : as_points(landmarks, source, file_of(target)))

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <string_view>
 
 #include "stages/import/private/gltf_extensions.h"
@@ -262,7 +263,8 @@ std::vector<double> accessor_numbers(const GltfDocument& document, std::size_t i
 
 std::size_t append_accessor(GltfDocument& document, const std::vector<double>& numbers,
                             std::size_t components) {
-    constexpr std::array names{"SCALAR", "VEC2", "VEC3", "VEC4"};
+    const std::map<std::size_t, const char*> names{
+        {1, "SCALAR"}, {2, "VEC2"}, {3, "VEC3"}, {4, "VEC4"}, {16, "MAT4"}};
     constexpr int of_floats = 5126;
     const std::size_t begin = document.bytes.size();
     for (const double number : numbers) number_type<float>().append(number, document.bytes);
@@ -271,7 +273,7 @@ std::size_t append_accessor(GltfDocument& document, const std::vector<double>& n
     accessors.push_back({{"bufferView", views.size() - 1},
                          {"componentType", of_floats},
                          {"count", numbers.size() / components},
-                         {"type", names.at(components - 1)}});
+                         {"type", names.at(components)}});
     return accessors.size() - 1;
 }
 

@@ -77,7 +77,10 @@ class Writer {
                 mesh.erase("weights");
                 for (Json& primitive : mesh.at("primitives")) make_plain(primitive);
             }
-        if (json_.contains("skins")) part_skinned_meshes();
+        if (json_.contains("skins")) {
+            part_skinned_meshes();
+            write_bind_matrices();
+        }
         return std::move(warnings_);
     }
 
@@ -94,7 +97,7 @@ class Writer {
         const Json& given = primitive.at("attributes");
         for (const auto& item : given.items())
             if (item.key().starts_with("COLOR_")) warnings_.insert("colours of vertices are left out");
-        primitive.erase("targets");
+        if (primitive.erase("targets") > 0) warnings_.insert("blend shapes are left out");
         const UvUse use = uv_use_of(material_of(primitive));
         if (is_packed(primitive)) return leave_packed(primitive, use);
         primitive.erase("extensions");
@@ -179,6 +182,17 @@ class Writer {
             Json mesh = json_.at("meshes").at(nodes[i]["mesh"].get<std::size_t>());
             json_["meshes"].push_back(std::move(mesh));
             nodes[i]["mesh"] = json_["meshes"].size() - 1;
+        }
+    }
+
+    /// A skin may leave out identities; assimp crashes where they are not there.
+    void write_bind_matrices() {
+        constexpr std::size_t size = 16, diagonal = 5;
+        for (Json& skin : json_["skins"]) {
+            if (skin.contains("inverseBindMatrices")) continue;
+            std::vector<double> identities(size * skin.at("joints").size());
+            for (std::size_t i = 0; i < identities.size(); ++i) identities[i] = i % size % diagonal == 0;
+            skin["inverseBindMatrices"] = append_accessor(document_, identities, size);
         }
     }
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
+#include "varimap/core/printable.h"
 #include "varimap/landmarks/landmark_points.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -25,9 +27,9 @@ std::string text_of(const Json& object, const char* key) {
 
 TemplateLandmarks read_listed_landmarks(const std::string& path, const TriangleMesh& mesh) {
     TemplateLandmarks result;
-    for (const int v : read_vertex_list(path, IndexBase::automatic, &mesh)) {
-        result.names.push_back(std::to_string(result.names.size() + 1));
-        result.points.push_back(point_at_vertex(mesh, v));
+    for (const auto& [vertex, name] : read_named_vertices(path, IndexBase::automatic, &mesh)) {
+        result.add_name(name);
+        result.points.push_back(point_at_vertex(mesh, vertex));
     }
     return result;
 }
@@ -37,7 +39,7 @@ TemplateLandmarks read_picked_landmarks(const std::string& path, const TriangleM
     std::vector<Vec3> positions;
     for (const PickedPoint& point : read_picked_points(path)) {
         if (!point.defined) continue;
-        result.names.push_back(point.name.empty() ? std::to_string(result.names.size() + 1) : point.name);
+        result.add_name(point.name);
         positions.push_back(in_axes_of(mesh, point, LandmarkSpace::stated));
     }
     Snapped snapped = snap(positions, mesh);
@@ -74,17 +76,32 @@ PointMap carried_landmarks(PointMap points, const TriangleMesh& first, const Ans
     return points;
 }
 
-/// The first template's landmarks on the template of an answer: by a file of its own where it has one, with
-/// as many in the same order.
+/// The points of a further template's landmarks in the order of the first one's: by their names, or row by
+/// row where a file lacks some.
+PointMap in_order_of(const TemplateLandmarks& first, TemplateLandmarks own, const std::string& own_file) {
+    if (own.names.size() != first.names.size())
+        throw InputError(fmt::format("{}: {} landmarks, but the first template has {}", own_file,
+                                     own.names.size(), first.names.size()));
+    if (!first.named || !own.named || own.names == first.names) return std::move(own.points);
+    PointMap points;
+    for (const std::string& name : first.names) {
+        const auto found = std::ranges::find(own.names, name);
+        if (found == own.names.end() || std::ranges::count(own.names, name) > 1)
+            throw InputError(
+                fmt::format("{}: '{}', a landmark of the first template, is {}; give the same "
+                            "names in both files, each once",
+                            own_file, excerpt(name), found == own.names.end() ? "not there" : "there twice"));
+        points.push_back(own.points[std::size_t(found - own.names.begin())]);
+    }
+    return points;
+}
+
+/// The first template's landmarks on the template of an answer: by a file of its own where it has one.
 PointMap landmarks_on_template_of(const Answer& answer, const std::string& own_file,
                                   const Registration& all) {
     if (answer.from_first.empty()) return all.landmarks->points;
     if (own_file.empty()) return carried_landmarks(all.landmarks->points, all.first, answer);
-    TemplateLandmarks own = read_template_landmarks(own_file, answer.map.from);
-    if (own.names.size() != all.landmarks->names.size())
-        throw InputError(fmt::format("{}: {} landmarks, but the first template has {}", own_file,
-                                     own.names.size(), all.landmarks->names.size()));
-    return std::move(own.points);
+    return in_order_of(*all.landmarks, read_template_landmarks(own_file, answer.map.from), own_file);
 }
 
 /// `path`: of the manifest. The meshes and maps of a specimen are let go before the next one's are read.
@@ -106,6 +123,11 @@ void add_specimen(const Json& specimen, const std::string& path, Registration& a
 }
 
 }  // namespace
+
+void TemplateLandmarks::add_name(const std::string& name) {
+    named = named && !name.empty();
+    names.push_back(name.empty() ? std::to_string(names.size() + 1) : name);
+}
 
 Registration read_registration(const std::string& path) {
     Registration all;

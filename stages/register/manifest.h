@@ -9,10 +9,14 @@
 
 namespace varimap {
 
-/// Landmarks on a template, as many points as names. Where the file names none, they are numbered from 1.
+/// Landmarks on a template, as many points as names. What the file gives no name is called by its number,
+/// from 1.
 struct TemplateLandmarks {
     std::vector<std::string> names;
     PointMap points;
+    bool named = true;  ///< by the file, all of them
+
+    void add_name(const std::string& name);  ///< of the next point; empty: the file has none
 };
 
 /// The specimens of a manifest, each by what its maps say of it: lists have one entry per specimen, in order.

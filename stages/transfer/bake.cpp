@@ -16,6 +16,8 @@ namespace varimap {
 namespace {
 
 constexpr double square_tolerance = 1e-3;
+constexpr double rim = 1e-6;            ///< of a face, in barycentric coordinates, where rounding decides
+constexpr double few_overlaps = 1e-3;   ///< of what is drawn: rounding along seams makes that
 constexpr double grey_tolerance = .01;  ///< many programs write a grey Kd beside every image
 
 /// Colours of the source's faces by their materials.
@@ -55,8 +57,14 @@ class Paint {
 };
 
 /// What of the target lies on the centre of each pixel.
-std::vector<SurfacePoint> faces_on_pixels(const ObjModel& target, int n) {
-    std::vector<SurfacePoint> on(std::size_t(n) * std::size_t(n));
+struct Layout {
+    std::vector<SurfacePoint> on;  ///< the first face that lies there
+    std::vector<char> overlapped;  ///< whether another one lies there, too
+};
+
+Layout faces_on_pixels(const ObjModel& target, int n) {
+    const std::size_t pixels = std::size_t(n) * std::size_t(n);
+    Layout layout{std::vector<SurfacePoint>(pixels), std::vector<char>(pixels, 0)};
     for (int f = 0; f < int(target.uv_of.rows()); ++f) {
         Eigen::Matrix<double, 2, 3> corner;
         for (int k = 0; k < 3; ++k) {
@@ -73,12 +81,35 @@ std::vector<SurfacePoint> faces_on_pixels(const ObjModel& target, int n) {
         for (int y = top; y <= bottom; ++y)
             for (int x = left; x <= right; ++x) {
                 const Vec2 b = inverse * (Vec2(x, y) - corner.col(0));
-                SurfacePoint& point = on[std::size_t(y) * std::size_t(n) + std::size_t(x)];
-                if (b.minCoeff() >= 0 && b.sum() <= 1 && point.face < 0)
-                    point = {f, {1 - b.sum(), b[0], b[1]}};
+                const Vec3 at(1 - b.sum(), b[0], b[1]);
+                if (at.minCoeff() < 0) continue;
+                const std::size_t pixel = std::size_t(y) * std::size_t(n) + std::size_t(x);
+                SurfacePoint& first = layout.on[pixel];
+                if (first.face < 0)
+                    first = {f, at};
+                else if (std::min(at.minCoeff(), first.barycentric.minCoeff()) > rim)
+                    layout.overlapped[pixel] = 1;
             }
     }
-    return on;
+    return layout;
+}
+
+/// Refuses a layout on which nothing is drawn, and warns of one on which much is drawn twice.
+void check_layout(const Layout& layout, const std::string& path, int pixels) {
+    const auto drawn = std::count_if(layout.on.begin(), layout.on.end(),
+                                     [](const SurfacePoint& point) { return point.face >= 0; });
+    if (drawn == 0)
+        throw InputError(
+            fmt::format("{}: its texture coordinates cover none of {} x {} pixels; give --onto an "
+                        "OBJ with others, or leave out --bake to have the source's cut onto it",
+                        path, pixels, pixels));
+    const auto twice = std::count(layout.overlapped.begin(), layout.overlapped.end(), 1);
+    const double share = double(twice) / double(drawn);
+    if (share > few_overlaps)
+        warn(
+            "{}: faces overlap in its texture coordinates on {:.1f} % of the pixels they cover, where the "
+            "first of them is drawn",
+            path, 100 * share);
 }
 
 /// Pixels beside coloured ones get their mean, in one round.
@@ -119,7 +150,9 @@ TextureImage bake(const Correspondence& map, const PointCarrier& back, const Tex
                   const ObjModel& target, const std::string& target_file, const BakeSize& size) {
     require_square(target, target_file);
     const Paint paint(map.from, texture);
-    const auto on = faces_on_pixels(target, size.pixels);
+    const Layout layout = faces_on_pixels(target, size.pixels);
+    check_layout(layout, target_file, size.pixels);
+    const std::vector<SurfacePoint>& on = layout.on;
     TextureImage image(size.pixels, size.pixels);
     parallel_for_each_index(int(on.size()), 256, [&](int i) {
         const SurfacePoint source = back(on[std::size_t(i)]);

@@ -19,8 +19,9 @@ struct BakeSize {
 };
 
 /// The texture of `map.from` drawn onto the texture coordinates that `map.to` has of its own; transparent
-/// where no face lies. Where faces overlap the first counts. Throws InputError where the coordinates of
-/// `target`, which is read from `target_file`, leave the square from 0 to 1, or an image is no PNG; IoError.
+/// where no face lies. Where faces overlap the first counts, with a warning. Throws InputError where the
+/// coordinates of `target`, which is read from `target_file`, leave the square from 0 to 1 or cover no pixel,
+/// or an image is no PNG; IoError.
 TextureImage bake(const Correspondence& map, const PointCarrier& back, const Texture& texture,
                   const ObjModel& target, const std::string& target_file, const BakeSize& size);
 

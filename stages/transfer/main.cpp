@@ -89,7 +89,8 @@ int main(int argc, char** argv) {
                    mesh,
                    params.space,
                    {params.bake, params.padding},
-                   params.influences};
+                   params.influences,
+                   out};
         if (request.empty())
             throw UsageError(
                 "nothing to carry: give --points, --values, --labels, --weights, --regions, --shape, "

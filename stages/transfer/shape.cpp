@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <vector>
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh/weld.h"
 #include "varimap/results/surface_map.h"
 
 namespace varimap {
@@ -20,6 +22,37 @@ using Frame = Eigen::Matrix3d;
 constexpr int smoothing_rounds = 5;
 constexpr std::size_t anchors_of_vertex = 32;                   ///< that a vertex without an image follows
 constexpr std::size_t most_anchors = 10'000, most_asked = 200;  ///< of a mesh, and of a part: to save time
+
+/// A mesh of a file as one surface: where vertices lie in the same place, or nearly, and have one image or
+/// none, its faces meet at the lowest of them. Vertices and faces keep their numbers.
+struct WeldedMesh {
+    std::vector<int> vertex;  ///< per vertex: the one that faces have in its place
+    TriangleMesh mesh;
+};
+
+/// The faces that name no vertex twice.
+TriangleMesh without_degenerate_faces(const TriangleMesh& mesh) {
+    std::vector<int> kept;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const auto corner = mesh.faces.row(f);
+        if (corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0]) kept.push_back(f);
+    }
+    return {mesh.vertices, mesh.faces(kept, Eigen::all), mesh.space};
+}
+
+/// Images part what the map was made of as two, such as the rims of a slit that was left open.
+WeldedMesh welded(const TriangleMesh& mesh, const PointMap& images) {
+    std::vector<int> vertex = welded_vertices(without_degenerate_faces(mesh), 0);
+    std::map<std::tuple<int, int, double, double>, int> lowest;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const auto& [face, at] = images[std::size_t(v)];
+        int& own = vertex[std::size_t(v)];
+        own = lowest.try_emplace({own, face, at[0], at[1]}, v).first->second;
+    }
+    TriangleMesh joined = mesh;
+    for (int& corner : joined.faces.reshaped()) corner = vertex[std::size_t(corner)];
+    return {std::move(vertex), std::move(joined)};
+}
 
 /// Sums that the best similarity at a vertex follows from.
 struct Moments {
@@ -70,6 +103,7 @@ std::vector<Frame> smoothed(const std::vector<Frame>& frames, const Adjacency& n
     return result;
 }
 
+/// Of the vertices that faces have.
 std::vector<Frame> frames_of(const Correspondence& map) {
     const Adjacency neighbours = vertex_neighbours(map.to);
     const Points images = image_positions(map.back, map.from, Points::Zero(map.to.vertex_count(), 3));
@@ -80,7 +114,10 @@ std::vector<Frame> frames_of(const Correspondence& map) {
             moments[std::size_t(v)] = moments_at(v, images, map, neighbours, from_normals, to_normals);
     });
     int reflecting = 0;
-    for (const Moments& sums : moments) reflecting += sums.covariance.determinant() < 0 ? 1 : -1;
+    for (const Moments& sums : moments) {
+        const double determinant = sums.covariance.determinant();
+        reflecting += int(determinant < 0) - int(determinant > 0);
+    }
     std::vector<Frame> frames(moments.size());
     parallel_for_each_index(int(frames.size()), 512, [&](int v) {
         frames[std::size_t(v)] = similarity(moments[std::size_t(v)], reflecting > 0);
@@ -96,7 +133,8 @@ std::vector<char> with_image(const PointMap& map) {
 }
 
 /// Vertices, of those that are not known: in one list those that hang together without known ones.
-std::vector<std::vector<int>> unknown_parts(const TriangleMesh& mesh, const std::vector<char>& known) {
+std::vector<std::vector<int>> unknown_parts(const WeldedMesh& welded, const std::vector<char>& known) {
+    const TriangleMesh& mesh = welded.mesh;
     std::vector<int> unknown_faces;
     for (int f = 0; f < mesh.face_count(); ++f)
         if (!known[std::size_t(mesh.faces(f, 0))] && !known[std::size_t(mesh.faces(f, 1))] &&
@@ -104,15 +142,13 @@ std::vector<std::vector<int>> unknown_parts(const TriangleMesh& mesh, const std:
             unknown_faces.push_back(f);
     const std::vector<int> component =
         vertex_components({mesh.vertices, mesh.faces(unknown_faces, Eigen::all)});
-    std::map<int, std::vector<int>> joined;
-    std::vector<std::vector<int>> parts;
+    std::map<int, std::vector<int>> joined;  // by component; where faces join none, by vertex behind these
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         if (known[std::size_t(v)]) continue;
-        if (component[std::size_t(v)] < 0)
-            parts.push_back({v});
-        else
-            joined[component[std::size_t(v)]].push_back(v);
+        const int own = welded.vertex[std::size_t(v)], number = component[std::size_t(own)];
+        joined[number < 0 ? mesh.vertex_count() + own : number].push_back(v);
     }
+    std::vector<std::vector<int>> parts;
     for (auto& [number, part] : joined) parts.push_back(std::move(part));
     return parts;
 }
@@ -156,18 +192,19 @@ void move_part(const std::vector<int>& part, const std::vector<int>& anchors, co
 }
 
 /// Images of all vertices, of which those of the known ones are given.
-Points follow_known(const TriangleMesh& mesh, const std::vector<char>& known, bool mirrored, Points images) {
+Points follow_known(const WeldedMesh& welded, const std::vector<char>& known, bool mirrored, Points images) {
+    const Points& places = welded.mesh.vertices;
     std::vector<int> choice;
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (known[std::size_t(v)]) choice.push_back(v);
+    for (int v = 0; v < int(places.rows()); ++v)
+        if (known[std::size_t(v)] && welded.vertex[std::size_t(v)] == v) choice.push_back(v);
     if (choice.empty()) return images;
     choice = thinned(choice, most_anchors);
-    const auto parts = unknown_parts(mesh, known);
+    const auto parts = unknown_parts(welded, known);
     parallel_for_each_index(int(parts.size()), 1, [&](int p) {
         std::vector<int> anchors;
         for (const int v : thinned(parts[std::size_t(p)], most_asked))
-            for (const int anchor : nearest_known(v, mesh.vertices, choice)) anchors.push_back(anchor);
-        move_part(parts[std::size_t(p)], anchors, mesh.vertices, mirrored, images);
+            for (const int anchor : nearest_known(v, places, choice)) anchors.push_back(anchor);
+        move_part(parts[std::size_t(p)], anchors, places, mirrored, images);
     });
     return images;
 }
@@ -175,20 +212,24 @@ Points follow_known(const TriangleMesh& mesh, const std::vector<char>& known, bo
 }  // namespace
 
 Points carry_shape(const Correspondence& map, const Points& shape) {
-    const std::vector<Frame> frames = frames_of(map);
+    const WeldedMesh from = welded(map.from, map.there), to = welded(map.to, map.back);
+    const std::vector<Frame> frames =
+        frames_of({map.from_file, map.to_file, from.mesh, to.mesh, map.there, map.back});
     const TriangleMesh displacements{shape - map.from.vertices, map.from.faces};
     Points moved = map.to.vertices;
     for (int v = 0; v < map.to.vertex_count(); ++v) {
         const SurfacePoint& image = map.back[std::size_t(v)];
-        if (image.face >= 0)
-            moved.row(v) += (frames[std::size_t(v)] * position(displacements, image)).transpose();
+        if (image.face < 0) continue;
+        const Frame& frame = frames[std::size_t(to.vertex[std::size_t(v)])];
+        moved.row(v) += (frame * position(displacements, image)).transpose();
     }
-    return follow_known(map.to, with_image(map.back), false, moved);
+    return follow_known(to, with_image(map.back), false, moved);
 }
 
 Points carried_vertices(const Correspondence& map) {
     const Points images = image_positions(map.there, map.to, map.from.vertices);
-    return follow_known(map.from, with_image(map.there), reverses_orientation(map), images);
+    return follow_known(welded(map.from, map.there), with_image(map.there), reverses_orientation(map),
+                        images);
 }
 
 bool reverses_orientation(const Correspondence& map) {

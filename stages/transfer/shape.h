@@ -7,7 +7,8 @@ namespace varimap {
 /// Positions of the vertices of `map.to` moved as `shape` moves those of `map.from`: displacements, linear on
 /// faces, turned and scaled as the map turns and scales the surroundings of each vertex. These frames are the
 /// best similarities from a vertex's neighbours' images to the neighbours, smoothed over the surface.
-/// Vertices without an image follow those near them, as in carried_vertices.
+/// Vertices that lie in the same place, or nearly, and have one image, as along a seam of the file, are one
+/// here. Vertices without an image follow those near them, as in carried_vertices.
 Points carry_shape(const Correspondence& map, const Points& shape);
 
 /// The vertices of `map.from` at their images on `map.to`. Those without an image follow the vertices nearest

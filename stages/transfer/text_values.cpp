@@ -68,13 +68,14 @@ double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& 
 }
 
 /// Rows of a numbered table stand in the order of their numbers, from 0.
-void require_number(const TextRow& row, std::size_t number, const std::string& path) {
+void require_number(const TextRow& row, std::size_t number, const std::string& name,
+                    const std::string& path) {
     long long found;
     if (!to_integer(row.words[0], found) || found != static_cast<long long>(number))
-        throw InputError(
-            fmt::format("{}:{}: number '{}' where {} should stand; rows must be in their order, "
-                        "from 0",
-                        path, row.line, excerpt(row.words[0]), number));
+        throw InputError(fmt::format(
+            "{}:{}: number '{}' where {} should stand: the column '{}' numbers the rows, in their "
+            "order from 0; call one that holds values otherwise",
+            path, row.line, excerpt(row.words[0]), number, excerpt(name)));
 }
 
 std::string shortest(double value) {
@@ -112,7 +113,7 @@ Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::s
         if (row.words.size() != width)
             throw InputError(fmt::format("{}:{}: {} columns, but the first line has {}", path, row.line,
                                          row.words.size(), width));
-        if (layout.numbered) require_number(row, i - first, path);
+        if (layout.numbered) require_number(row, i - first, text.rows[0].words[0], path);
         for (std::size_t c = skipped; c < width; ++c)
             values(Eigen::Index(i - first), Eigen::Index(c - skipped)) =
                 cell(row, c, layout.kind, layout.words, path);

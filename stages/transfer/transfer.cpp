@@ -118,6 +118,8 @@ class Transfer {
             throw UsageError("two results would be called " + name + "; carry one of them on its own");
         files_.emplace_back(name, std::move(bytes));
     }
+    bool is_free(const std::string& name, const std::string& image) const;
+    Materials read_materials_of(const ObjModel& model, const std::string& path) const;
     void add_values(const std::string& path, ValueKind kind);
     void add_shape(const std::string& path);
     void add_mesh(const std::string& path);
@@ -134,6 +136,25 @@ class Transfer {
     NamedFiles files_;
     std::set<std::string> names_;
 };
+
+/// Whether nothing else is called so, in this run or where its results go.
+bool Transfer::is_free(const std::string& name, const std::string& image) const {
+    for (const auto& [other, bytes] : files_)
+        if (other == name) return bytes == read_file(image);
+    const fs::path there = fs::path(request_.folder) / name;
+    std::error_code ignored;  // whoever writes there finds out
+    if (request_.folder.empty() || !fs::exists(there, ignored)) return true;
+    return fs::is_regular_file(there, ignored) && read_file(there.string()) == read_file(image);
+}
+
+Materials Transfer::read_materials_of(const ObjModel& model, const std::string& path) const {
+    const auto free = [this](const std::string& name, const std::string& image) {
+        return is_free(name, image);
+    };
+    Materials materials = read_materials(model, path, free);
+    warn_of_unknown_materials(model, materials, path);
+    return materials;
+}
 
 void Transfer::add_values(const std::string& path, ValueKind kind) {
     const ValueFile file = read_values(path, kind, map_.from, map_.from_file);
@@ -172,8 +193,7 @@ void Transfer::add_mesh(const std::string& path) {
     const ObjModel model = parse_obj_model(bytes, path);
     const bool painted = !model.libraries.empty();
     if (painted) {
-        const Materials materials = read_materials(model, path);
-        warn_of_unknown_materials(model, materials, path);
+        const Materials materials = read_materials_of(model, path);
         add_materials(materials, name);
     }
     warn_of_followers(map_.there, path);
@@ -189,8 +209,7 @@ void Transfer::add_texture(const std::string& path) {
     require_same_mesh(same_faces(mesh, map_.from), path, mesh, map_.from_file, map_.from);
     const ObjModel model = parse_obj_model(bytes, path);
     if (!model.has_uv()) throw InputError(path + ": has faces without texture coordinates (vt)");
-    const Materials materials = read_materials(model, path);
-    warn_of_unknown_materials(model, materials, path);
+    const Materials materials = read_materials_of(model, path);
     const std::string name = stem_of(map_.to_file) + "_textured";
     if (request_.bake.pixels > 0)
         add_baked({model, materials}, name);

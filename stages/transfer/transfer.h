@@ -19,6 +19,8 @@ struct TransferRequest {
     LandmarkSpace space = LandmarkSpace::stated;
     BakeSize bake{0};    ///< pixels 0: no baking, but coordinates cut at seams
     int influences = 0;  ///< weights kept in each row; 0: all
+    /// Where the results go: no image takes the place of another that lies there; empty: nothing lies there.
+    std::string folder;
 
     bool empty() const {
         return points.empty() && values.empty() && labels.empty() && weights.empty() && regions.empty() &&

@@ -99,11 +99,14 @@ void normalise_rows(Eigen::MatrixXd& weights) {
 void require_weights(const ValueTable& table, const std::string& path) {
     for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
         const auto weights = table.values.row(row);
-        if (!(std::abs(weights.sum() - 1) <= sum_tolerance) || !(weights.minCoeff() >= 0))
-            throw InputError(
-                fmt::format("{}: row {} (from 0) sums to {:.4g}; weights must be at least 0 and "
-                            "sum to 1; give other values as --values",
-                            path, row, weights.sum()));
+        const double sum = weights.sum(), least = weights.minCoeff();
+        if (std::abs(sum - 1) <= sum_tolerance && least >= 0) continue;
+        const std::string found =
+            least < 0 ? fmt::format("holds {:.4g}", least) : fmt::format("sums to {:.4g}", sum);
+        throw InputError(
+            fmt::format("{}: row {} (from 0) {}; weights must be at least 0 and sum to 1; give "
+                        "other values as --values",
+                        path, row, found));
     }
 }
 

@@ -231,6 +231,23 @@ expect_exit 3 "$varimap" batch one_side.csv -o none
 printf 'source,target\nmeshes/a.off,meshes/b.off\n' >pair.csv
 expect_exit 2 "$varimap" batch pair.csv -o none --directed
 expect_exit 2 "$varimap" batch --star meshes/a.off meshes -o none --directed
+printf 'source,target,mesh\nmeshes/a.off,meshes/b.off,meshes/c.off\n' >both.csv
+expect_exit 3 "$varimap" batch both.csv -o none
+grep -q '^batch: error: both.csv: a row with mesh as well as source or target: ' log || fail "a row of a pair and a mesh"
+printf 'source,target\nmeshes/a.off,meshes/b.off,one.txt\n' >beyond.csv
+expect_exit 3 "$varimap" batch beyond.csv -o none
+grep -q '^batch: error: beyond.csv: a row with more fields than columns: ' log || fail "a field beyond the columns"
+printf 'source,target,source\nmeshes/a.off,meshes/b.off,meshes/c.off\n' >column_twice.csv
+expect_exit 3 "$varimap" batch column_twice.csv -o none
+grep -q '^batch: error: column_twice.csv: .* names the column source twice' log || fail "a column that is there twice"
+mkdir dangling
+cp meshes/a.off meshes/b.off dangling
+ln -s absent.off dangling/c.off
+for command in "batch -o none --all-pairs" survey; do
+    # shellcheck disable=SC2086
+    expect_exit 6 "$varimap" $command dangling
+    grep -q 'error: .*dangling/c.off: no such file' log || fail "$command passes over a link that leads nowhere"
+done
 mkdir named
 cp one.txt named/nobody.txt
 expect_exit 3 "$varimap" batch --all-pairs meshes -o none --landmarks-from named
@@ -263,6 +280,14 @@ grep -q '^batch: warning: names.csv: rows of a mesh alone, beside rows of pairs:
     fail "--plan with landmarks"
 tr '\n' ' ' <planned/batch/options | grep -q -- '--cut-handles none --fill-holes 30 ' || fail "repairs of all surfaces of a batch"
 grep -q '^pair b--a explore [1-9]' planned/batch/costs || fail "exploration with few landmarks costs nothing"
+# Names that begin with none of our letters.
+mkdir foreign
+for mesh in éa _b '(c)' ' d' -e; do cp meshes/a.off "foreign/$mesh.off"; done
+"$varimap" batch --all-pairs foreign -o planned --plan >out.txt 2>log || fail "--plan with foreign letters: $(<log)"
+[[ $(tail -n +2 planned/surfaces.csv | cut -d , -f 1 | sort | xargs) == "__a _b _c_ _d e" ]] || fail "foreign names: $(<planned/surfaces.csv)"
+printf 'source,target,name\nmeshes/a.off,meshes/b.off,.x\n' >dotted.csv
+expect_exit 3 "$varimap" batch dotted.csv -o planned --plan
+"$varimap" batch --star meshes/b.off meshes -o planned --landmarks-from points --plan >out.txt 2>log || fail "--plan of a star"
 # A job finds its row by name, or at the byte that the plan tells; what is not in the plan is refused.
 while read -r kind job _ _ byte; do
     [[ $(tail -c "+$byte" "planned/batch/${kind}s.tsv" | cut -f 1 | head -n 1) == "$job" ]] || fail "the row of $job"

@@ -78,8 +78,21 @@ for text in '' '{}' '{'; do
     grep -q 'quality.json: damaged' log || fail "what is damaged is not said"
 done
 
+# A report needs the numbers alone, not the meshes.
+cp plain.off gone.off
+map gone.off bent.off -o without "${coarse[@]}"
+rm gone.off
+"$varimap" report without >out.txt 2>log || fail "report without the meshes: $(<log)"
+grep -q '^verdict ' out.txt || fail "report without the meshes: $(<out.txt)"
+expect_exit 6 "$varimap" view without
+grep -q 'the mesh is not there any more' log || fail "a view without the meshes"
+rm without/source_to_target.csv
+expect_exit 6 "$varimap" report without
+
 # Results that were moved with the meshes of their batch.
 mkdir meshes && cp plain.off bent.off meshes
 "$varimap" batch --all-pairs meshes -o many "${coarse[@]}" -q >out.txt 2>log || fail "batch"
 mv many moved
+expect_exit 6 "$varimap" report moved
+grep -q 'error: moved: holds the maps of many pairs; give one of them: moved/pairs/NAME' log || fail "which report is meant"
 "$varimap" report moved/pairs/bent--plain >out.txt 2>log || fail "report of a batch that was moved"

@@ -71,6 +71,13 @@ code=0
 grep -q '^left out    1 .*: s9;' out.txt || fail "who is left out"
 same out/points.npy before/points.npy
 
+# A further template that cannot be mapped says nothing, which is said.
+code=0
+"$varimap" register "${small_picture[@]}" template.off meshes/s1.off -o several --landmarks-from points --templates other.off meshes/s9.off >out.txt 2>log || code=$?
+((code == 1)) || fail "exit $code with a further template that fails"
+grep -q '^failed      1 .*: s9; why: several/maps/status.csv' out.txt || fail "which template failed"
+! grep -q '^left out' out.txt || fail "a specimen is left out though templates are mapped to it"
+
 # A specimen of a format that is imported, though its ending makes it no mesh of a folder.
 if [[ -x $VARIMAP_BIN/varimap-import ]]; then
     awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2 { at[NR - 3] = $0 } NR > n + 2 { print at[$2], at[$3], at[$4] }' meshes/s1.off >s1.raw

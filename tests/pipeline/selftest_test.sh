@@ -16,6 +16,11 @@ grep -Eq ' (wrong|mirrored)$' out.txt || fail "no row says that the map is wrong
 expect_exit 2 "$selftest" --count x
 expect_exit 2 "$selftest" --family bird
 expect_exit 2 "$selftest" --variation 0.5  # copies have no proportions that differ
+for wrong in --set=eigen.cout=3 --no-such shape; do
+    expect_exit 2 "$selftest" -o none "$wrong"
+    [[ ! -e none ]] || fail "a shape is made before $wrong is refused"
+done
+grep -q '^selftest: error: too many files: shape;' log || fail "a word that is no option"
 
 # Members of a family.
 "$selftest" -o members --family bone --first 1 --count 1 --variation 0.3 "${small_picture[@]}" >out.txt 2>log ||

@@ -60,6 +60,12 @@ rm a.mtl
 refuse 6 "its materials a.mtl are missing" good --texture a.obj
 printf 'newmtl skin\nmap_Kd skin.png\n' >a.mtl
 refuse 6 "the texture skin.png is missing" good --texture a.obj
+for image in one two; do
+    echo $image >skin.png
+    run good --texture a.obj -o pictures
+done
+[[ $(cat pictures/skin.png pictures/skin-2.png) == $'one\ntwo' ]] || fail "an image is written over"
+grep -qx 'map_Kd skin-2.png' pictures/b_textured.mtl || fail "the other image's name"
 figure c.off 5
 cp -r good cut
 awk 'NR < 10' good/source_to_target.csv >cut/source_to_target.csv

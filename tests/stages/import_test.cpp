@@ -341,6 +341,18 @@ TEST(Import, SkinsOfGltfStandAsTheirJointsDo) {
     EXPECT_EQ(scene.soup.points[4], Vec3(1, 0, 50));
 }
 
+TEST(Import, SkinsOfGltfNeedNoBindMatrices) {
+    const TemporaryFolder folder;
+    Gltf gltf = triangle();
+    gltf.attribute("JOINTS_0", std::vector<std::uint8_t>(12, 0), "VEC4", of_bytes);
+    gltf.attribute("WEIGHTS_0", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", of_floats);
+    gltf.json["skins"] = {{{"joints", {1}}}};
+    gltf.json["nodes"] = nlohmann::json::parse(R"([{"mesh":0,"skin":0},{"translation":[0,0,5]}])");
+    gltf.json["scenes"][0]["nodes"] = {0, 1};
+    EXPECT_THAT(import(folder, "a.glb", gltf.bytes()).soup.points,
+                ElementsAre(Vec3(0, 0, 5), Vec3(1, 0, 5), Vec3(0, 1, 5)));
+}
+
 TEST(Import, GltfWithoutScenesIsOneOfAllNodes) {
     const TemporaryFolder folder;
     Gltf gltf = triangle();
@@ -351,13 +363,16 @@ TEST(Import, GltfWithoutScenesIsOneOfAllNodes) {
     EXPECT_THAT(scene.soup.points, ElementsAre(Vec3(0, 0, 3), Vec3(1, 0, 3), Vec3(0, 1, 3)));
 }
 
-TEST(Import, SaysThatColoursAndOtherImagesAreLeftOut) {
+TEST(Import, SaysThatColoursBlendShapesAndOtherImagesAreLeftOut) {
     const TemporaryFolder folder;
     Gltf gltf = triangle();
     gltf.attribute("COLOR_0", std::vector<std::uint8_t>(12, 128), "VEC4", of_bytes, true);
     gltf.json["textures"] = nlohmann::json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
     EXPECT_THAT(import(folder, "a.glb", gltf.bytes()).warnings,
                 ElementsAre(HasSubstr("KHR_texture_basisu"), "colours of vertices are left out"));
+    Gltf smiling = triangle();
+    smiling.primitive()["targets"] = {{{"POSITION", 0}}};
+    EXPECT_THAT(import(folder, "b.glb", smiling.bytes()).warnings, ElementsAre("blend shapes are left out"));
 }
 
 TEST(Import, RefusesGltfThatNeedsWhatIsNotRead) {

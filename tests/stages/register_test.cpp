@@ -14,6 +14,7 @@
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
+#include "varimap/results/surface_map.h"
 
 namespace varimap {
 namespace {
@@ -201,6 +202,60 @@ TEST(Manifest, PickedLandmarksFarFromTheTemplateAreRefused) {
         EXPECT_THAT(error.what(),
                     HasSubstr("far.pp: 1 of 1 landmarks lie farther than 0.02 from the surface"));
     }
+}
+
+/// A specimen that a further template alone answers for, all three the same body; landmarks on the templates.
+class FurtherTemplate : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        write("body.ply", to_ply(body()));
+        write("same.csv", to_csv(shapes::at_vertices(body())));
+    }
+    void write(const std::string& name, const std::string& text) {
+        write_file_atomically(folder_ / name, text);
+    }
+    Registration registration(const std::string& first, const std::string& own) {
+        write("first.csv", first);
+        write("own.csv", own);
+        const auto path = [&](const std::string& name) { return "\"" + (folder_ / name) + "\""; };
+        write("manifest", "{\"template\": " + path("body.ply") + ", \"landmarks\": " + path("first.csv") +
+                              R"(, "specimens": [{"name": "a", "mesh": )" + path("body.ply") +
+                              R"(, "answers": [{"template": )" + path("body.ply") + R"(, "there": )" +
+                              path("same.csv") + R"(, "back": )" + path("same.csv") + R"(, "from_first": )" +
+                              path("same.csv") + R"(, "landmarks": )" + path("own.csv") + "}]}]}");
+        return read_registration(folder_ / "manifest");
+    }
+    std::string refusal(const std::string& first, const std::string& own) {
+        try {
+            registration(first, own);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_F(FurtherTemplate, LandmarksBelongTogetherByTheirNames) {
+    const Registration all = registration("nose,5\ntail,50\n", "tail,51\nnose,6\n");
+    EXPECT_THAT(all.landmarks->names, ElementsAre("nose", "tail"));
+    const Points& found = all.transferred[0].positions;
+    EXPECT_LT((found.row(0) - body().vertices.row(6)).norm(), 1e-9);
+    EXPECT_LT((found.row(1) - body().vertices.row(51)).norm(), 1e-9);
+}
+
+TEST_F(FurtherTemplate, LandmarksWithoutNamesBelongTogetherRowByRow) {
+    const Registration all = registration("nose,5\ntail,50\n", "6\n51\n");
+    EXPECT_LT((all.transferred[0].positions.row(1) - body().vertices.row(51)).norm(), 1e-9);
+}
+
+TEST_F(FurtherTemplate, RefusesLandmarksOfOtherNames) {
+    const std::string first = "nose,5\ntail,50\n";
+    EXPECT_THAT(refusal(first, "nose,5\near,50\n"),
+                HasSubstr("own.csv: 'tail', a landmark of the first template, is not there; give the same"));
+    EXPECT_THAT(refusal("nose,5\ntail,50\near,7\n", "ear,5\nnose,50\nnose,7\n"),
+                HasSubstr("own.csv: 'nose', a landmark of the first template, is there twice"));
+    EXPECT_THAT(refusal(first, "nose,5\n"), HasSubstr("own.csv: 1 landmarks, but the first template has 2"));
 }
 
 TEST(CommonPart, LacksWhatOneSpecimenLacks) {

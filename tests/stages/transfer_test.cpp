@@ -647,6 +647,13 @@ TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
     request = {};
     request.weights = {write("w.txt", two)};
     EXPECT_THAT(refusal(request, map), HasSubstr("w.txt: row 0 (from 0) sums to 1.1"));
+    request.weights = {write("w.csv", by_turns("-0.5,1.5", "0.5,0.5"))};
+    EXPECT_THAT(refusal(request, map),
+                HasSubstr("w.csv: row 0 (from 0) holds -0.5; weights must be at least 0"));
+    request = {};
+    request.values = {write("id.csv", "id,heat\n" + by_turns("7,1", "8,2"))};
+    EXPECT_THAT(refusal(request, map),
+                HasSubstr("id.csv:2: number '7' where 0 should stand: the column 'id' numbers the rows"));
 }
 
 TEST_F(Transfer, CarriesRegions) {
@@ -861,6 +868,26 @@ TEST_F(Transfer, NamesTheFileThatCannotBeBakedOnto) {
     EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("outside.obj: texture coordinates (1.5, 0.5)"));
 }
 
+/// A square whose second half lies where its first does, and in one point: what is said of baking onto these.
+TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
+    const TriangleMesh square = shapes::square(8);
+    ObjModel model = in_its_own_plane(square);
+    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(square, model, "skin.mtl"));
+    request.bake = {61, 2};  // whose pixels lie on no side of a face
+    request.onto = request.texture;
+    EXPECT_EQ(warnings_of(request, identity(square)), "");
+    for (Vec2& uv : model.uv) uv[0] = std::min(uv[0], 1 - uv[0]);
+    request.onto = write("folded.obj", obj_of(square, model));
+    EXPECT_THAT(warnings_of(request, identity(square)),
+                HasSubstr("folded.obj: faces overlap in its texture coordinates on 9"));
+    for (Vec2& uv : model.uv) uv.setZero();
+    request.onto = write("zero.obj", obj_of(square, model));
+    EXPECT_THAT(refusal(request, identity(square)),
+                HasSubstr("zero.obj: its texture coordinates cover none of 61 x 61 pixels; give --onto"));
+}
+
 TEST_F(Transfer, RefusesWhatWouldHaveNoEffect) {
     TransferRequest request;
     request.regions = {write("r.txt", "3\n")};
@@ -972,6 +999,34 @@ TEST_F(Transfer, ImagesThatGltfDoesNotTakeAreCopied) {
     EXPECT_EQ(glb.at("materials")[0].at("pbrMetallicRoughness").at("baseColorFactor")[1], .5);
 }
 
+TEST_F(Transfer, ImagesTakeNoOtherImagesPlace) {
+    for (const char* folder : {"a", "b", "results"}) std::filesystem::create_directory(folder_ / folder);
+    for (const std::string folder : {"a", "b"}) {
+        write(folder + "/skin.png", to_png(gradient(folder == "a" ? 8 : 4)));
+        write(folder + "/skin.mtl", "newmtl skin\nmap_Kd skin.png\n");
+        write(folder + "/m.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    }
+    // In one run, and beside what lies there; what is there already stays itself.
+    TransferRequest request;
+    request.mesh = folder_ / "a/m.obj";
+    request.texture = folder_ / "b/m.obj";
+    request.folder = folder_ / "results";
+    for (int run = 0; run < 2; ++run) {
+        const auto files = carry(request, identity(ball_));
+        EXPECT_EQ(files.at("skin.png"), read_file(folder_ / "a/skin.png"));
+        EXPECT_EQ(files.at("skin-2.png"), read_file(folder_ / "b/skin.png"));
+        EXPECT_THAT(files.at("source_on_target.mtl"), HasSubstr("map_Kd skin.png"));
+        EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("map_Kd skin-2.png"));
+        for (const auto& [name, bytes] : files) write("results/" + name, bytes);
+    }
+    request.texture.clear();
+    request.mesh = folder_ / "b/m.obj";
+    EXPECT_THAT(carry(request, identity(ball_)).at("source_on_target.mtl"), HasSubstr("map_Kd skin-2.png"));
+    std::filesystem::remove(folder_ / "results/skin-2.png");
+    std::filesystem::create_directory(folder_ / "results/skin-2.png");
+    EXPECT_THAT(carry(request, identity(ball_)).at("source_on_target.mtl"), HasSubstr("map_Kd skin-3.png"));
+}
+
 TEST_F(Transfer, SaysWhichMaterialsAreNotDescribed) {
     write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
     ObjModel model = unwrapped(ball_);
@@ -1074,6 +1129,44 @@ TEST_F(Transfer, AShapeMovesWhatWasLeftOutOfTheMap) {
     risen.vertices.col(2).array() += .3;
     const Points truth = shapes::moved(risen, 3, 1.2, {1, -2, 3}).vertices;
     EXPECT_LT((carry_shape(pair.map, risen.vertices) - truth).rowwise().norm().maxCoeff(), .01);
+}
+
+/// The same map between meshes whose faces all have vertices of their own.
+Correspondence split_at_edges(const Correspondence& map) {
+    Correspondence split{map.from_file,          map.to_file, split_at_edges(map.from),
+                         split_at_edges(map.to), {},          {}};
+    for (const int v : map.from.faces.reshaped<Eigen::RowMajor>())
+        split.there.push_back(map.there[std::size_t(v)]);
+    for (const int v : map.to.faces.reshaped<Eigen::RowMajor>())
+        split.back.push_back(map.back[std::size_t(v)]);
+    return split;
+}
+
+/// Of values of the vertices of a mesh, those of the corners of its faces.
+Points at_corners(const Points& values, const TriangleMesh& mesh) {
+    Points result(3 * mesh.face_count(), 3);
+    for (int i = 0; i < result.rows(); ++i) result.row(i) = values.row(mesh.faces(i / 3, i % 3));
+    return result;
+}
+
+TEST_F(Transfer, AShapeIsCarriedAlikeWhereEveryFaceHasVerticesOfItsOwn) {
+    const PosedPair pair;
+    const Points swollen = pair.rest.vertices + .05 * vertex_normals(pair.rest);
+    const Points whole = carry_shape(pair.map, swollen);
+    const Points split = carry_shape(split_at_edges(pair.map), at_corners(swollen, pair.rest));
+    EXPECT_LT((split - at_corners(whole, pair.map.to)).rowwise().norm().maxCoeff(), 1e-9);
+}
+
+TEST_F(Transfer, WhatWasLeftOutStaysWholeWhereEveryFaceHasVerticesOfItsOwn) {
+    WithEye pair(ball_, false);
+    pair.map.to.vertices.col(0) *= 1.3;  // no similarity takes the ball's surroundings there
+    const Points carried = carried_vertices(split_at_edges(pair.map));
+    Points first = Points::Constant(pair.both.vertex_count(), 3, NAN);
+    for (int i = 0; i < carried.rows(); ++i) {
+        auto there = first.row(pair.both.faces(i / 3, i % 3));
+        if (there.hasNaN()) there = carried.row(i);
+        ASSERT_LT((carried.row(i) - there).norm(), 1e-9) << "corner " << i;
+    }
 }
 
 TEST_F(Transfer, SaysHowManyVerticesFollowTheirNeighbours) {

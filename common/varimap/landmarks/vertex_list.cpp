@@ -24,12 +24,22 @@ constexpr double rounding = 1e-4;  ///< of coordinates in a list, relative to th
 
 constexpr int no_vertex = -1;  ///< of a point that is not defined
 
-/// A vertex that a line of a file names.
+/// A vertex that a line of a file names, or a point of one without lines.
 struct Named {
     int line, vertex;
     std::string name = {};                   ///< by which it is matched; empty: by its row
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
 };
+
+/// Where a landmark stands in its file: JSON counts points instead of lines.
+struct Row {
+    const char* unit;  ///< what is counted
+    std::string place;
+};
+Row row_of(const std::string& path, int line) {
+    if (has_ending(path, ".json")) return {"point", fmt::format("{}: point {}", path, line)};
+    return {"line", fmt::format("{}:{}", path, line)};
+}
 
 int to_vertex(const ListRow& row, size_t column, int first, const std::string& path,
               const TriangleMesh* mesh) {
@@ -112,10 +122,10 @@ void place(std::vector<Named>& list, const std::vector<Vec3>& positions, const s
            const TriangleMesh& mesh) {
     const Snapped snapped = snap(positions, mesh);
     const auto farthest = std::ranges::max_element(snapped.distances) - snapped.distances.begin();
-    require_near(snapped, positions, mesh, fmt::format("{}:{}", path, list[std::size_t(farthest)].line),
-                 "landmarks");
+    require_near(snapped, positions, mesh, row_of(path, list[std::size_t(farthest)].line).place, "landmarks");
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::string what = fmt::format("{}:{}: landmark {}", path, list[i].line, excerpt(list[i].name));
+        const std::string what =
+            fmt::format("{}: landmark {}", row_of(path, list[i].line).place, excerpt(list[i].name));
         log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, snapped.distances[i],
             snapped.vertices[i]);
         if (snapped.distances[i] > far_from_surface)
@@ -254,19 +264,28 @@ SurfacePoint place_of(const Named& named, const TriangleMesh& mesh) {
     return named.point ? *named.point : point_at_vertex(mesh, named.vertex);
 }
 
-void require_distinct_used(const std::vector<Named>& list, const std::string& path, const char* role,
-                           const TriangleMesh& mesh) {
+/// A vertex of a component that is not mapped has no face of the mesh either.
+void require_used(const std::vector<Named>& list, const std::string& path, const char* role,
+                  const TriangleMesh& mesh) {
     std::vector<bool> used(size_t(mesh.vertex_count()), mesh.face_count() == 0);  // points of no surface
     for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
+    for (const Named& named : list)
+        if (named.vertex != no_vertex && !used[size_t(named.vertex)])
+            throw InputError(fmt::format(
+                "{}: {} vertex {} belongs to no face that is mapped: no face of the file names it, or its "
+                "component is left out; choose another, or map that component (varimap help meshes)",
+                row_of(path, named.line).place, role, named.vertex));
+}
+
+void require_distinct(const std::vector<Named>& list, const std::string& path, const char* role) {
     std::map<int, int> lines;
-    for (const auto& [line, vertex, name, point] : list) {
-        if (vertex == no_vertex) continue;
-        const auto [it, added] = lines.try_emplace(vertex, line);
+    for (const Named& named : list) {
+        if (named.vertex == no_vertex) continue;
+        const auto [it, added] = lines.try_emplace(named.vertex, named.line);
+        const Row row = row_of(path, named.line);
         if (!added)
-            fail_at(path, line,
-                    fmt::format("{} vertex {} is already the landmark of line {}", role, vertex, it->second));
-        if (!used[size_t(vertex)])
-            fail_at(path, line, fmt::format("{} vertex {} belongs to no face of the mesh", role, vertex));
+            throw InputError(fmt::format("{}: {} vertex {} is already the landmark of {} {}", row.place, role,
+                                         named.vertex, row.unit, it->second));
     }
 }
 
@@ -274,8 +293,16 @@ void require_distinct_used(const std::vector<Named>& list, const std::string& pa
 
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
     std::vector<int> vertices;
+    for (const ListedVertex& listed : read_named_vertices(path, base, mesh))
+        vertices.push_back(listed.vertex);
+    return vertices;
+}
+
+std::vector<ListedVertex> read_named_vertices(const std::string& path, IndexBase base,
+                                              const TriangleMesh* mesh) {
+    std::vector<ListedVertex> vertices;
     for (const Named& named : vertices_of_list(read_list_rows(path), path, base, mesh))
-        vertices.push_back(named.vertex);
+        vertices.push_back({named.vertex, named.name});
     return vertices;
 }
 
@@ -292,7 +319,7 @@ bool holds_points(const std::string& path) {
 }
 
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input, LandmarkSpace space) {
+                         const TriangleMesh& target_input, LandmarkSpace space, Repeats repeats) {
     if (files.size() != 1 && files.size() != 2)
         throw UsageError(
             "landmarks: give one file of pairs, or a list for the source and one for the target");
@@ -304,7 +331,9 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
         const std::string& path = files[are_pairs ? 0 : side];
         lists[side] = are_pairs ? side_of_pairs(pairs, path, side, *meshes[side], space)
                                 : read_side(path, *meshes[side], space);
-        require_distinct_used(lists[side], path, side == 0 ? "source" : "target", *meshes[side]);
+        const char* role = side == 0 ? "source" : "target";
+        require_used(lists[side], path, role, *meshes[side]);
+        if (repeats == Repeats::refuse) require_distinct(lists[side], path, role);
     }
     Landmarks landmarks;
     bool picked = false;

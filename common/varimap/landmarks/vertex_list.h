@@ -18,6 +18,14 @@ namespace varimap {
 /// out of range) or an empty file.
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
 
+struct ListedVertex {
+    int vertex;
+    std::string name;  ///< empty where the line has none
+};
+/// The same with the lines' names.
+std::vector<ListedVertex> read_named_vertices(const std::string& path, IndexBase base,
+                                              const TriangleMesh* mesh);
+
 /// Whether a file holds points of one surface rather than numbers of vertices: picked points, or x y z in the
 /// first row. Throws as the readers do.
 bool holds_points(const std::string& path);
@@ -32,6 +40,10 @@ struct Landmarks {
 /// their vertices (face -1 at one that no face uses).
 PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, const TriangleMesh& target);
 
+/// Whether a vertex may be that of two rows: not of landmarks, which would send it to two places, but of
+/// known partners that a map is compared with.
+enum class Repeats { refuse, allow };
+
 /// Landmarks from one file of pairs, or from two lists matched row by row (in
 /// a .vts or .csv, coordinates decide whether numbers start at 0; in any other list they do). Instead of
 /// vertices a file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of
@@ -39,9 +51,10 @@ PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, con
 /// point stands for the vertex nearest to where it lies on the surface where vertices are needed; its
 /// distance is logged. Points that are switched off or not defined are left out with their partners. Throws
 /// InputError also where most points lie far from the surface, naming the likely cause, for a different
-/// number of rows, a vertex that two rows name or that no face uses; UsageError for any other number of
-/// files.
+/// number of rows, a vertex that no face uses or, unless that is allowed, that two rows name; UsageError for
+/// any other number of files.
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input, LandmarkSpace space = LandmarkSpace::stated);
+                         const TriangleMesh& target_input, LandmarkSpace space = LandmarkSpace::stated,
+                         Repeats repeats = Repeats::refuse);
 
 }  // namespace varimap

@@ -22,7 +22,7 @@ std::optional<GltfDocument> read_gltf(const std::string& path);
 /// InputError and nlohmann::json::exception.
 std::vector<double> accessor_numbers(const GltfDocument& document, std::size_t accessor);
 
-/// Adds an accessor of floats, `components` of them an element, and returns its number.
+/// Adds an accessor of floats, 1 to 4 or, of matrices, 16 of them an element, and returns its number.
 std::size_t append_accessor(GltfDocument& document, const std::vector<double>& numbers,
                             std::size_t components);
 

@@ -125,7 +125,9 @@ TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
     EXPECT_THAT(error_of({write("a", "1 2\n3 2\n")}), HasSubstr(":2: target vertex 2 is already"));
     EXPECT_THAT(error_of({write("a", "1 2\n3 12\n")}),
                 HasSubstr(":2: vertex 12 is out of range: the mesh has 11 vertices"));
-    EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr(":1: target vertex 10 belongs to no face"));
+    EXPECT_THAT(error_of({write("a", "1 10\n")}),
+                HasSubstr(":1: target vertex 10 belongs to no face that is mapped"));
+    EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr("or its component is left out; choose another"));
     EXPECT_THAT(error_of({write("a", "1\n")}), HasSubstr(":1: expected two vertex numbers"));
     EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
 }
@@ -220,6 +222,19 @@ TEST_F(VertexList, SaysWhereRowsHaveOtherNames) {
     read_landmarks({list("once.mrk.json", "nose", "ear", "tail"), twice}, mesh_, mesh_);
     ASSERT_EQ(logged_warnings().size(), before + 1);
     EXPECT_THAT(logged_warnings().back(), HasSubstr("row 2 is 'ear' and 'nose'"));
+}
+
+TEST_F(VertexList, CountsThePointsOfJson) {
+    const auto json = write("a.mrk.json", R"({"markups": [{"type": "Fiducial", "controlPoints": [
+        {"label": "nose", "position": [1, 0, 0.2]}, {"label": "ear", "position": [1, 0, 0.2]}]}]})");
+    EXPECT_THAT(error_of({json, json}),
+                HasSubstr("a.mrk.json: point 2: source vertex 2 is already the landmark of point 1"));
+}
+
+TEST_F(VertexList, KnownPartnersMayRepeatAVertex) {
+    const auto pairs = write("a", "1 2\n3 2\n");
+    const auto found = read_landmarks({pairs}, mesh_, mesh_, LandmarkSpace::stated, Repeats::allow);
+    EXPECT_THAT(found.vertices, are({{1, 2}, {3, 2}}));
 }
 
 TEST_F(VertexList, MatchesPickedPointsByName) {

@@ -56,7 +56,8 @@ ImageOptions read_options(const std::vector<std::string_view>& words) {
 
 class LibraryReader {
   public:
-    LibraryReader(std::string path, Materials& materials) : path_(std::move(path)), materials_(materials) {}
+    LibraryReader(std::string path, const ImageNameCheck& is_free, Materials& materials)
+        : path_(std::move(path)), is_free_(is_free), materials_(materials) {}
 
     void read() {
         const std::string bytes = read_file(path_);
@@ -100,15 +101,15 @@ class LibraryReader {
         for (std::size_t i = 0; i < options.name; ++i) materials_.text += std::string(words[i]) + " ";
         materials_.text += name_of(image) + "\n";
     }
-    /// The image's name beside the MTL file; images of one name from different folders get numbers.
+    /// The image's name beside the MTL file; others of that name get numbers.
     std::string name_of(const std::string& image) {
         const fs::path path(image);
         std::string name = path.filename().string();
         for (int number = 2;; ++number) {
             const auto known = std::find_if(materials_.images.begin(), materials_.images.end(),
                                             [&](const auto& other) { return other.first == name; });
-            if (known == materials_.images.end()) break;
-            if (known->second == image) return name;
+            if (known != materials_.images.end() && known->second == image) return name;
+            if (known == materials_.images.end() && is_free_(name, image)) break;
             name = fmt::format("{}-{}{}", path.stem().string(), number, path.extension().string());
         }
         materials_.images.emplace_back(name, image);
@@ -120,6 +121,7 @@ class LibraryReader {
     }
 
     std::string path_;
+    const ImageNameCheck& is_free_;
     Materials& materials_;
 };
 
@@ -155,11 +157,11 @@ const Material* Materials::find(const std::string& name) const {
     return found == list.end() ? nullptr : &*found;
 }
 
-Materials read_materials(const ObjModel& model, const std::string& obj_path) {
+Materials read_materials(const ObjModel& model, const std::string& obj_path, const ImageNameCheck& is_free) {
     Materials materials;
     for (const std::string& library : model.libraries)
         for (const std::string& path : library_files(library, obj_path))
-            LibraryReader(path, materials).read();
+            LibraryReader(path, is_free, materials).read();
     return materials;
 }
 

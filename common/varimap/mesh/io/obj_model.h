@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -58,9 +59,14 @@ struct Materials {
     /// None where no library holds it.
     const Material* find(const std::string& name) const;
 };
-/// Keywords count in either case. A library whose name is no file may be several, split by blanks. Throws
-/// IoError where a library or an image is missing, naming who wants it.
-Materials read_materials(const ObjModel& model, const std::string& obj_path);
+/// Whether the image of that path may be called so beside the MTL file.
+using ImageNameCheck = std::function<bool(const std::string& name, const std::string& path)>;
+/// Keywords count in either case. A library whose name is no file may be several, split by blanks. Images
+/// whose name is another's, or not free, get a number behind it. Throws IoError where a library or an image
+/// is missing, naming who wants it.
+Materials read_materials(
+    const ObjModel& model, const std::string& obj_path,
+    const ImageNameCheck& is_free = [](const std::string&, const std::string&) { return true; });
 
 /// "image/png" or "image/jpeg", by an image's first bytes; empty for other formats.
 std::string media_type(std::string_view image);
