@@ -1,5 +1,5 @@
 # Joins quality.json: the numbers of varimap-remesh, then what the stages recorded of their runs, what they warned of, and
-# where everything comes from.
+# where everything comes from. Area and scale are those of the surface that was mapped: of a whole, of what was cut from it.
 #   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH
 #       --arg source_import FILE --arg target_import FILE (what a mesh was imported from, or nothing) --arg landmarks_1 FILE
 #       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT --arg part (source, target or nothing) RUN_FILE...

@@ -25,6 +25,7 @@ def few_repaired:
         and all(.opened_edges, .filled_holes, .unfilled_holes, .cut_handles, .bridges, .dropped_components; . == null);
 
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
+    (.part.strain // empty | check("part placed"; "strained by \(fixed(3))"; .; 0.12; 0.12)),
     (.round_trip // empty | check("there and back, mean"; "\(.mean | fixed(4)) sqrt(area)"; .mean; 0.01; 0.03)),
     (.exploration // empty | check("choice among mirrored and turned maps";
         if .continued > 1 then "candidate \(.continued), as asked" elif .confident then "sure" else "not sure" end;

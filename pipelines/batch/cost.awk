@@ -1,13 +1,15 @@
 # What jobs cost by the model (cost_model.csv: seconds of a core and megabytes of each stage, linear in thousands of
 # vertices; of a pair, those of both surfaces divided by two).
-#   awk -v what=pending|stages|sum -v full= -v explore= -v cores= -f cost.awk cost_model.csv surfaces.tsv DONE pairs.tsv
+#   awk -v what=pending|stages|sum -v full= -v explore= -v part= -v cores= -f cost.awk cost_model.csv surfaces.tsv DONE pairs.tsv
 # pending: lines of KIND NAME SECONDS MEGABYTES ROW (the byte, from 1, at which its row in surfaces.tsv or pairs.tsv begins); stages: of KIND NAME STAGE SECONDS MEGABYTES; sum: all of it in words.
 # Of pairs with landmarks, explore_if_needed is what exploration costs in the mean, with the sketches for it.
+# locate: with --part alone, what parts cost more, their sketches and the cut among it.
 # DONE: lines of KIND and NAME, tab-separated, which cost nothing any more.
 function add(kind, name, size, looked_for, row,    s, solves, further, seconds, megabytes, all, peak) {
     for (s = 1; s <= stages; s++) {
         if (of[s] != kind) continue
         if (looked_for ? stage[s] == "explore_if_needed" : stage[s] == "explore" || stage[s] == "sketches") continue
+        if (stage[s] == "locate" && !part) continue
         # Solved for on every vertex instead of 6000: 24 MB and 2.5 seconds more for a thousand vertices. On up to
         # 24,000 of them where walls are thin, which is not known in advance: room for it, but no time.
         solves = stage[s] == "diffuse" || stage[s] == "refine"

@@ -1,4 +1,7 @@
+#include <utility>
+
 #include "stages/diffuse/diffuse.h"
+#include "varimap/mesh/part_region.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/pair_stage/unlike_surfaces.h"
 #include "varimap/results/map_file.h"
@@ -33,6 +36,19 @@ std::optional<Correspondences> read_initial_map(Stage& stage, const std::string&
     const PointMap map = read_map_file(path, base, file_of(B), &source);
     stage.record_file("initial-map", path);
     return correspondences_of(map, A, B);
+}
+
+/// Where varimap-locate placed a part, whichever surface that is.
+std::optional<Correspondences> read_placed(Stage& stage, const std::string& path, const Surface& A,
+                                           const Surface& B) {
+    if (path.empty()) return {};
+    const PartRegion region = stage.read<PartRegion>("placed", path).value;
+    const Surface &part = region.part_is_source ? A : B, &whole = region.part_is_source ? B : A;
+    if (int(region.placed.size()) != file_of(part).vertex_count())
+        throw ArtifactError("'" + path + "' is of another part; rerun varimap-locate");
+    Correspondences pairs = correspondences_of(region.placed, part, whole);
+    if (!region.part_is_source) std::swap(pairs.from_A, pairs.from_B);
+    return pairs;
 }
 
 void report(const std::vector<LandmarkCheck>& checks) {
@@ -71,18 +87,25 @@ int main(int argc, char** argv) {
         "initial-map",
         "map of another program, to refine it: for each vertex of the source one of the target (text, CSV, "
         ".npy, .npz), or a table of varimap");
+    const std::string& placed_in = stage.input_option(
+        "placed",
+        "region of varimap-locate: begins with the part where it lies there, unless --candidates are");
     return stage.main(argc, argv, [&] {
+        if (!placed_in.empty() && !initial_map_in.empty())
+            throw UsageError("give --placed or --initial-map, not both");
         if (!candidates_in.empty() && !initial_map_in.empty())
             throw UsageError("give --candidates or --initial-map, not both");
         require_effect(params, !candidates_in.empty(), !initial_map_in.empty());
         SurfaceData A = inputs.read_A(stage), B = inputs.read_B(stage);
         const auto candidates = read_candidates(stage, inputs, candidates_in, A.surface, B.surface);
         const auto initial_map =
-            read_initial_map(stage, initial_map_in, params.map_base, A.surface, B.surface);
+            placed_in.empty() ? read_initial_map(stage, initial_map_in, params.map_base, A.surface, B.surface)
+                              : read_placed(stage, placed_in, A.surface, B.surface);
         warn_of_part(A.surface, B.surface);
         warn_of_genus(A.surface, B.surface);
         warn_of_inside_out(A.surface, B.surface);
-        if (initial_map) warn_of_bad_initial_map(initial_map->from_A, A.surface, B.surface);
+        if (initial_map && placed_in.empty())
+            warn_of_bad_initial_map(initial_map->from_A, A.surface, B.surface);
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
         const PairContext context =

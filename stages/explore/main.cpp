@@ -79,12 +79,6 @@ struct SketchedSurface {
         hierarchy.require_made_from("surface", surface);
         hierarchy.require_made_from("basis", basis);
     }
-    /// Refuses a surface of which that with this hash was not sketched.
-    void require_hash(const std::string& sketched) const {
-        if (sketched != surface.header.payload_hash)
-            throw ArtifactError(fmt::format(
-                "'{}' is not the surface that was sketched; rerun varimap-coarsen", surface.path));
-    }
     SurfaceData read() const {
         SurfaceData data{surface.read<Surface>(), basis.read<Basis>(), hierarchy.read<Hierarchy>()};
         require_fit(data);
@@ -106,8 +100,8 @@ SketchedSurfaces record_surfaces(Stage& stage, const std::vector<std::string>& f
     const SketchedSurfaces surfaces{{input(0), input(1), input(2)}, {input(3), input(4), input(5)}};
     surfaces.A.require_lineage();
     surfaces.B.require_lineage();
-    surfaces.A.require_hash(sketches.sketched("A"));
-    surfaces.B.require_hash(sketches.sketched("B"));
+    sketches.require_sketched("A", surfaces.A.surface.header, surfaces.A.surface.path);
+    sketches.require_sketched("B", surfaces.B.surface.header, surfaces.B.surface.path);
     return surfaces;
 }
 

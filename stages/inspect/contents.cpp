@@ -227,7 +227,10 @@ void visit(const SurfaceMap& map, ContentsVisitor& visitor) {
 void visit(const PartRegion& region, ContentsVisitor& visitor) {
     visitor.fact("the part",
                  fmt::format("{} of {} faces of the whole", region.faces.size(), region.face_count));
+    visitor.fact("the part is", region.part_is_source ? "the source" : "the target");
+    visitor.fact("placed", share_mapped(region.placed));
     visitor.array("faces", view(region.faces));
+    visit_points("placed", region.placed, visitor);
 }
 
 void visit(const QualityNumbers& quality, ContentsVisitor& visitor) {

@@ -1,29 +1,32 @@
 #include "stages/locate/covered.h"
 
+#include <vector>
+
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
+#include "varimap/mesh/topology.h"
+#include "varimap/results/surface_map.h"
 
 namespace varimap {
 
 namespace {
 
-TriangleMesh image_mesh(const PointMap& images, const TriangleMesh& part, const TriangleMesh& whole) {
-    TriangleMesh mesh = part;
-    for (int v = 0; v < part.vertex_count(); ++v)
-        mesh.vertices.row(v) = position(whole, images[std::size_t(v)]).transpose();
-    return mesh;
-}
-
 /// The image of a part, which has the part's faces.
 class Image {
   public:
     Image(const PointMap& images, const TriangleMesh& part, const TriangleMesh& whole)
-        : mesh_(image_mesh(images, part, whole)), closest_(mesh_), is_rim_(part.vertex_count()) {
-        for (const auto& edge : find_boundary(part).edges)
-            for (const int v : edge) is_rim_[v] = true;
+        : mesh_{image_positions(images, whole, part.vertices), part.faces},
+          closest_(mesh_),
+          on_rim_(part.vertex_count()),
+          side_on_rim_(std::size_t(3 * part.face_count()), false) {
+        const Edges edges = find_edges(part);
+        for (int e = 0; e < edges.size(); ++e) {
+            if (edges.sides[e].size() != 1) continue;
+            side_on_rim_[std::size_t(edges.sides[e].front())] = true;
+            for (const int v : edges.vertices[std::size_t(e)]) on_rim_[v] = true;
+        }
     }
     /// Whether the closest point lies inside, not on the rim, and is no farther than the faces are large.
     bool covers(const Vec3& x, const Vec3& normal) const {
@@ -34,14 +37,20 @@ class Image {
 
   private:
     bool lies_on_rim(const SurfacePoint& point) const {
-        for (int c = 0; c < 3; ++c)
-            if (point.barycentric[c] > 0 && !is_rim_[mesh_.faces(point.face, c)]) return false;
-        return true;
+        for (int c = 0; c < 3; ++c) {
+            const int next = (c + 1) % 3, after = (c + 2) % 3;
+            const bool on_side = point.barycentric[after] <= 0,
+                       at_corner = on_side && point.barycentric[next] <= 0;
+            if (on_side && side_on_rim_[std::size_t(3 * point.face + c)]) return true;
+            if (at_corner && on_rim_[mesh_.faces(point.face, c)]) return true;
+        }
+        return false;
     }
 
     TriangleMesh mesh_;
     ClosestPoint closest_;
-    VertexData<bool> is_rim_;
+    VertexData<bool> on_rim_;
+    std::vector<bool> side_on_rim_;  ///< of Edges::sides
 };
 
 }  // namespace
@@ -53,8 +62,7 @@ FaceData<char> covered_faces(const PointMap& images, const TriangleMesh& part, c
     constexpr int grain = 1000;
     parallel_for_each_index(covered.size(), grain, [&](int f) {
         const SurfacePoint middle = on_mesh({f, Vec3::Constant(1.0 / 3)});
-        if (middle.face >= 0)
-            covered[f] = image.covers(position(whole.mesh, middle), face_normal(whole.mesh, middle.face));
+        covered[f] = image.covers(position(whole.mesh, middle), face_normal(whole.mesh, middle.face));
     });
     return covered;
 }

@@ -1,5 +1,8 @@
 #include "stages/locate/locate.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "stages/locate/covered.h"
@@ -8,79 +11,130 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
 namespace {
 
-/// Images on a whole's sketch carried to its surface, by way of the inputs.
-class Carrier {
-  public:
-    Carrier(const PlacedPart& placed, const Sides& sketch, const Sides& surface)
-        : placed_(placed),
-          sketch_(sketch),
-          surface_(surface),
-          on_sketch_(sketch.part),
-          closest_(surface.whole.mesh) {}
-
-    PointMap images() const {
-        PointMap images;
-        for (const SurfacePoint& on_input : surface_.part.on_input) {
-            const SurfacePoint at = on_sketch_(on_input);
-            Vec3 place = Vec3::Zero(), normal = Vec3::Zero();
-            for (int c = 0; c < 3; ++c) {
-                const SurfacePoint& image = placed_.images[std::size_t(sketch_.part.mesh.faces(at.face, c))];
-                place += at.barycentric[c] * position(sketch_.whole.mesh, image);
-                normal += at.barycentric[c] * face_normal(sketch_.whole.mesh, image.face).normalized();
-            }
-            images.push_back(closest_(on_surface(place), normal).point);
-        }
-        return images;
-    }
-
-  private:
-    /// From the coordinates of the sketch's mesh to those of the surface's.
-    Vec3 on_surface(const Vec3& x) const {
-        const Vec3 on_input = x / sketch_.whole.scale + sketch_.whole.centre;
-        return (on_input - surface_.whole.centre) * surface_.whole.scale;
-    }
-
-    const PlacedPart& placed_;
-    const Sides &sketch_, &surface_;
-    MeshLocator on_sketch_;
-    ClosestPoint closest_;
+/// A place near the whole's mesh, and the normal there, of any length.
+struct Spot {
+    Vec3 place = Vec3::Zero(), normal = Vec3::Zero();
 };
-
-/// Landmarks stand on the region later.
-void add_landmarks(const Sides& sides, FaceData<char>& region) {
-    for (const int v : sides.landmarks_whole) region[sides.whole.on_input[std::size_t(v)].face] = 1;
+/// The image of a point of the part's mesh.
+Spot spot_of(const SurfacePoint& at, const PointMap& images, const Sides& sides) {
+    Spot spot;
+    for (int c = 0; c < 3; ++c) {
+        const SurfacePoint& image = images[std::size_t(sides.part.mesh.faces(at.face, c))];
+        spot.place += at.barycentric[c] * position(sides.whole.mesh, image);
+        spot.normal += at.barycentric[c] * face_normal(sides.whole.mesh, image.face).normalized();
+    }
+    return spot;
 }
 
-double area_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
-    return surface_area({mesh.vertices, mesh.faces(faces, Eigen::all)});
+/// Images on a whole's sketch carried to its surface, by way of the inputs.
+PointMap on_surfaces(const PointMap& images, const Sides& sketch, const Sides& surface) {
+    const MeshLocator on_sketch(sketch.part);
+    const ClosestPoint closest(surface.whole.mesh);
+    PointMap result;
+    for (const SurfacePoint& on_input : surface.part.on_input) {
+        const Spot spot = spot_of(on_sketch(on_input), images, sketch);
+        const Vec3 on_whole = spot.place / sketch.whole.scale + sketch.whole.centre;
+        const Vec3 place = (on_whole - surface.whole.centre) * surface.whole.scale;
+        result.push_back(closest(place, spot.normal).point);
+    }
+    return result;
+}
+
+/// Images of the vertices of the part's file on the whole's.
+PointMap on_files(const PointMap& images, const Sides& sides) {
+    const InputLocator on_input(sides.whole);
+    PointMap result;
+    for (const SurfacePoint& at : sides.part.on_mesh) {
+        if (at.face < 0) {
+            result.emplace_back();
+            continue;
+        }
+        const Spot spot = spot_of(at, images, sides);
+        result.push_back(on_input(spot.place, spot.normal));
+    }
+    return to_file(result, sides.part.link, sides.whole.link, sides.whole.input);
+}
+
+/// The faces around each landmark, and those around these: landmarks at the rim hang together with the rest.
+void add_landmarks(const Sides& sides, FaceData<char>& covered) {
+    const TriangleMesh& mesh = sides.whole.input;
+    const Adjacency faces_of_vertex = vertex_faces(mesh);
+    for (const int v : sides.landmarks_whole) {
+        std::vector<int> faces{sides.whole.on_input[std::size_t(v)].face};
+        for (int ring = 0; ring < 2; ++ring) {
+            std::vector<int> around;
+            for (const int u : vertices_of(mesh, faces))
+                around.insert(around.end(), faces_of_vertex[u].begin(), faces_of_vertex[u].end());
+            faces = std::move(around);
+        }
+        for (const int f : faces) covered[f] = 1;
+    }
+}
+
+void require_landmarks(const Sides& sides, const std::vector<int>& region, double strain) {
+    for (std::size_t i = 0; i < sides.landmarks_whole.size(); ++i) {
+        const int v = sides.landmarks_whole[i];
+        if (!std::binary_search(region.begin(), region.end(), sides.whole.on_input[std::size_t(v)].face))
+            throw InputError(fmt::format(
+                "landmark {} lies outside of where the part was put (strained by {:.2f}): is it right, and "
+                "away from the rim? If the whole has other components, map the largest alone (--components "
+                "largest)",
+                i + 1, strain));
+    }
+}
+
+void require_enough(std::size_t landmarks) {
+    constexpr std::size_t fewest = 3;
+    if (landmarks < fewest)
+        throw UsageError(
+            fmt::format("a part is placed by three landmarks or more (--landmarks); here are {}", landmarks));
+}
+
+/// That of the part, which is no larger than the whole.
+double known_share(const PartSize& size, PartSide part) {
+    log("the part has {:.1f}% of the whole's area; lengths of the whole are {:.3g} times its own",
+        100 * size.share, size.scale);
+    constexpr double larger = 1.1;
+    if (size.share > larger)
+        warn(
+            "by its landmarks the {} has {:.2f} times the area of the other: is it really the part? See "
+            "--part",
+            part == PartSide::source ? "source" : "target", size.share);
+    return std::min(1.0, size.share);
 }
 
 }  // namespace
 
-Place locate(const PairContext& sketches, const Surface& A, const Surface& B,
-             const VertexPairs<MeshVertex>& landmarks, const LocateParams& params) {
-    constexpr int fewest = 3;
-    if (int(landmarks.size()) < fewest)
-        throw UsageError("a part is placed by three landmarks or more: give --landmarks");
-    const Sides sketch(sketches.A().surface, sketches.B().surface, sketches.landmarks(), params.part);
-    const Sides surface(A, B, landmarks, params.part);
+Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
+               const VertexPairs<MeshVertex>& landmarks, const LocateParams& params) {
+    const PartSide side = params.alternation.part;
+    require_enough(landmarks.size());
+    const Sides sketch(sketches.A().surface, sketches.B().surface, sketches.landmarks(), side);
+    const Sides surface(A, B, landmarks, side);
     const PartSize size = surface.size();
-    log("the part has {:.1f}% of the whole's area; lengths of the whole are {:.3g} times its own",
-        100 * size.share, size.scale);
-    const PlacedPart rough = find_place(sketches, sketch, size.share, params);
-    const PlacedPart placed =
-        place(Carrier(rough, sketch, surface).images(), surface, size.share, params.placing);
-    FaceData<char> covered = covered_faces(placed.images, surface.part.mesh, surface.whole);
+    const double share = known_share(size, side);
+    const Placement rough = find_placement(sketches, sketch, share, params);
+    const Placement placement =
+        pinned_placement(on_surfaces(rough.images, sketch, surface), surface, share, params.placing);
+    FaceData<char> covered = covered_faces(placement.images, surface.part.mesh, surface.whole);
     add_landmarks(surface, covered);
-    PartRegion region = tidy_region(surface.whole.input, std::move(covered));
-    const double area = area_of(surface.whole.input, region.faces);
-    return {std::move(region), area / surface_area(surface.whole.input), size.scale, placed.strain};
+    const TriangleMesh& whole = surface.whole.input;
+    std::vector<int> region = tidy_region(whole, std::move(covered));
+    require_landmarks(surface, region, placement.strain);
+    const double area = area_of(whole, region) / surface_area(whole);
+    return {{whole.face_count(), std::move(region), side == PartSide::source,
+             on_files(placement.images, surface)},
+            area,
+            size.scale,
+            placement.strain};
 }
 
 }  // namespace varimap

@@ -7,28 +7,25 @@ using namespace varimap;
 
 namespace {
 
-/// Parts of people and animals in other poses were strained by .03 to .09 where they belong, and by .14 and
-/// more where a limb or all was elsewhere.
+/// stages/locate/README.md has what right parts and wrong ones were strained by.
 constexpr double much_strain = 0.12;
 
-void report(const Place& place, Part part) {
-    const char* own = part == Part::source ? "source" : "target";
-    const char* other = part == Part::source ? "target" : "source";
-    log("the {} covers {:.1f}% of the {}, strain {:.3f}", own, 100 * place.share, other, place.strain);
-    if (place.strain > much_strain)
+void report(const Located& located, PartSide part) {
+    const char* own = part == PartSide::source ? "source" : "target";
+    const char* other = part == PartSide::source ? "target" : "source";
+    log("the {} covers {:.1f}% of the {}, strain {:.3f}", own, 100 * located.share, other, located.strain);
+    if (located.strain > much_strain)
         warn(
             "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it, and are the "
             "landmarks "
             "right? look at the picture, and give more landmarks",
-            own, other, place.strain);
+            own, other, located.strain);
 }
 
-/// Refuses a surface of which that with this hash was not sketched.
 Surface read_surface(Stage& stage, const PairInputs& sketches, const std::string& side,
                      const std::string& path) {
     auto surface = stage.read<Surface>("sketched." + side, path);
-    if (sketches.sketched(side) != surface.header.payload_hash)
-        throw ArtifactError("'" + path + "' is not the surface that was sketched; rerun varimap-coarsen");
+    sketches.require_sketched(side, surface.header, path);
     return std::move(surface.value);
 }
 
@@ -38,26 +35,27 @@ int main(int argc, char** argv) {
     LocateParams params;
     Stage stage("locate", "Where a part lies on its whole, by landmarks");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
-    PairInputs sketches(stage, "sketch.");
+    PairInputs sketches(stage, "placing.");  // other sketches than those of varimap-explore
     const std::string& surface_A = stage.input("sketched.A", "the source, of which the sketch was made");
     const std::string& surface_B = stage.input("sketched.B", "the target, of which the sketch was made");
     const std::string& out =
         stage.output(ArtifactType<PartRegion>::kind, ArtifactType<PartRegion>::schema,
-                     "region to write: what varimap-preprocess --region keeps of the whole");
+                     "region to write: what varimap-preprocess --region keeps of the whole, and where "
+                     "varimap-diffuse --placed begins");
     const auto& landmark_files = stage.input_list_option("landmarks", "as for varimap-diffuse", 1, 2);
     return stage.main(argc, argv, [&] {
-        if (params.part == Part::none) throw UsageError("--part: say source or target");
+        if (params.alternation.part == PartSide::none) throw UsageError("--part: say source or target");
         SurfaceData sketch_A = sketches.read_A(stage), sketch_B = sketches.read_B(stage);
         const Surface A = read_surface(stage, sketches, "A", surface_A),
                       B = read_surface(stage, sketches, "B", surface_B);
         const Landmarks landmarks = read_landmarks(stage, landmark_files, A, B, params.landmark_space);
         const auto at_vertices = to_mesh_vertices(landmarks.vertices, A, B);
         const PairContext context = pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, 1);
-        const Place place = locate(context, A, B, at_vertices, params);
-        report(place, params.part);
-        stage.record_number("area_percent", 100 * place.share);
-        stage.record_number("scale", place.scale);
-        stage.record_number("strain", place.strain);
-        stage.write(out, place.region);
+        const Located located = locate(context, A, B, at_vertices, params);
+        report(located, params.alternation.part);
+        stage.record_number("area_percent", 100 * located.share);
+        stage.record_number("scale", located.scale);
+        stage.record_number("strain", located.strain);
+        stage.write(out, located.region);
     });
 }

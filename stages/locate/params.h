@@ -1,22 +1,21 @@
 #pragma once
 
+#include "stages/locate/placement.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/pair_stage/alternation_params.h"
-#include "varimap/relaxation/placed_part.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {
 
 struct LocateParams {
-    Part part = Part::none;
-    AlternationOptions alternation;
+    AlternationOptions alternation;  ///< with the side of the part; its share is set where it is known
     IroningOptions ironing;
-    PartPlacing placing;
+    PlacingOptions placing;
     LandmarkSpace landmark_space = LandmarkSpace::stated;
     double enough = 0.05;  ///< strain of a try on sketches after which no others follow
 
     void describe(ParameterList& list) {
-        list.add("part", part, "which surface is a part of the other: source or target");
+        list.add("part", alternation.part, "which surface is a part of the other: source or target");
         describe_exact(list, alternation);
         varimap::describe(list, ironing);
         list.add("placing_steps", placing.steps,

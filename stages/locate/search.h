@@ -6,11 +6,12 @@
 
 namespace varimap {
 
-/// The part placed on its whole, on sketches: the best of several tries, which begin alike, from distances to
-/// the landmarks, and weigh descriptors differently. Each solves for a plan that leaves the rest of the whole
-/// out (Part, alternating_minimization.h), and places the part, free at its rim, from there (placed_part.h).
-/// A wrong or folded start ends with more strain. `share`: of the whole's area, which the part has.
-PlacedPart find_place(const PairContext& sketches, const Sides& sides, double share,
-                      const LocateParams& params);
+/// The part placed on its whole, on sketches: of several tries that with the least strain. Each places the
+/// part, free at its rim (placement.h), from other images: where it lies as a rigid body, where distances to
+/// the landmarks are alike, and those of plans that leave the rest of the whole out (PartSide,
+/// alternating_minimization.h), with other weights of the descriptors each. Distances to landmarks, of which
+/// descriptors are made, are in units of either mesh. `share`: of the whole's area, which the part has.
+Placement find_placement(const PairContext& sketches, const Sides& sides, double share,
+                         const LocateParams& params);
 
 }  // namespace varimap

@@ -1,4 +1,5 @@
 #include "stages/preprocess/preprocess.h"
+#include "varimap/core/log.h"
 #include "varimap/mesh/bridges.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/part_region.h"
@@ -42,6 +43,17 @@ void record(Stage& stage, const RepairCounts& counts) {
     number("dropped_area_percent", 100 * counts.dropped_area);
 }
 
+/// Tubes of the whole say nothing of its cut, those of the cut nothing of the file.
+RepairedMesh cut_to(const PartRegion& region, RepairedMesh whole) {
+    RepairedMesh cut = cropped(std::move(whole), region);
+    cut.counts.bridges = 0;
+    cut = bridged(std::move(cut));
+    if (cut.counts.bridges > 0)
+        warn("the part covers {} pieces of this surface, which thin bridges join", cut.counts.bridges + 1);
+    cut.counts.bridges = 0;
+    return cut;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -56,8 +68,7 @@ int main(int argc, char** argv) {
         const TriangleMesh file = read_mesh(in);
         RepairedMesh input = prepared(file, params, in);
         stage.record_file("mesh", in);
-        if (!region.empty())
-            input = bridged(cropped(std::move(input), stage.read<PartRegion>("region", region).value));
+        if (!region.empty()) input = cut_to(stage.read<PartRegion>("region", region).value, std::move(input));
         record(stage, input.counts);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());

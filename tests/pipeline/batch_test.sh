@@ -194,6 +194,31 @@ jq -e '.exploration == null' together/pairs/a--b/quality.json >/dev/null || fail
 batch --all-pairs meshes -o together --consistent -j 2
 same together/pairs/a--b/source_to_target.csv all/pairs/a--b/source_to_target.csv
 
+# A part and two wholes: what places it is of the pairs, which need landmarks; maps are those of each pair alone.
+mkdir wholes tips
+figure rest.off 12
+figure wholes/d.off 12 .3
+figure wholes/e.off 12 .2
+upper_part rest.off >upper.off
+landmarks_of_figure rest.off | sed -n '1p;2p;5p' | cut -d ' ' -f 1 | tee tips/upper.txt tips/d.txt >tips/e.txt
+"$varimap" batch "${small_picture[@]}" --star upper.off wholes --landmarks-from tips --part source --fill-holes 3 -o parts -j 1 >out.txt 2>log ||
+    fail "a batch of parts (exit $?)"
+[[ $(column parts/status.csv status | xargs) == "done done" ]] || fail "status of parts: $(<parts/status.csv)"
+jq -e '.part.is == "source" and .part.strain < .1' parts/pairs/upper--d/quality.json >/dev/null || fail "a batch does not place parts"
+map upper.off wholes/d.off -o part_alone --landmarks tips/upper.txt tips/d.txt --part source --fill-holes 3
+same parts/pairs/upper--d/source_to_target.csv part_alone/source_to_target.csv
+"$varimap" batch "${small_picture[@]}" --star upper.off wholes --landmarks-from tips --part source --fill-holes 3 -o parts --plan >out.txt 2>log ||
+    fail "--plan of parts"
+! grep -q . parts/batch/pending || fail "finished parts are not known: $(<parts/batch/pending)"
+grep -q '^pair upper--d locate [1-9]' parts/batch/costs || fail "placing parts costs nothing"
+rm tips/e.txt
+expect_exit 2 "$varimap" batch --star upper.off wholes --landmarks-from tips --part source -o none --plan
+grep -q '^batch: error: --part needs landmarks of every pair, and these have none: upper--e;' log || fail "which pair lacks landmarks: $(<log)"
+expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part
+expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part whole
+expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part source --fill-holes all
+expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part source --consistent
+
 # Bad input: one line, and nothing is made.
 expect_exit 2 "$varimap" batch
 expect_exit 2 "$varimap" batch lists/pairs.csv

@@ -92,6 +92,13 @@ landmarks_of_figure() {
         END { for (k = 0; k < 5; k++) print at[k], at[k] }' "$1"
 }
 
+# upper_part FILE: its faces above z = -.3; all vertices stay.
+upper_part() {
+    awk 'NR == 2 { n = $1; m = $2 } NR > 2 && NR <= n + 2 { z[NR - 3] = $3; line[NR - 3] = $0 }
+        NR > n + 2 && z[$2] > -.3 && z[$3] > -.3 && z[$4] > -.3 { face[count++] = $0 }
+        END { printf "OFF\n%d %d 0\n", n, count; for (v = 0; v < n; v++) print line[v]; for (f = 0; f < count; f++) print face[f] }' "$1"
+}
+
 # coarse_pair: maps are coarse from here on; makes a.off and b.off, and the first map of one onto the other, in good.
 coarse_pair() {
     small_picture+=("${coarse[@]}")

@@ -4,13 +4,7 @@
 . "$(dirname "$0")/common.sh"
 figure rest.off 12
 figure whole.off 12 .3
-# upper FILE: its faces above z = -.3; all vertices stay.
-upper() {
-    awk 'NR == 2 { n = $1; m = $2 } NR > 2 && NR <= n + 2 { z[NR - 3] = $3; line[NR - 3] = $0 }
-        NR > n + 2 && z[$2] > -.3 && z[$3] > -.3 && z[$4] > -.3 { face[count++] = $0 }
-        END { printf "OFF\n%d %d 0\n", n, count; for (v = 0; v < n; v++) print line[v]; for (f = 0; f < count; f++) print face[f] }' "$1"
-}
-upper rest.off >part.off
+upper_part rest.off >part.off
 # The tips of the upper limbs and of that to the side.
 landmarks_of_figure rest.off | sed -n '1p;2p;5p' >tips.txt
 
@@ -32,6 +26,10 @@ awk -F, '$2 == "outside_part" { print $1 }' out/target_vertices.csv | cmp -s - l
 (($(wc -l <left.txt) > 100)) || fail "nothing was left out"
 
 "$varimap" report out >report.txt || fail "report"
+grep -q 'part placed  *strained by 0[.]0[0-9]*  *good$' report.txt || fail "the report does not tell how the part was placed"
+jq '.part.strain = .13' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/report.jq" |
+    jq -e '.verdict == "look here" and any(.checks[]; .what == "part placed" and .grade == "look here")' >/dev/null ||
+    fail "a strained part does not make one look"
 "$varimap" map part.off whole.off -o out --landmarks tips.txt --part source "${small_picture[@]}" -v >again.txt 2>log || fail "again"
 ! grep -q ' done:' log || fail "a second run finds something to do: $(grep -m 1 ' done:' log)"
 "$VARIMAP_BIN/varimap-inspect" --check out/artifacts/*.{region,surface} || fail "artifacts"
@@ -44,6 +42,19 @@ jq -e '.part | .is == "target" and .area_percent > 40 and .area_percent < 75' ba
 "$VARIMAP_BIN/varimap-evaluate" whole.off back/target_to_source.csv used.txt used.txt --index-base 0 --json 2>log |
     jq -e '.mean < .03 and .maximum < .2' >/dev/null || fail "the target is elsewhere"
 
+# As far as the place of the part, with axes of landmarks that all stages get.
+map whole.off part.off -o back --landmarks tips.txt --part target --until locate --landmark-space lps
+expect_ran locate
+grep -q '^parameter landmark_space lps$' back/artifacts/whole--part.target-part.region || fail "locate has other axes"
+# Runs that take either surface for the part share no file of the pair.
+for part in source target; do
+    make -n -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=part.off TARGET=whole.off OUT=made LANDMARKS=tips.txt PART=$part \
+        VARIMAP_BIN="$VARIMAP_BIN" >log 2>&1 || fail "make -n"
+    grep -o 'made/artifacts/part--whole[^ ]*' log | sort -u >$part.txt
+done
+(($(wc -l <source.txt) > 10 && $(wc -l <target.txt) > 10)) || fail "names of artifacts are not found"
+[[ -z $(comm -12 source.txt target.txt) ]] || fail "the same names with either part: $(comm -12 source.txt target.txt | xargs)"
+
 refused() {  # WORDS ARGUMENTS
     local code=0
     "$varimap" map part.off whole.off -o bad "${@:2}" >log 2>&1 || code=$?
@@ -53,4 +64,19 @@ refused() {  # WORDS ARGUMENTS
 head -n 2 tips.txt >two.txt
 refused 'needs --landmarks' --part source
 refused 'say source or target' --part whole --landmarks tips.txt
+refused '--until locate needs --part' --until locate --landmarks tips.txt
+refused 'locate.part=target: part is not a parameter' --part source --landmarks tips.txt --set locate.part=target
+printf '[locate]\npart = "target"\n[preprocess]\nfill_holes = "all"\n' >bad.toml
+refused 'bad.toml: part is not a parameter' --landmarks tips.txt --config bad.toml
+sed -i 1,2d bad.toml
+refused 'bad.toml: fill_holes: with --part' --part source --landmarks tips.txt --config bad.toml
+for all in '--fill-holes all' '--set preprocess.fill_holes=all'; do
+    # shellcheck disable=SC2086
+    refused "$all: with --part" --part source --landmarks tips.txt $all
+done
+[[ ! -e bad ]] || fail "what is refused left files"
 refused 'three' --part source --landmarks two.txt
+# A number of edges is taken, and counts more than the file.
+map part.off whole.off -o filled --landmarks tips.txt --part source --config bad.toml --fill-holes 3 --until preprocess
+! make -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=part.off TARGET=whole.off OUT=made until-locate >log 2>&1 || fail "until-locate without PART"
+grep -q 'until-locate needs PART' log || fail "make does not say what until-locate needs"

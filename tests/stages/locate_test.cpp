@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fixtures/known_pair.h"
 #include "fixtures/shapes.h"
 #include "fixtures/surface_data.h"
 #include "stages/coarsen/coarsen.h"
@@ -52,17 +51,27 @@ struct Pair {
                 best = v;
         return best;
     }
-    Place locate(bool part_is_source, std::size_t count = 4) const {
+    Located locate(bool part_is_source, std::size_t count = 4) const {
         const Surface &A = part_is_source ? part : whole, &B = part_is_source ? whole : part;
         Landmarks used = landmarks;
         used.vertices.resize(count, landmarks.vertices.front());
         LocateParams params;
-        params.part = part_is_source ? Part::source : Part::target;
+        params.alternation.part = part_is_source ? PartSide::source : PartSide::target;
         const auto sketch = [&](const Surface& surface) {
             return shapes::surface_data(sketch_of(surface, &surface == &part ? 400 : 700), 60);
         };
         return varimap::locate(pair_context(sketch(A), sketch(B), used, 1), A, B,
                                to_mesh_vertices(used.vertices, A, B), params);
+    }
+    /// Of where the part's vertices were placed, in units of sqrt(area) of the whole. Both files have the
+    /// same vertices.
+    double mean_error(const PartRegion& region) const {
+        double sum = 0, count = 0;
+        for (const int v : part.input.faces.reshaped()) {
+            sum += (position(whole.input, region.placed[std::size_t(v)]) - whole.input.vertex(v)).norm();
+            ++count;
+        }
+        return whole.scale * sum / count;
     }
     /// Shares of the whole's area: in both, and in one of them.
     double overlap(const PartRegion& region) const {
@@ -81,10 +90,11 @@ struct Pair {
 TEST(LocateStage, FindsThePartOnTheWhole) {
     const Pair pair;
     for (const bool part_is_source : {true, false}) {
-        const Place place = pair.locate(part_is_source);
+        const Located place = pair.locate(part_is_source);
         EXPECT_GT(pair.overlap(place.region), .93);
         EXPECT_LT(place.strain, .1);
         EXPECT_EQ(place.scale, 1);
+        EXPECT_LT(pair.mean_error(place.region), .03);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "varimap/mesh/triangle_mesh.h"
 
@@ -12,6 +13,12 @@ inline double longest_edge(const TriangleMesh& mesh, int f) {
     const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
                c = mesh.vertex(mesh.faces(f, 2));
     return std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+}
+
+inline double area_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
+    double area = 0;
+    for (const int f : faces) area += face_normal(mesh, f).norm() / 2;
+    return area;
 }
 
 /// The corner of its face with the largest barycentric coordinate of a point; -1 for nowhere.

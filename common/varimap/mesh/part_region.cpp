@@ -5,13 +5,15 @@
 
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/artifact/consistency.h"
+#include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/serialization.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
 
 template <class Archive>
 void serialize(Archive& archive, PartRegion& region) {
-    archive(region.face_count, region.faces);
+    archive(region.face_count, region.faces, region.part_is_source, region.placed);
 }
 
 std::string encode(const PartRegion& region) {
@@ -23,15 +25,11 @@ void decode(const std::string& payload, PartRegion& region) {
     require<PartRegion>(!region.faces.empty() && are_distinct_in_range(region.faces, region.face_count) &&
                             std::is_sorted(region.faces.begin(), region.faces.end()),
                         "faces");
+    for (const SurfacePoint& point : region.placed)
+        require<PartRegion>(point.face >= -1 && point.barycentric.allFinite(), "points");
 }
 
 namespace {
-
-double area_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
-    double area = 0;
-    for (const int f : faces) area += face_normal(mesh, f).norm() / 2;
-    return area;
-}
 
 std::vector<int> marked_faces(const FaceData<char>& marked) {
     std::vector<int> faces;
@@ -40,14 +38,30 @@ std::vector<int> marked_faces(const FaceData<char>& marked) {
     return faces;
 }
 
-/// Turns the patches of faces with that mark over that are smaller than `least`.
-void turn_small_patches(const TriangleMesh& mesh, const Edges& edges, char mark, double least,
-                        FaceData<char>& marked) {
+std::vector<std::vector<int>> patches_of(char mark, const Edges& edges, const FaceData<char>& marked) {
     std::vector<char> chosen;
     for (const char m : marked) chosen.push_back(m == mark);
-    for (const std::vector<int>& patch : face_components(edges, std::move(chosen)))
+    return face_components(edges, std::move(chosen));
+}
+
+void fill_holes(const TriangleMesh& mesh, const Edges& edges, FaceData<char>& marked) {
+    const double least = 1e-3 * surface_area(mesh);
+    for (const std::vector<int>& patch : patches_of(0, edges, marked))
         if (area_of(mesh, patch) < least)
-            for (const int f : patch) marked[f] = !mark;
+            for (const int f : patch) marked[f] = 1;
+}
+
+void drop_pieces(const TriangleMesh& mesh, const Edges& edges, FaceData<char>& marked) {
+    const auto patches = patches_of(1, edges, marked);
+    double total = 0, largest = 0;
+    for (const std::vector<int>& patch : patches) {
+        const double area = area_of(mesh, patch);
+        total += area;
+        largest = std::max(largest, area);
+    }
+    for (const std::vector<int>& patch : patches)
+        if (area_of(mesh, patch) < std::min(.05 * total, largest))
+            for (const int f : patch) marked[f] = 0;
 }
 
 /// Into how many fans a vertex's marked faces fall.
@@ -80,17 +94,13 @@ void open_pinches(const TriangleMesh& mesh, const Edges& edges, FaceData<char>& 
 
 }  // namespace
 
-PartRegion tidy_region(const TriangleMesh& mesh, FaceData<char> marked) {
-    constexpr double least_hole = 1e-3, least_piece = 0.05;
+std::vector<int> tidy_region(const TriangleMesh& mesh, FaceData<char> marked) {
     const Edges edges = find_edges(mesh);
-    const auto fill_holes = [&] {
-        turn_small_patches(mesh, edges, 0, least_hole * surface_area(mesh), marked);
-    };
-    fill_holes();
-    turn_small_patches(mesh, edges, 1, least_piece * area_of(mesh, marked_faces(marked)), marked);
+    fill_holes(mesh, edges, marked);
+    drop_pieces(mesh, edges, marked);
     open_pinches(mesh, edges, marked);
-    fill_holes();  // what the faces around pinches enclose
-    return {mesh.face_count(), marked_faces(marked)};
+    fill_holes(mesh, edges, marked);  // what the faces around pinches enclose
+    return marked_faces(marked);
 }
 
 RepairedMesh cropped(RepairedMesh whole, const PartRegion& region) {

@@ -10,10 +10,12 @@
 namespace varimap {
 
 /// Where a part lies on the whole that it belongs to: the artifact of varimap-locate, by which
-/// varimap-preprocess cuts the whole.
+/// varimap-preprocess cuts the whole and varimap-diffuse begins.
 struct PartRegion {
-    int face_count = 0;      ///< of the whole's input (Surface)
-    std::vector<int> faces;  ///< those of them that the part covers, ascending
+    int face_count = 0;           ///< of the whole's input (Surface)
+    std::vector<int> faces;       ///< those of them that the part covers, ascending
+    bool part_is_source = false;  ///< else the target is the part
+    PointMap placed;              ///< per vertex of the part's file: where it lies on the whole's file
 };
 
 template <>
@@ -27,8 +29,9 @@ void decode(const std::string& payload, PartRegion& region);
 
 /// The marked faces of a manifold mesh, of which at least one is marked, as a surface with boundary: unmarked
 /// patches of less than a thousandth of the mesh's area are added, marked ones of less than a twentieth of
-/// the marked area taken away, and where marked faces meet in a vertex alone, all faces there are added.
-PartRegion tidy_region(const TriangleMesh& mesh, FaceData<char> marked);
+/// the marked area are left out unless there is no larger one, and where marked faces meet in a vertex alone,
+/// all faces there are added. Ascending.
+std::vector<int> tidy_region(const TriangleMesh& mesh, FaceData<char> marked);
 
 /// The whole without the faces outside of the region; vertices of the file that have none any more are
 /// `outside_part`. Throws ArtifactError where the region has not the mesh's number of faces.

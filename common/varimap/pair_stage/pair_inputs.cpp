@@ -153,6 +153,13 @@ std::string PairInputs::sketched(const std::string& side) const {
     return finer_surface(headers_.at(side).surface);
 }
 
+void PairInputs::require_sketched(const std::string& side, const Header& surface,
+                                  const std::string& path) const {
+    if (sketched(side) != surface.payload_hash)
+        throw ArtifactError(
+            fmt::format("'{}' is not the surface that was sketched; rerun varimap-coarsen", path));
+}
+
 void PairInputs::require_sketches(const Artifact<Candidates>& candidates, const std::string& path) const {
     for (const auto& [side, headers] : headers_) {
         const std::string& of = side == "A" ? candidates.value.sketched_A : candidates.value.sketched_B;

@@ -27,6 +27,8 @@ class PairInputs {
     void require_same(const Header& plan, const std::string& plan_path) const;
     /// Payload hash of the surface of which that of a side ("A" or "B") is a sketch.
     std::string sketched(const std::string& side) const;
+    /// Refuses a surface of which that of a side is no sketch.
+    void require_sketched(const std::string& side, const Header& surface, const std::string& path) const;
     /// Refuses candidates that were found on sketches of other surfaces than those read, or with another
     /// basis or hierarchy of these.
     void require_sketches(const Artifact<Candidates>& candidates, const std::string& path) const;

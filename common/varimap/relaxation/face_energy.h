@@ -35,6 +35,18 @@ double total_energy(const SlidingMap& map, const FaceRange& faces, const Density
     return sum;
 }
 
+/// The mean over the mapped faces, per area; 0 where there are none.
+template <class Density>
+double mean_energy(const SlidingMap& map, const Density& density) {
+    double sum = 0, area = 0;
+    for (int f = 0; f < map.source().face_count(); ++f) {
+        if (!map.is_mapped(f)) continue;
+        sum += face_energy(map, f, density);
+        area += map.rest(f).area;
+    }
+    return area > 0 ? sum / area : 0;
+}
+
 /// Derivatives of a face's q and D by the position x_i of its corner i's image, j and k the corners after it:
 ///     a dq/dx_i = c_k (x_i - x_j) + c_j (x_i - x_k),   2a dD/dx_i = up x (x_k - x_j)
 /// with the rest area a and cotangents c, for a fixed mean normal. The second derivatives of q are

@@ -243,13 +243,7 @@ class Untangling {
     const PointMap& points() const { return sliding_.points(); }
     /// Of the mapped faces, per area.
     double energy() const {
-        double sum = 0, area = 0;
-        for (int f = 0; f < source_.face_count(); ++f) {
-            if (!sliding_.is_mapped(f)) continue;
-            sum += face_energy(sliding_, f, RobustEnergy(judged_energy, options_.parts.rules.robustness));
-            area += sliding_.rest(f).area;
-        }
-        return area > 0 ? sum / area : 0;
+        return mean_energy(sliding_, RobustEnergy(judged_energy, options_.parts.rules.robustness));
     }
     bool is_much_worse_than(const Untangling& other) const {
         return options_.replace_parts && energy() > much_worse * other.energy();

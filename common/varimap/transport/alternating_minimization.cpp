@@ -29,8 +29,8 @@ PlanBounds part_bounds(const Eigen::VectorXd& part, const Eigen::VectorXd& whole
 
 /// The area bound: a factor of sqrt(B) on each side.
 PlanBounds area_bounds(const Side& X, const Side& Y, const AlternationOptions& options) {
-    if (options.part == Part::source) return part_bounds(X.mass, Y.mass, options.part_share);
-    if (options.part == Part::target) {
+    if (options.part == PartSide::source) return part_bounds(X.mass, Y.mass, options.part_share);
+    if (options.part == PartSide::target) {
         auto [part, whole] = part_bounds(Y.mass, X.mass, options.part_share);
         return {std::move(whole), std::move(part)};
     }
@@ -148,7 +148,7 @@ SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
     const TransportProblem problem{solution_.plan.support, cost, X_.mass, Y_.mass, gamma,
                                    options_.background_factor * largest, bounds.row, bounds.column,
                                    // What is left of the whole is not to be drawn to its masses.
-                                   options_.part == Part::none ? options_.mass_penalty * largest : 0};
+                                   options_.part == PartSide::none ? options_.mass_penalty * largest : 0};
     const double first_divisor = fresh_ ? options_.annealing_divisor : options_.gamma_divisor;
     const SinkhornReport report =
         solve_annealed(problem, {largest, first_divisor, options_.gamma_divisor},

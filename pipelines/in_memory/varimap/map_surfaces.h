@@ -34,7 +34,8 @@ struct MappedSurfaces {
 };
 
 /// Maps two surfaces onto each other: what `varimap map` does (Mandad et al. 2017, Alg. 5 and Sec. 5), in
-/// memory, with the same result to the last bit. Meshes are repaired where need be (mesh_repair.h).
+/// memory, with the same result to the last bit. Both are mapped as wholes: finding the place of a part and
+/// cutting the other surface there (`--part`) is not in it. Meshes are repaired where need be (mesh_repair.h).
 /// Deterministic, for any number of threads; logs go to stderr. Minutes of time for 20'000 vertices.
 /// Throws Error (error.h): UsageError for options outside their ranges, that contradict each other, and for a
 /// candidate there is none of; InputError for faces, landmarks or an initial map that name what the meshes

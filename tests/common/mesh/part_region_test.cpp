@@ -8,7 +8,6 @@
 #include "fixtures/shapes.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/part_share.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -25,6 +24,10 @@ FaceData<char> marked_where(const TriangleMesh& mesh, const Inside& inside) {
     return marked;
 }
 
+PartRegion tidied(const TriangleMesh& mesh, FaceData<char> marked) {
+    return {mesh.face_count(), tidy_region(mesh, std::move(marked)), true, {}};
+}
+
 TriangleMesh faces_of(const TriangleMesh& mesh, const PartRegion& region) {
     return {mesh.vertices, mesh.faces(region.faces, Eigen::all)};
 }
@@ -37,7 +40,7 @@ TEST(PartRegion, LosesHolesAndPiecesThatAreSmall) {
     for (int f = 1; f < ball.face_count(); ++f)
         if (middle(ball, f).z() > middle(ball, highest).z()) highest = f;
     marked[highest] = 0;
-    const PartRegion region = tidy_region(ball, marked);
+    const PartRegion region = tidied(ball, marked);
     const TopologySummary topology = summarise_topology(faces_of(ball, region));
     EXPECT_EQ(topology.boundary_loops, 1);
     EXPECT_EQ(topology.genus, 0);
@@ -45,10 +48,18 @@ TEST(PartRegion, LosesHolesAndPiecesThatAreSmall) {
 }
 
 /// Two quarters of a square, whose faces meet in its middle alone.
+/// Where the part is in small pieces only, the largest of them is kept.
+TEST(PartRegion, IsNeverEmpty) {
+    const TriangleMesh square = shapes::square(30);
+    FaceData<char> marked(square.face_count());
+    for (int f = 0; f < square.face_count(); f += 40) marked[f] = 1;
+    EXPECT_FALSE(tidy_region(square, marked).empty());
+}
+
 TEST(PartRegion, HasNoPinches) {
     const TriangleMesh square = shapes::square(8);
     const PartRegion region =
-        tidy_region(square, marked_where(square, [](const Vec3& p) { return (p.x() < .5) == (p.y() < .5); }));
+        tidied(square, marked_where(square, [](const Vec3& p) { return (p.x() < .5) == (p.y() < .5); }));
     const TriangleMesh part = faces_of(square, region);
     EXPECT_EQ(summarise_topology(part).boundary_loops, 1);
     const std::vector<int> components = vertex_components(part);
@@ -57,7 +68,7 @@ TEST(PartRegion, HasNoPinches) {
 
 TEST(PartRegion, OfAMeshAsItIsKeepsTheWayToTheFile) {
     const TriangleMesh ball = shapes::ellipsoid(3);
-    const PartRegion region = tidy_region(ball, marked_where(ball, [](const Vec3& p) { return p.z() > 0; }));
+    const PartRegion region = tidied(ball, marked_where(ball, [](const Vec3& p) { return p.z() > 0; }));
     const RepairedMesh cut = cropped({ball, {}, {}}, region);
     ASSERT_EQ(cut.mesh.face_count(), int(region.faces.size()));
     EXPECT_EQ(cut.link.face, region.faces);
@@ -81,7 +92,7 @@ TEST(PartRegion, OfARepairedMeshKeepsTheWayToTheFile) {
     soup.vertices.bottomRows(1).setZero();
     const RepairedMesh whole = prepared(soup, {}, "soup");
     const PartRegion region =
-        tidy_region(whole.mesh, marked_where(whole.mesh, [](const Vec3& p) { return p.z() > 0; }));
+        tidied(whole.mesh, marked_where(whole.mesh, [](const Vec3& p) { return p.z() > 0; }));
     const RepairedMesh cut = cropped(whole, region);
     EXPECT_EQ(cut.link.fate.back(), VertexFate::unused);
     for (int f = 0; f < soup.face_count(); ++f)
@@ -99,37 +110,12 @@ TEST(PartRegion, OfARepairedMeshKeepsTheWayToTheFile) {
 }
 
 TEST(PartRegion, OfAnotherMeshIsRefused) {
-    EXPECT_THROW(cropped({shapes::ellipsoid(2), {}, {}}, {7, {1, 2}}), ArtifactError);
+    EXPECT_THROW(cropped({shapes::ellipsoid(2), {}, {}}, {7, {1, 2}, true, {}}), ArtifactError);
     PartRegion region;
-    for (const PartRegion& bad : {PartRegion{3, {}}, PartRegion{3, {1, 3}}, PartRegion{3, {-1}},
-                                  PartRegion{3, {2, 1}}, PartRegion{3, {1, 1}}})
+    for (const PartRegion& bad :
+         {PartRegion{3, {}, true, {}}, PartRegion{3, {1, 3}, true, {}}, PartRegion{3, {-1}, true, {}},
+          PartRegion{3, {2, 1}, true, {}}, PartRegion{3, {1, 1}, true, {}}})
         EXPECT_THROW(decode(encode(bad), region), ArtifactError);
-}
-
-/// The vertices at the ends of the axes but for the lowest.
-std::vector<int> ends(const TriangleMesh& mesh) {
-    std::vector<int> result;
-    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
-        int farthest;
-        (mesh.vertices * axis).maxCoeff(&farthest);
-        result.push_back(farthest);
-    }
-    return result;
-}
-
-TEST(PartSize, IsThatOfTheAreas) {
-    const TriangleMesh ball = shapes::ellipsoid(4);
-    const PartRegion upper = tidy_region(ball, marked_where(ball, [](const Vec3& p) { return p.z() > -.3; }));
-    const Surface whole = preprocess(ball, {});
-    for (const double units : {1., 1.1, 10., .001}) {
-        TriangleMesh piece = faces_of(ball, upper);
-        piece.vertices *= units;
-        const Surface part = preprocess(piece, {});
-        const PartSize size = part_size(part, ends(part.mesh), whole, ends(whole.mesh));
-        const double expected = units == 1.1 ? 1 : 1 / units;  // a tenth may be the landmarks' error
-        EXPECT_NEAR(size.scale / expected, 1, .05) << units;
-        EXPECT_NEAR(size.share, (units == 1.1 ? 1.21 : 1) * .65, .05) << units;
-    }
 }
 
 }  // namespace

@@ -263,7 +263,7 @@ TEST(AlternatingMinimization, KeepsTheIdentity) {
 /// Of a tube's half, the other tube carries all mass in a half of its own.
 TEST(AlternatingMinimization, MassOfAPartGoesToItsPlace) {
     const LevelPair pair = tube_level();
-    for (const Part part : {Part::source, Part::target}) {
+    for (const PartSide part : {PartSide::source, PartSide::target}) {
         AlternationOptions options;
         options.part = part;
         options.part_share = .5;
@@ -274,8 +274,8 @@ TEST(AlternatingMinimization, MassOfAPartGoesToItsPlace) {
         const Eigen::VectorXd of_A = row_sums(minimization.solution().plan).cwiseQuotient(pair.A.side.mass);
         const Eigen::VectorXd of_B =
             column_sums(minimization.solution().plan).cwiseQuotient(pair.B.side.mass);
-        const Eigen::VectorXd &own = part == Part::source ? of_A : of_B,
-                              &whole = part == Part::source ? of_B : of_A;
+        const Eigen::VectorXd &own = part == PartSide::source ? of_A : of_B,
+                              &whole = part == PartSide::source ? of_B : of_A;
         EXPECT_GT(own.minCoeff(), .97);
         EXPECT_LT(own.maxCoeff(), 1.03);
         EXPECT_LT(whole.maxCoeff(), 2 * 1.2 * 1.01);

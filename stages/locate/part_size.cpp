@@ -1,4 +1,4 @@
-#include "varimap/mesh/part_share.h"
+#include "stages/locate/part_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr double same_units = 1.25;
 
 double upper_quartile(std::vector<double> values) {
-    const auto at = values.begin() + std::ptrdiff_t(3 * (values.size() - 1) / 4);
+    const auto at = values.begin() + std::ptrdiff_t((3 * (values.size() - 1) + 3) / 4);
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
@@ -44,7 +44,7 @@ PartSize part_size(const Surface& part, const std::vector<int>& landmarks_part, 
     double scale = ratios.empty() ? 1 : upper_quartile(ratios) * of_files;
     if (std::max(scale, 1 / scale) < same_units) scale = 1;
     const double ratio = scale / of_files;
-    return {scale, std::min(1.0, ratio * ratio)};
+    return {scale, ratio * ratio};
 }
 
 }  // namespace varimap

@@ -9,7 +9,7 @@ namespace varimap {
 /// How large a part is beside the whole that it belongs to.
 struct PartSize {
     double scale = 1;  ///< lengths of the whole's file over those of the part's
-    double share = 1;  ///< of the area of the whole that the part has, in (0, 1]
+    double share = 1;  ///< the part's area over the whole's; above 1 the part is the larger one
 };
 
 /// From the shortest paths between landmarks, vertices of both meshes in the same order. Paths of a part lead

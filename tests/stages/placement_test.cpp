@@ -1,4 +1,4 @@
-#include "varimap/relaxation/placed_part.h"
+#include "stages/locate/placement.h"
 
 #include <gtest/gtest.h>
 
@@ -30,10 +30,8 @@ struct Pair {
             start.push_back(closest(middle + stretch * (part.vertex(v) - middle)).point);
     }
 
-    PlacedPart placed() const {
-        PartPlacing placing;
-        placing.share = share;
-        return place_part(start, part, whole, VertexData<bool>(part.vertex_count()), placing);
+    Placement result() const {
+        return placed(start, part, whole, VertexData<bool>(part.vertex_count()), share, false, {});
     }
     double mean_error(const PointMap& map) const {
         double sum = 0, count = 0;
@@ -46,27 +44,33 @@ struct Pair {
 };
 
 /// Nothing but the surfaces' forms says where the rim is.
-TEST(PlacedPart, FindsItsRim) {
+TEST(Placement, FindsItsRim) {
     for (const double stretch : {.9, 1.1}) {
         const Pair pair(-.05, stretch);
         const double before = pair.mean_error(pair.start);
-        const PlacedPart placed = pair.placed();
+        const Placement found = pair.result();
         EXPECT_GT(before, .014) << stretch;
-        EXPECT_LT(pair.mean_error(placed.images), .006) << stretch;  // a quarter of an edge
-        EXPECT_LT(placed.strain, .01) << stretch;
+        EXPECT_LT(pair.mean_error(found.images), .006) << stretch;  // a quarter of an edge
+        EXPECT_LT(found.strain, .01) << stretch;
     }
 }
 
 /// A part of another size is strained.
-TEST(PlacedPart, IsStrainedWhereItDoesNotFit) {
+TEST(Placement, IsStrainedWhereItDoesNotFit) {
     Pair pair(-.05, 1);
-    const double right = pair.placed().strain;
-    PartPlacing placing;
-    placing.share = .5 * pair.share;
+    const double right = pair.result().strain;
     VertexData<bool> pinned(pair.part.vertex_count());
     for (const int v : pair.part.faces.reshaped())
         if (v % 20 == 0) pinned[v] = true;
-    EXPECT_GT(place_part(pair.start, pair.part, pair.whole, pinned, placing).strain, 10 * right + .01);
+    EXPECT_GT(placed(pair.start, pair.part, pair.whole, pinned, .5 * pair.share, false, {}).strain,
+              10 * right + .01);
+}
+
+/// A wrong try must not win for want of faces to be judged by.
+TEST(Placement, WithoutImagesIsWorst) {
+    Pair pair(-.05, 1);
+    pair.start[std::size_t(pair.part.faces(0, 0))] = {};
+    EXPECT_EQ(pair.result().strain, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

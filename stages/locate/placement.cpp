@@ -1,0 +1,65 @@
+#include "stages/locate/placement.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+#include "varimap/relaxation/face_energy.h"
+#include "varimap/relaxation/fold_removal.h"
+#include "varimap/relaxation/global_relaxation.h"
+#include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/relief_agreement.h"
+
+namespace varimap {
+
+namespace {
+
+/// As in untangling.cpp.
+struct Round {
+    double regularisation, robustness_factor, fold_visits;
+};
+constexpr std::array<Round, 2> rounds{{{0.3, 3, 8}, {0.1, 1, 20}}};
+constexpr int fold_sweeps = 120;
+/// Share of the energy that a step must win to be followed by another.
+constexpr double least_gain = 1e-4;
+
+bool has_all_images(const SlidingMap& map) {
+    for (const int v : map.source().faces.reshaped())
+        if (!map.has_image(v)) return false;
+    return true;
+}
+
+void relax(SlidingMap& map, const VertexData<bool>& pinned, const ReliefAgreement* relief, const Round& round,
+           const PlacingOptions& options) {
+    std::vector<int> free;
+    for (int v = 0; v < pinned.size(); ++v)
+        if (!pinned[v]) free.push_back(v);
+    GlobalRelaxation global(map, pinned, relief);
+    LocalRelaxation local(map, 99);
+    const RobustEnergy energy({1, round.regularisation}, round.robustness_factor * options.robustness);
+    for (int step = 0; step < options.steps; ++step) {
+        const double gain = global.step(energy);
+        local.sweep(free, energy.energy);
+        if (gain < least_gain && step > 3) break;
+    }
+    FoldRemoval{fold_sweeps, round.fold_visits}(map, pinned);
+}
+
+}  // namespace
+
+Placement placed(const PointMap& images, const TriangleMesh& part, const TriangleMesh& whole,
+                 const VertexData<bool>& pinned, double share, bool opposed, const PlacingOptions& options) {
+    SlidingMap map(images, part, whole);
+    if (!has_all_images(map)) return {images};
+    std::vector<int> faces(std::size_t(part.face_count()));
+    std::iota(faces.begin(), faces.end(), 0);
+    map.scale_rest(faces, share);
+    const ReliefAgreement relief(map, options.relief_weight * share, opposed);
+    for (const Round& round : rounds)
+        relax(map, pinned, options.relief_weight > 0 ? &relief : nullptr, round, options);
+    const RobustEnergy energy({1, rounds.back().regularisation}, options.robustness);
+    return {map.points(), mean_energy(map, energy)};
+}
+
+}  // namespace varimap
