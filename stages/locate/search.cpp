@@ -55,6 +55,21 @@ PointMap images_of_try(std::size_t n, const LandmarkDistances& distances, const 
     return std::move(params.alternation.part == PartSide::source ? maps.A_to_B : maps.B_to_A);
 }
 
+/// Times the option's relief weight: with much of it the part follows its like where it can, with little it
+/// comes there from afar.
+constexpr std::array<double, 2> relief_factors{0.5, 1.5};
+
+Placement best_placement(const PointMap& images, const Sides& sides, double share, PlacingOptions options) {
+    const double weight = options.relief_weight;
+    Placement best;
+    for (const double factor : relief_factors) {
+        options.relief_weight = factor * weight;
+        Placement other = pinned_placement(images, sides, share, options);
+        if (best.images.empty() || other.strain < best.strain) best = std::move(other);
+    }
+    return best;
+}
+
 }  // namespace
 
 Placement find_placement(const PairContext& sketches, const Sides& sides, double share,
@@ -64,8 +79,8 @@ Placement find_placement(const PairContext& sketches, const Sides& sides, double
     for (std::size_t first = 0; first < weights_of_plans.size() + 2; first += tries_at_a_time) {
         std::array<Placement, tries_at_a_time> placed;
         parallel_for_each_index(tries_at_a_time, std::size_t(1), [&](std::size_t k) {
-            placed[k] = pinned_placement(images_of_try(first + k, distances, sketches, sides, share, params),
-                                         sides, share, params.placing);
+            placed[k] = best_placement(images_of_try(first + k, distances, sketches, sides, share, params),
+                                       sides, share, params.placing);
         });
         for (std::size_t k = 0; k < tries_at_a_time; ++k) {
             log("try {}: strain {:.4f}", first + k + 1, placed[k].strain);
