@@ -35,13 +35,13 @@ struct MappedSurfaces {
 
 /// Maps two surfaces onto each other: what `varimap map` does (Mandad et al. 2017, Alg. 5 and Sec. 5), in
 /// memory, with the same result to the last bit. Both are mapped as wholes: finding the place of a part and
-/// cutting the other surface there (`--part`) is not in it. Meshes are repaired where need be (mesh_repair.h).
-/// Deterministic, for any number of threads; logs go to stderr. Minutes of time for 20'000 vertices.
-/// Throws Error (error.h): UsageError for options outside their ranges, that contradict each other, and for a
-/// candidate there is none of; InputError for faces, landmarks or an initial map that name what the meshes
-/// have not, landmarks that share a vertex, and for meshes that the method cannot serve; ConvergenceError.
-/// Options and numbers of vertices and faces are checked before any work. In messages A is the source, B the
-/// target.
+/// cutting the other surface there (`--part`) is not in it. Meshes are repaired where need be
+/// (mesh_repair.h). Deterministic, for any number of threads; logs go to stderr. Minutes of time for 20'000
+/// vertices. Throws Error (error.h): UsageError for options outside their ranges, that contradict each other,
+/// and for a candidate there is none of; InputError for faces, landmarks or an initial map that name what the
+/// meshes have not, landmarks that share a vertex, and for meshes that the method cannot serve;
+/// ConvergenceError. Options and numbers of vertices and faces are checked before any work. In messages A is
+/// the source, B the target.
 MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const MapOptions& options = {});
 
 }  // namespace varimap
