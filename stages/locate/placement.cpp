@@ -1,6 +1,5 @@
 #include "stages/locate/placement.h"
 
-#include <algorithm>
 #include <array>
 #include <numeric>
 #include <vector>

@@ -32,10 +32,8 @@ void warn_of_part(double own, double other, const char* which, const char* whole
     if (own < long_loop || other > much_shorter * own) return;
     warn(
         "the {} looks like a part of the {}: it ends at a loop of {:.2f} sqrt(area), where the {} has none "
-        "beyond {:.2f}; "
-        "a part is stretched over the whole, so give --part {} and three landmarks, or cut the {} to the "
-        "same "
-        "part",
+        "beyond {:.2f}; a part is stretched over the whole, so give --part {} and three landmarks, or cut "
+        "the {} to the same part",
         which, whole, own, whole, other, which, whole);
 }
 
