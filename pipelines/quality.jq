@@ -15,7 +15,7 @@ def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
 | ($all | map(select(.value | type == "object" and has("stage")))) as $runs
 | ($runs | of_stage("preprocess")) as $surfaces
 | $numbers[0]
-+ ([$runs | of_stage("locate")[] | {part: ({is: $part} + {area_percent, scale, strain})}] | add // {})
++ ([$runs | of_stage("locate")[] | {part: ({is: $part} + {area_percent, scale, strain} + if has("lead") then {lead} else {} end)}] | add // {})
 + {stages: [$runs[] | {key: (.key as $file | .value | stage_and_artifact($file)),
         value: (.value | del(.stage, .version, .warnings, .artifact, .inputs))}] | from_entries,
     warnings: ([$runs[] | .key as $file | .value | stage_and_artifact($file) as $stage | .warnings[]?

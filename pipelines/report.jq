@@ -1,5 +1,5 @@
 # What quality.json says, for people: a verdict, every check with its grade, warnings, the stages of those that make one look
-# (alarms), times.
+# (alarms), both as what to look at before the map is used (look), times.
 #   jq -f report.jq quality.json
 def fixed($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
 def grade($good; $usable): if . <= $good then "good" elif . <= $usable then "usable" else "look here" end;
@@ -35,9 +35,10 @@ def few_repaired:
 | [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not))
     | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not)] as $warnings
 | [$warnings[] | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | few_repaired) | not)] as $alarms
-| {verdict: (if any($checks[]; .grade == "look here") or ($alarms | length > 0) then "look here"
+| (($alarms | map(.stage) | unique | map("what \(.) warns of")) + ($checks | map(select(.grade == "look here").what))) as $look
+| {verdict: (if $look | length > 0 then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),
-    warnings: ($warnings | map("\(.stage): \(.message)")), alarms: ($alarms | map(.stage) | unique), checks: $checks,
+    warnings: ($warnings | map("\(.stage): \(.message)")), alarms: ($alarms | map(.stage) | unique), look: $look, checks: $checks,
     command: (.provenance.command // ""), version: (.provenance.version // ""),
     times: [$stages | to_entries[] | select(.value.wall_seconds)
         | {stage: .key, seconds: .value.wall_seconds, megabytes: (.value.peak_megabytes // 0)}]}

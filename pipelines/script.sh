@@ -139,12 +139,17 @@ require_map_options() {
     [[ ! $* =~ repair|fill.holes|cut.handles ]] || require_repairs "$@"
 }
 
-# The values of these are looked at when there is a mesh; nothing is a part of it.
+# The values of these are looked at when there is a mesh. It is alone, and so no part: `--part VALUE` is passed over.
 require_repairs() {  # OPTION...
-    local folder code=0 said
+    local folder options=() code=0 said
+    while (($#)); do
+        if [[ $1 == --part ]]; then shift 2; continue; fi
+        options+=("$1")
+        shift
+    done
     folder=$(mktemp -d) || fail 6 "no folder for temporary files can be written to"
     printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >"$folder/a.off"
-    said=$("$varimap" map "$folder/a.off" "$folder/a.off" "$@" --part '' --until preprocess -q -j 1 -o "$folder/out" 2>&1 >/dev/null) || code=$?
+    said=$("$varimap" map "$folder/a.off" "$folder/a.off" "${options[@]}" --until preprocess -q -j 1 -o "$folder/out" 2>&1 >/dev/null) || code=$?
     rm -rf -- "$folder"
     ((code != 2)) || fail 2 "${said#*: error: }"
 }

@@ -10,6 +10,7 @@ def digits($n): if . == null then null else . * pow(10; $n) | round / pow(10; $n
     conformal_p95: ([$both[].conformal_distortion.p95] | max | digits(3)),
     round_trip: ($q.round_trip.mean | digits(5)),
     landmarks_off: (if $q.landmarks | length > 0 then $q.landmarks | max | digits(5) else null end),
+    strain: ($q.part.strain | digits(4)),
     probability: ($first.probability | digits(3)), sure: $first.confident, sure_when_found: $q.exploration.confident_when_found,
     candidate: $candidate,
     warnings: $r.warnings, message: null}

@@ -4,12 +4,12 @@
 
 #include "stages/explore/appraised.h"
 #include "stages/explore/candidate_maps.h"
-#include "stages/explore/exchanged_landmarks.h"
 #include "stages/explore/surface_comparison.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/geodesic_graph.h"
+#include "varimap/multilevel/exchanged_landmarks.h"
 #include "varimap/results/landmark_words.h"
 
 namespace varimap {

@@ -20,7 +20,7 @@ void report(const std::vector<Candidate>& candidates, bool has_landmarks) {
             candidates[k].alignment, candidates[k].stretch, candidates[k].score,
             100 * candidates[k].reversed_mass, relation(candidates[k]));
     const Confidence confidence = confidence_of(candidates);
-    log("the first is right with a probability of {:.2f}", confidence.probability);
+    log("the first is {}", probability_in_words(confidence));
     if (const std::string cue = decided_by(candidates); !cue.empty())
         log("decided against its best rival by {}", cue);
     if (is_mirrored(candidates.front()))

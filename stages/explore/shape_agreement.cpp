@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "varimap/core/parallel.h"
-#include "varimap/core/rotation.h"
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/topology.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
 
@@ -42,16 +39,6 @@ Values pulled_back(const Values& values, const TriangleMesh& target, const Point
     return result;
 }
 
-/// A few vertices far from each other: a level's first samples are, whatever level it is.
-std::vector<int> spread_vertices(const Hierarchy& hierarchy) {
-    const std::vector<Level>& levels = hierarchy.levels;
-    auto level = std::find_if(levels.begin(), levels.end(),
-                              [](const Level& l) { return l.samples.size() >= sample_count; });
-    if (level == levels.end()) --level;
-    const std::vector<int>& samples = level->samples;
-    return {samples.begin(), samples.begin() + std::ptrdiff_t(std::min(samples.size(), sample_count))};
-}
-
 PointMap at(const PointMap& map, const std::vector<int>& vertices) {
     PointMap images;
     for (const int v : vertices) images.push_back(map[std::size_t(v)]);
@@ -66,9 +53,12 @@ double stretch_between(double here, double there) {
 }  // namespace
 
 ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph)
-    : mesh(data.surface.mesh), mass(data.surface.mass), samples(spread_vertices(data.hierarchy)) {
+    : mesh(data.surface.mesh),
+      mass(data.surface.mass),
+      normals(outward_normals(data.surface)),
+      samples(spread_vertices(data.hierarchy, sample_count)),
+      patches(mesh.vertices, normals, mass) {
     const double outward = looks_inward(data.surface) ? -1 : 1;
-    normals = outward * vertex_normals(mesh);
     for (const double scale : relief_scales) relief.push_back(outward * varimap::relief(mesh, scale));
     const RowMatrix to_all = distances_from_each(graph, samples);
     distance = to_all.transpose();
@@ -78,13 +68,7 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph)
         to_all.col(v).minCoeff(&nearest);
         sample_mass[nearest] += mass[v];
     }
-    for (const double radius : patch_radii)
-        for (std::size_t k = 0; k < samples.size(); ++k) {
-            Patch patch{{}, sample_mass[Eigen::Index(k)]};
-            for (int v = 0; v < mesh.vertex_count(); ++v)
-                if (to_all(Eigen::Index(k), v) < radius) patch.vertices.push_back(v);
-            patches.push_back(std::move(patch));
-        }
+    for (const double radius : patch_radii) patches.add_patches(to_all, radius, sample_mass);
 }
 
 ShapeAgreement::ShapeAgreement(const PairContext& context)
@@ -129,40 +113,8 @@ double ShapeAgreement::relief(const PointMap& map, const Side& source, const Sid
 }
 
 double ShapeAgreement::alignment(const PointMap& map, const Side& source, const Side& target) const {
-    const Points images = pulled_back(target.mesh.vertices, target.mesh, map),
-                 normals = pulled_back(target.normals, target.mesh, map);
-    // Of one patch, trace(R' M) of the best R.
-    const auto aligned = [&](const Patch& patch) {
-        double mass = 0;
-        Vec3 centre = Vec3::Zero(), image_centre = Vec3::Zero();
-        for (const int v : patch.vertices) {
-            mass += source.mass[v];
-            centre += source.mass[v] * source.mesh.vertex(v);
-            image_centre += source.mass[v] * images.row(v).transpose();
-        }
-        centre /= mass, image_centre /= mass;
-        Eigen::Matrix3d of_points = Eigen::Matrix3d::Zero(), of_normals = Eigen::Matrix3d::Zero();
-        double spread = 0, image_spread = 0;
-        for (const int v : patch.vertices) {
-            const double share = source.mass[v] / mass;
-            const Vec3 x = source.mesh.vertex(v) - centre, y = images.row(v).transpose() - image_centre;
-            spread += share * x.squaredNorm();
-            image_spread += share * y.squaredNorm();
-            of_points += share * y * x.transpose();
-            of_normals += share * normals.row(v).transpose() * source.normals.row(v);
-        }
-        if (const double scale = std::sqrt(spread * image_spread); scale > 0) of_normals += of_points / scale;
-        return nearest_rotation(of_normals, opposed_).cwiseProduct(of_normals).sum() / 2;
-    };
-    std::vector<double> of_patch(source.patches.size());
-    parallel_for_each_index(of_patch.size(), std::size_t(16),
-                            [&](std::size_t k) { of_patch[k] = aligned(source.patches[k]); });
-    double sum = 0, weight = 0;
-    for (std::size_t k = 0; k < of_patch.size(); ++k) {
-        sum += source.patches[k].weight * of_patch[k];
-        weight += source.patches[k].weight;
-    }
-    return sum / weight;
+    return source.patches(pulled_back(target.mesh.vertices, target.mesh, map),
+                          pulled_back(target.normals, target.mesh, map), opposed_);
 }
 
 }  // namespace varimap

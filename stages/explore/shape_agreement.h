@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "varimap/multilevel/pair_context.h"
+#include "varimap/quality/patch_alignment.h"
 #include "varimap/results/map_pair.h"
 
 namespace varimap {
@@ -17,12 +18,7 @@ class ShapeAgreement {
     /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales. 0.75 at a scale at which
     /// either surface has none. Of two sheets agreement_of_bent_sheets at least: less tells nothing.
     double relief(const MapPair& maps) const;
-    /// How well patches can be laid onto their images: of all rotations R of a patch, with points x of
-    /// normals n and images y of normals m, relative to the patch's and the image's centres and mean square
-    /// radii r and s,
-    ///     max over R of mean(y . R x / (r s) + m . R n) / 2,
-    /// 1 at best, mean of patches of two sizes. Limbs may bend between patches; which side of a limb is
-    /// which, and what belongs beside what, shows within them.
+    /// How well patches of two sizes can be laid onto their images (patch_alignment.h), 1 at best.
     double alignment(const MapPair& maps) const;
     /// How much distances along the surface change: mean of |log| of the ratios
     ///     d_A(p, psi(q)) / d_B(phi(p), q)
@@ -31,19 +27,15 @@ class ShapeAgreement {
     double stretch(const MapPair& maps) const;
 
   private:
-    struct Patch {
-        std::vector<int> vertices;
-        double weight;
-    };
     struct Side {
         const TriangleMesh& mesh;
         Eigen::VectorXd mass;
-        std::vector<Eigen::VectorXd> relief;  ///< per scale; outward
         Points normals;                       ///< of vertices, outward
+        std::vector<Eigen::VectorXd> relief;  ///< per scale; outward
         std::vector<int> samples;             ///< vertices, spread over the surface
         Eigen::VectorXd sample_mass;          ///< of their cells
         RowMatrix distance;                   ///< vertices x samples
-        std::vector<Patch> patches;           ///< of all sizes
+        PatchAlignment patches;
 
         Side(const SurfaceData& data, const GeodesicGraph& graph);
     };

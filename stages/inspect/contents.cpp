@@ -129,9 +129,9 @@ void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor&
     for (std::size_t k = 0; k < candidates.size(); ++k)
         visitor.fact(fmt::format("candidate {}", k + 1),
                      fmt::format("{}; {}", origin(candidates[k]), relation(candidates[k])));
-    visitor.fact("confidence", fmt::format("{}: right with a probability of {:.2f}, margin {:.2f}",
-                                           confidence.confident ? "sure" : "not sure", confidence.probability,
-                                           confidence.margin));
+    visitor.fact("confidence",
+                 fmt::format("{}: {}, margin {:.2f}", confidence.confident ? "sure" : "not sure",
+                             probability_in_words(confidence), confidence.margin));
     visitor.text("candidates.csv", candidates_csv(candidates));
 }
 

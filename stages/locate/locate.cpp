@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "stages/locate/covered.h"
@@ -14,6 +15,8 @@
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/multilevel/exchanged_landmarks.h"
+#include "varimap/results/landmark_words.h"
 
 namespace varimap {
 
@@ -91,39 +94,91 @@ void require_landmarks(const Sides& sides, const std::vector<int>& region, doubl
     }
 }
 
-void require_enough(std::size_t landmarks) {
-    constexpr std::size_t fewest = 3;
-    if (landmarks < fewest)
-        throw UsageError(
-            fmt::format("a part is placed by three landmarks or more (--landmarks); here are {}", landmarks));
+/// Found on the sketches, placed on the surfaces.
+FoundPlacement find_on_surfaces(const PairContext& sketches, const Sides& surface, double share,
+                                const LocateParams& params) {
+    const Sides sketch(sketches.A().surface, sketches.B().surface, sketches.landmarks(), params.part);
+    FoundPlacement found = find_placement(Sketches(sketches, params.part), sketch, share, params);
+    found.placement = pinned_placement(on_surfaces(found.placement.images, sketch, surface), surface, share,
+                                       surface.reliefs(), params.placing);
+    return found;
+}
+
+/// stages/locate/README.md has what right parts and wrong ones were strained by.
+constexpr double much_strain = 0.12;
+
+/// Warns of a part that is strained much, and names landmarks with which it would be hardly strained if they
+/// were exchanged, as left and right.
+void warn_of_strain(double strain, const PairContext& sketches, const Surface& A, const Surface& B,
+                    const VertexPairs<MeshVertex>& landmarks, double share, const LocateParams& params) {
+    const PartSide side = params.part;
+    const bool is_source = side == PartSide::source;
+    warn(
+        "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it, and are the landmarks "
+        "right? look at the picture, and give more landmarks",
+        is_source ? "source" : "target", is_source ? "target" : "source", strain);
+    const Exchange exchange = likely_exchange(sketches, is_source ? std::sqrt(share) : 1 / std::sqrt(share));
+    if (exchange.empty()) return;
+    const PairContext other(sketches.A(), sketches.B(), exchanged(sketches.landmarks(), exchange),
+                            sketches.landmark_weight());
+    const Sides surface(A, B, exchanged(landmarks, exchange), side);
+    const double otherwise =
+        find_on_surfaces(other, surface, std::min(1.0, surface.size().share), params).placement.strain;
+    log("landmarks {} exchanged: strain {:.4f}", exchanged_in_words(exchange), otherwise);
+    if (otherwise < std::min(strain / 2, much_strain))
+        warn(
+            "landmarks {} look exchanged: with their partners exchanged the part is strained by {:.2f} "
+            "only; are they left and right?",
+            exchanged_in_words(exchange), otherwise);
 }
 
 /// That of the part, which is no larger than the whole.
-double known_share(const PartSize& size, PartSide part) {
+double known_share(const PartSize& size, const Sides& surface, PartSide part) {
     log("the part has {:.1f}% of the whole's area; lengths of the whole are {:.3g} times its own",
         100 * size.share, size.scale);
-    constexpr double larger = 1.1;
+    constexpr double larger = 1.1, tiny = 1e-3;
+    const char* name = part == PartSide::source ? "source" : "target";
+    if (!surface.landmarks_tell() && (size.share > larger || size.share < tiny))
+        throw InputError(
+            fmt::format("the {} has {:.2g} times the area of the other: is it really the part (--part), and "
+                        "are both files in the same "
+                        "units? From three landmarks on sizes may differ (--landmarks)",
+                        name, size.share));
     if (size.share > larger)
         warn(
             "by its landmarks the {} has {:.2f} times the area of the other: is it really the part? See "
             "--part",
-            part == PartSide::source ? "source" : "target", size.share);
+            name, size.share);
     return std::min(1.0, size.share);
+}
+
+/// By how much right places were better than the best ones elsewhere, and wrong ones:
+/// stages/locate/README.md.
+constexpr double little_lead = 0.1;
+
+void warn_of_rivals(double lead, PartSide part) {
+    if (lead < little_lead)
+        warn(
+            "the {} agrees with another place of the {} nearly as well (by {:.2f} less): look at the "
+            "picture, and give "
+            "landmarks, three tell",
+            part == PartSide::source ? "source" : "target", part == PartSide::source ? "target" : "source",
+            lead);
 }
 
 }  // namespace
 
 Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
                const VertexPairs<MeshVertex>& landmarks, const LocateParams& params) {
-    const PartSide side = params.alternation.part;
-    require_enough(landmarks.size());
-    const Sides sketch(sketches.A().surface, sketches.B().surface, sketches.landmarks(), side);
+    const PartSide side = params.part;
     const Sides surface(A, B, landmarks, side);
     const PartSize size = surface.size();
-    const double share = known_share(size, side);
-    const Placement rough = find_placement(sketches, sketch, share, params);
-    const Placement placement =
-        pinned_placement(on_surfaces(rough.images, sketch, surface), surface, share, params.placing);
+    const double share = known_share(size, surface, side);
+    const FoundPlacement found = find_on_surfaces(sketches, surface, share, params);
+    const Placement& placement = found.placement;
+    warn_of_rivals(found.lead, side);
+    if (placement.strain > much_strain)
+        warn_of_strain(placement.strain, sketches, A, B, landmarks, share, params);
     FaceData<char> covered = covered_faces(placement.images, surface.part.mesh, surface.whole);
     add_landmarks(surface, covered);
     const TriangleMesh& whole = surface.whole.input;
@@ -134,7 +189,8 @@ Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
              on_files(placement.images, surface)},
             area,
             size.scale,
-            placement.strain};
+            placement.strain,
+            found.lead};
 }
 
 }  // namespace varimap

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "stages/locate/locate.h"
 #include "varimap/core/log.h"
 #include "varimap/pair_stage/pair_inputs.h"
@@ -7,19 +9,10 @@ using namespace varimap;
 
 namespace {
 
-/// stages/locate/README.md has what right parts and wrong ones were strained by.
-constexpr double much_strain = 0.12;
-
 void report(const Located& located, PartSide part) {
     const char* own = part == PartSide::source ? "source" : "target";
     const char* other = part == PartSide::source ? "target" : "source";
     log("the {} covers {:.1f}% of the {}, strain {:.3f}", own, 100 * located.share, other, located.strain);
-    if (located.strain > much_strain)
-        warn(
-            "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it, and are the "
-            "landmarks "
-            "right? look at the picture, and give more landmarks",
-            own, other, located.strain);
 }
 
 Surface read_surface(Stage& stage, const PairInputs& sketches, const std::string& side,
@@ -33,7 +26,7 @@ Surface read_surface(Stage& stage, const PairInputs& sketches, const std::string
 
 int main(int argc, char** argv) {
     LocateParams params;
-    Stage stage("locate", "Where a part lies on its whole, by landmarks");
+    Stage stage("locate", "Where a part lies on its whole");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     PairInputs sketches(stage, "placing.");  // other sketches than those of varimap-explore
     const std::string& surface_A = stage.input("sketched.A", "the source, of which the sketch was made");
@@ -44,7 +37,7 @@ int main(int argc, char** argv) {
                      "varimap-diffuse --placed begins");
     const auto& landmark_files = stage.input_list_option("landmarks", "as for varimap-diffuse", 1, 2);
     return stage.main(argc, argv, [&] {
-        if (params.alternation.part == PartSide::none) throw UsageError("--part: say source or target");
+        if (params.part == PartSide::none) throw UsageError("--part: say source or target");
         SurfaceData sketch_A = sketches.read_A(stage), sketch_B = sketches.read_B(stage);
         const Surface A = read_surface(stage, sketches, "A", surface_A),
                       B = read_surface(stage, sketches, "B", surface_B);
@@ -52,10 +45,11 @@ int main(int argc, char** argv) {
         const auto at_vertices = to_mesh_vertices(landmarks.vertices, A, B);
         const PairContext context = pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, 1);
         const Located located = locate(context, A, B, at_vertices, params);
-        report(located, params.alternation.part);
+        report(located, params.part);
         stage.record_number("area_percent", 100 * located.share);
         stage.record_number("scale", located.scale);
         stage.record_number("strain", located.strain);
+        if (std::isfinite(located.lead)) stage.record_number("lead", located.lead);
         stage.write(out, located.region);
     });
 }

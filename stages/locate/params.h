@@ -1,23 +1,19 @@
 #pragma once
 
-#include "stages/locate/placement.h"
-#include "varimap/multilevel/ironing.h"
+#include "stages/locate/sides.h"
 #include "varimap/pair_stage/alternation_params.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {
 
 struct LocateParams {
-    AlternationOptions alternation;  ///< with the side of the part; its share is set where it is known
-    IroningOptions ironing;
+    PartSide part = PartSide::none;
     PlacingOptions placing;
     LandmarkSpace landmark_space = LandmarkSpace::stated;
-    double enough = 0.05;  ///< strain of a try on sketches after which no others follow
+    double enough = 0.05;  ///< strain by landmarks, on sketches, from which on no others are tried
 
     void describe(ParameterList& list) {
-        list.add("part", alternation.part, "which surface is a part of the other: source or target");
-        describe_exact(list, alternation);
-        varimap::describe(list, ironing);
+        list.add("part", part, "which surface is a part of the other: source or target");
         list.add("placing_steps", placing.steps,
                  "relaxation steps that place the part, in each of two rounds", 0, 10000);
         list.add("robustness", placing.robustness,

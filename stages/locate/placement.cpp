@@ -8,7 +8,6 @@
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
-#include "varimap/relaxation/relief_agreement.h"
 
 namespace varimap {
 
@@ -48,17 +47,18 @@ void relax(SlidingMap& map, const VertexData<bool>& pinned, const ReliefAgreemen
 }  // namespace
 
 Placement placed(const PointMap& images, const TriangleMesh& part, const TriangleMesh& whole,
-                 const VertexData<bool>& pinned, double share, bool opposed, const PlacingOptions& options) {
+                 const VertexData<bool>& pinned, double share, const std::vector<ReliefPair>& reliefs,
+                 const PlacingOptions& options) {
     SlidingMap map(images, part, whole);
     if (!has_all_images(map)) return {images};
     std::vector<int> faces(std::size_t(part.face_count()));
     std::iota(faces.begin(), faces.end(), 0);
     map.scale_rest(faces, share);
-    const ReliefAgreement relief(map, options.relief_weight * share, opposed);
+    const ReliefAgreement relief(map, options.relief_weight * share, reliefs);
     for (const Round& round : rounds)
         relax(map, pinned, options.relief_weight > 0 ? &relief : nullptr, round, options);
     const RobustEnergy energy({1, rounds.back().regularisation}, options.robustness);
-    return {map.points(), mean_energy(map, energy)};
+    return {map.points(), mean_energy(map, energy), relief.correlation()};
 }
 
 }  // namespace varimap

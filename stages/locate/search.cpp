@@ -1,94 +1,126 @@
 #include "stages/locate/search.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "stages/locate/agreement.h"
+#include "stages/locate/anchors.h"
+#include "stages/locate/rigid_search.h"
 #include "stages/locate/starts.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
-#include "varimap/multilevel/descent.h"
-#include "varimap/multilevel/descriptor_terms.h"
-#include "varimap/multilevel/solved_map.h"
 
 namespace varimap {
 
 namespace {
 
-/// Of the descriptors, one for each plan: no weights found the right place of all parts that were tried.
-constexpr std::array<DescriptorWeights, 6> weights_of_plans{
-    {{.25, 4}, {1, 0}, {1, 4}, {.25, 0}, {0, 0}, {0, 4}}};
-/// Always as many, so that results do not depend on the threads.
-constexpr std::size_t tries_at_a_time = 2;
+constexpr std::size_t improved = 3;   ///< placements that are placed again
+constexpr int most_improvements = 4;  ///< of each
+constexpr double least_gain = 1e-3;   ///< of the agreement
+/// Mean distance of placements that are elsewhere, in units of sqrt(area) of the part.
+constexpr double elsewhere = 0.15;
 
-/// The map of a plan that is solved for down the levels that can hold on to a map.
-MapPair solve(const PairContext& context, const LandmarkDistances& distances,
-              const DescriptorWeights& weights, const LocateParams& params, double share) {
-    AlternationOptions alternation = params.alternation;
-    alternation.part_share = share;
-    Descent descent(context, alternation, params.ironing);
-    Solution solution;
-    const int first = first_level_for_a_map(context);
-    const auto go_on = [&](LevelPair level, bool is_first, bool is_ironed) {
-        add_descriptor_terms(level, context, weights);
-        descent.enter(std::move(level));
-        AlternatingMinimization minimization = descent.settled(
-            is_first ? Start{centres_of(descent.level(),
-                                        distances.matching(descent.level(), params.alternation.part)),
-                             {}}
-                     : descent.hand_down(solution.plan));
-        if (is_ironed) descent.ironing().iron(descent.level(), minimization, unobserved, params.ironing);
-        solution = minimization.take_solution();
-    };
-    for (int l = first; l < context.diffusion_levels(); ++l)
-        go_on(context.diffusion_level(l), l == first, true);
-    const int last = context.euclidean_levels() - 1;
-    for (int l = 0; l <= last; ++l) go_on(context.euclidean_level(l, l < last ? 1 : 0), false, l < last);
-    return solved_map(solution, descent.level(), context, 1);
-}
+struct Rated {
+    Placement placement;
+    double agreement;
+};
 
-/// The images that the n-th try places the part from.
-PointMap images_of_try(std::size_t n, const LandmarkDistances& distances, const PairContext& sketches,
-                       const Sides& sides, double share, const LocateParams& params) {
-    if (n == 0) return rigid_images(sides, share);
-    if (n == 1) return distances.images(sides.whole.mesh);
-    MapPair maps = solve(sketches, distances, weights_of_plans[n - 2], params, share);
-    return std::move(params.alternation.part == PartSide::source ? maps.A_to_B : maps.B_to_A);
-}
+class PlacementSearch {
+  public:
+    PlacementSearch(const Sketches& sketches, const Sides& sides, double share, const LocateParams& params)
+        : sketches_(sketches),
+          sides_(sides),
+          share_(share),
+          params_(params),
+          reliefs_(sides.reliefs()),
+          agreement_(sketches, sides, share) {}
 
-/// Times the option's relief weight: with much of it the part follows its like where it can, with little it
-/// comes there from afar.
-constexpr std::array<double, 2> relief_factors{0.5, 1.5};
-
-Placement best_placement(const PointMap& images, const Sides& sides, double share, PlacingOptions options) {
-    const double weight = options.relief_weight;
-    Placement best;
-    for (const double factor : relief_factors) {
-        options.relief_weight = factor * weight;
-        Placement other = pinned_placement(images, sides, share, options);
-        if (best.images.empty() || other.strain < best.strain) best = std::move(other);
+    FoundPlacement run() const {
+        std::vector<Rated> found;
+        if (sides_.landmarks_tell()) {
+            found = placed({rigid_images(sides_, share_), images_by_landmarks(sketches_, sides_, share_)},
+                           {relief_factors.begin(), relief_factors.end()});
+            if (found.front().placement.strain < params_.enough) return {std::move(found.front().placement)};
+        }
+        for (Rated& one : placed(rigid_guesses(sketches_, sides_, share_), {1}))
+            found.push_back(std::move(one));
+        sort(found);
+        parallel_for_each_index(std::min(improved, found.size()), std::size_t(1),
+                                [&](std::size_t k) { improve(found[k]); });
+        sort(found);
+        for (const Rated& one : found)
+            log("placed: agreement {:.3f}, relief {:.2f}, strain {:.3f}", one.agreement, one.placement.relief,
+                one.placement.strain);
+        FoundPlacement best{found.front().placement};
+        if (!sides_.landmarks_tell()) best.lead = lead_of(found);
+        return best;
     }
-    return best;
-}
+
+  private:
+    Rated rated(const PointMap& images, double relief_factor) const {
+        PlacingOptions options = params_.placing;
+        options.relief_weight *= relief_factor;
+        Placement placement = pinned_placement(images, sides_, share_, reliefs_, options);
+        const double agreement = agreement_(placement);
+        return {std::move(placement), agreement};
+    }
+    static void sort(std::vector<Rated>& list) {
+        std::stable_sort(list.begin(), list.end(),
+                         [](const Rated& a, const Rated& b) { return a.agreement > b.agreement; });
+    }
+    /// From each of the images, with each of the reliefs; the best first.
+    std::vector<Rated> placed(const std::vector<PointMap>& images,
+                              const std::vector<double>& relief_factors_of_each) const {
+        const std::size_t each = relief_factors_of_each.size();
+        std::vector<Rated> list(images.size() * each);
+        parallel_for_each_index(list.size(), std::size_t(1), [&](std::size_t k) {
+            list[k] = rated(images[k / each], relief_factors_of_each[k % each]);
+        });
+        sort(list);
+        return list;
+    }
+    void improve(Rated& one) const {
+        for (int i = 0; i < most_improvements; ++i) {
+            const PointMap images = images_by_anchors(one.placement.images, sketches_, share_);
+            const double before = one.agreement;
+            for (const double factor : relief_factors)
+                if (Rated other = rated(images, factor); other.agreement > one.agreement + least_gain)
+                    one = std::move(other);
+            if (!(one.agreement > before)) break;
+        }
+    }
+    double lead_of(const std::vector<Rated>& sorted) const {
+        const Rated& best = sorted.front();
+        const auto other = std::find_if(sorted.begin(), sorted.end(), [&](const Rated& one) {
+            return distance(best.placement, one.placement) > elsewhere;
+        });
+        return other == sorted.end() ? std::numeric_limits<double>::infinity()
+                                     : best.agreement - other->agreement;
+    }
+    /// Mean distance of the images, in units of sqrt(area) of the part.
+    double distance(const Placement& a, const Placement& b) const {
+        double sum = 0;
+        for (std::size_t v = 0; v < a.images.size(); ++v)
+            sum +=
+                sides_.part.mass[Eigen::Index(v)] *
+                (position(sides_.whole.mesh, a.images[v]) - position(sides_.whole.mesh, b.images[v])).norm();
+        return sum / sides_.part.mass.sum() / std::sqrt(share_);
+    }
+
+    const Sketches& sketches_;
+    const Sides& sides_;
+    double share_;
+    const LocateParams& params_;
+    std::vector<ReliefPair> reliefs_;
+    PlacementAgreement agreement_;
+};
 
 }  // namespace
 
-Placement find_placement(const PairContext& sketches, const Sides& sides, double share,
-                         const LocateParams& params) {
-    const LandmarkDistances distances(sides, share);
-    Placement best;
-    for (std::size_t first = 0; first < weights_of_plans.size() + 2; first += tries_at_a_time) {
-        std::array<Placement, tries_at_a_time> placed;
-        parallel_for_each_index(tries_at_a_time, std::size_t(1), [&](std::size_t k) {
-            placed[k] = best_placement(images_of_try(first + k, distances, sketches, sides, share, params),
-                                       sides, share, params.placing);
-        });
-        for (std::size_t k = 0; k < tries_at_a_time; ++k) {
-            log("try {}: strain {:.4f}", first + k + 1, placed[k].strain);
-            if (best.images.empty() || placed[k].strain < best.strain) best = std::move(placed[k]);
-        }
-        if (best.strain < params.enough) break;
-    }
-    return best;
+FoundPlacement find_placement(const Sketches& sketches, const Sides& sides, double share,
+                              const LocateParams& params) {
+    return PlacementSearch(sketches, sides, share, params).run();
 }
 
 }  // namespace varimap

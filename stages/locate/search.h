@@ -1,17 +1,25 @@
 #pragma once
 
+#include <limits>
+
 #include "stages/locate/params.h"
-#include "stages/locate/sides.h"
-#include "varimap/multilevel/pair_context.h"
+#include "stages/locate/sketches.h"
 
 namespace varimap {
 
-/// The part placed on its whole, on sketches: of several tries that with the least strain. Each places the
-/// part, free at its rim (placement.h), from other images: where it lies as a rigid body, where distances to
-/// the landmarks are alike, and those of plans that leave the rest of the whole out (PartSide,
-/// alternating_minimization.h), with other weights of the descriptors each. Distances to landmarks, of which
-/// descriptors are made, are in units of either mesh. `share`: of the whole's area, which the part has.
-Placement find_placement(const PairContext& sketches, const Sides& sides, double share,
-                         const LocateParams& params);
+struct FoundPlacement {
+    Placement placement;
+    /// How much better it agrees (agreement.h) than the best one that is elsewhere; infinite where landmarks
+    /// told where it is.
+    double lead = std::numeric_limits<double>::infinity();
+};
+
+/// The part placed on its whole, on sketches, free at its rim (placement.h). With three landmarks or more,
+/// from where it lies when it is moved as a rigid body to them, and where distances to them are alike; that
+/// is all if it is hardly strained. Else also from where it fits as a rigid body (rigid_search.h). What
+/// agrees best is placed again by its sounder half (anchors.h), as long as that makes it better. `share`: of
+/// the whole's area, which the part has. Deterministic for any number of threads.
+FoundPlacement find_placement(const Sketches& sketches, const Sides& sides, double share,
+                              const LocateParams& params);
 
 }  // namespace varimap

@@ -1,13 +1,22 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "stages/locate/part_size.h"
 #include "stages/locate/placement.h"
+#include "varimap/core/enum_names.h"
 #include "varimap/mesh/vertex_index.h"
-#include "varimap/transport/alternating_minimization.h"
+#include "varimap/quality/image_mesh.h"
 
 namespace varimap {
+
+/// Which surface is a part of the other.
+enum class PartSide : int { none = 0, source = 1, target = 2 };
+template <>
+struct EnumNames<PartSide> {
+    static constexpr std::array names{"none", "source", "target"};
+};
 
 /// A part and its whole, whichever of them is the source, with vertices that are landmarks.
 struct Sides {
@@ -21,11 +30,18 @@ struct Sides {
             landmarks_whole.push_back(which == PartSide::source ? b.index : a.index);
         }
     }
+    /// Whether landmarks say where the part is.
+    bool landmarks_tell() const { return landmarks_part.size() >= 3; }
     PartSize size() const { return part_size(part, landmarks_part, whole, landmarks_whole); }
     bool are_opposed() const { return part.mirrored != whole.mirrored; }
+    /// What the placements between these sides have in common.
+    std::vector<ReliefPair> reliefs() const {
+        return relief_pairs(unit_area(part.mesh), unit_area(whole.mesh), are_opposed());
+    }
 };
 
-/// Places the part on the whole from images of its vertices, with landmarks pinned.
-Placement pinned_placement(PointMap images, const Sides& sides, double share, const PlacingOptions& options);
+/// Places the part on the whole from images of its vertices, with landmarks pinned. `reliefs`: of the sides.
+Placement pinned_placement(PointMap images, const Sides& sides, double share,
+                           const std::vector<ReliefPair>& reliefs, const PlacingOptions& options);
 
 }  // namespace varimap

@@ -11,10 +11,6 @@ namespace varimap {
 
 namespace {
 
-RowMatrix distances(const TriangleMesh& mesh, const std::vector<int>& landmarks) {
-    return distances_from_each(GeodesicGraph(mesh), landmarks).transpose();
-}
-
 /// The row that is most like x; differences count relative to the distance.
 int most_alike(const Eigen::RowVectorXd& x, const RowMatrix& rows) {
     constexpr double least = 0.1;
@@ -26,26 +22,18 @@ int most_alike(const Eigen::RowVectorXd& x, const RowMatrix& rows) {
 
 }  // namespace
 
-LandmarkDistances::LandmarkDistances(const Sides& sides, double share)
-    : part_(std::sqrt(share) * distances(sides.part.mesh, sides.landmarks_part)),
-      whole_(distances(sides.whole.mesh, sides.landmarks_whole)) {}
-
-Matching LandmarkDistances::matching(const LevelPair& pair, PartSide which) const {
-    const RowMatrix &of_A = which == PartSide::source ? part_ : whole_,
-                    &of_B = which == PartSide::source ? whole_ : part_;
-    const RowMatrix a = of_A(pair.A.level.samples, Eigen::all), b = of_B(pair.B.level.samples, Eigen::all);
-    Matching matching;
-    for (int i = 0; i < a.rows(); ++i) matching.emplace_back(i, most_alike(a.row(i), b));
-    for (int j = 0; j < b.rows(); ++j) matching.emplace_back(most_alike(b.row(j), a), j);
-    return matching;
-}
-
-PointMap LandmarkDistances::images(const TriangleMesh& whole) const {
+PointMap images_alike_far(const RowMatrix& of_part, const RowMatrix& of_whole, const TriangleMesh& whole) {
     const PointMap vertices = points_at_vertices(whole);
     PointMap images;
-    for (int v = 0; v < part_.rows(); ++v)
-        images.push_back(vertices[std::size_t(most_alike(part_.row(v), whole_))]);
+    for (Eigen::Index v = 0; v < of_part.rows(); ++v)
+        images.push_back(vertices[std::size_t(most_alike(of_part.row(v), of_whole))]);
     return images;
+}
+
+PointMap images_by_landmarks(const Sketches& sketches, const Sides& sides, double share) {
+    return images_alike_far(
+        std::sqrt(share) * distances_from_each(sketches.part.graph, sides.landmarks_part).transpose(),
+        distances_from_each(sketches.whole.graph, sides.landmarks_whole).transpose(), sides.whole.mesh);
 }
 
 PointMap rigid_images(const Sides& sides, double share) {

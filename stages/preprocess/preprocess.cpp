@@ -28,21 +28,10 @@ struct Normalised {
 Normalised normalise(const TriangleMesh& input, Surface& surface) {
     surface.centre = area_centroid(input);
     surface.scale = 1 / std::sqrt(surface_area(input));
-    Normalised result;
-    std::vector<int>& vertex_of_input = result.vertex_of_input;
-    vertex_of_input.assign(input.vertex_count(), -1);
-    for (int s = 0; s < 3 * input.face_count(); ++s) vertex_of_input[input.faces.data()[s]] = 0;
-    TriangleMesh& mesh = result.mesh;
-    mesh.vertices.resize(input.vertex_count(), 3);
-    int used = 0;
-    for (int v = 0; v < input.vertex_count(); ++v) {
-        if (vertex_of_input[v] < 0) continue;
-        mesh.vertices.row(used) = ((input.vertex(v) - surface.centre) * surface.scale).transpose();
-        vertex_of_input[v] = used++;
-    }
-    mesh.vertices.conservativeResize(used, 3);
-    mesh.faces = input.faces.unaryExpr([&](int v) { return vertex_of_input[v]; });
-    return result;
+    UsedVertices used = used_vertices(input.faces, input.vertex_count());
+    Points vertices = input.vertices(used.vertex, Eigen::all);
+    vertices.rowwise() -= surface.centre.transpose();
+    return {{vertices * surface.scale, std::move(used.faces)}, std::move(used.number)};
 }
 
 void log_edge_lengths(const char* when, const TriangleMesh& mesh) {

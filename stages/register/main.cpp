@@ -11,10 +11,13 @@ using namespace varimap;
 struct RegisterParams {
     int components = 5;
     bool scale = true;
+    LandmarkSpace landmark_space = LandmarkSpace::stated;
 
     void describe(ParameterList& list) {
         list.add("components", components, "principal components to write", 0, 1000);
         list.add("scale", scale, "bring all specimens to one size before shapes are compared");
+        list.add("landmark_space", landmark_space,
+                 "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
     }
 };
 
@@ -44,9 +47,12 @@ int main(int argc, char** argv) {
     const auto& manifest =
         stage.input("manifest", "JSON of varimap register: templates, specimens and their maps");
     const auto& out = stage.option("out", "folder for the results");
+    const bool& check = stage.flag(
+        "check", "only read the landmarks of the templates in the manifest, before there are maps");
     return stage.main(argc, argv, [&] {
+        if (check) return check_landmarks(manifest, params.landmark_space);
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
-        const Registration all = read_registration(manifest);
+        const Registration all = read_registration(manifest, params.landmark_space);
         const CommonPart common = common_part(all.first, all.points);
         const ResultFolder folder(stage, out);
         write_points(folder, all, common);

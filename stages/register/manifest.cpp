@@ -10,7 +10,6 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
-#include "varimap/landmarks/landmark_points.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
@@ -25,31 +24,14 @@ std::string text_of(const Json& object, const char* key) {
     return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : std::string();
 }
 
-TemplateLandmarks read_listed_landmarks(const std::string& path, const TriangleMesh& mesh) {
+TemplateLandmarks read_template_landmarks(const std::string& path, const TriangleMesh& mesh,
+                                          LandmarkSpace space) {
     TemplateLandmarks result;
-    for (const auto& [vertex, name] : read_named_vertices(path, IndexBase::automatic, &mesh)) {
+    for (const auto& [name, point] : read_placed_landmarks(path, mesh, space)) {
         result.add_name(name);
-        result.points.push_back(point_at_vertex(mesh, vertex));
+        result.points.push_back(point);
     }
     return result;
-}
-
-TemplateLandmarks read_picked_landmarks(const std::string& path, const TriangleMesh& mesh) {
-    TemplateLandmarks result;
-    std::vector<Vec3> positions;
-    for (const PickedPoint& point : read_picked_points(path)) {
-        if (!point.defined) continue;
-        result.add_name(point.name);
-        positions.push_back(in_axes_of(mesh, point, LandmarkSpace::stated));
-    }
-    Snapped snapped = snap(positions, mesh);
-    require_near(snapped, positions, mesh, path, "landmarks");
-    result.points = std::move(snapped.points);
-    return result;
-}
-
-TemplateLandmarks read_template_landmarks(const std::string& path, const TriangleMesh& mesh) {
-    return is_picked_points(path) ? read_picked_landmarks(path, mesh) : read_listed_landmarks(path, mesh);
 }
 
 Answer read_answer(const Json& entry, const std::string& specimen, const TriangleMesh& first) {
@@ -97,22 +79,23 @@ PointMap in_order_of(const TemplateLandmarks& first, TemplateLandmarks own, cons
 }
 
 /// The first template's landmarks on the template of an answer: by a file of its own where it has one.
-PointMap landmarks_on_template_of(const Answer& answer, const std::string& own_file,
-                                  const Registration& all) {
+PointMap landmarks_on_template_of(const Answer& answer, const std::string& own_file, const Registration& all,
+                                  LandmarkSpace space) {
     if (answer.from_first.empty()) return all.landmarks->points;
     if (own_file.empty()) return carried_landmarks(all.landmarks->points, all.first, answer);
-    return in_order_of(*all.landmarks, read_template_landmarks(own_file, answer.map.from), own_file);
+    return in_order_of(*all.landmarks, read_template_landmarks(own_file, answer.map.from, space), own_file);
 }
 
 /// `path`: of the manifest. The meshes and maps of a specimen are let go before the next one's are read.
-void add_specimen(const Json& specimen, const std::string& path, Registration& all) {
+void add_specimen(const Json& specimen, const std::string& path, LandmarkSpace space, Registration& all) {
     const std::string name = text_of(specimen, "name");
     std::vector<Answer> answers;
     std::vector<PointMap> landmarks;  // on the template of each answer
     for (const Json& entry : specimen.at("answers")) {
         answers.push_back(read_answer(entry, text_of(specimen, "mesh"), all.first));
         if (all.landmarks)
-            landmarks.push_back(landmarks_on_template_of(answers.back(), text_of(entry, "landmarks"), all));
+            landmarks.push_back(
+                landmarks_on_template_of(answers.back(), text_of(entry, "landmarks"), all, space));
     }
     if (answers.empty()) throw InputError(path + ": " + name + ": no answers");
     log("{}: {} answers", name, answers.size());
@@ -122,6 +105,25 @@ void add_specimen(const Json& specimen, const std::string& path, Registration& a
     if (all.landmarks) all.transferred.push_back(transfer_landmarks(answers, landmarks));
 }
 
+/// Further templates that cannot be read are no reason to make no maps of the first.
+std::optional<TriangleMesh> mesh_if_readable(const std::string& path) {
+    try {
+        return read_mesh(path);
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
+/// `read` of the manifest, whatever of it is not there or something else.
+template <class Read>
+void with_manifest(const std::string& path, const Read& read) {
+    try {
+        read(Json::parse(read_file(path)));
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(path + ": not a manifest of varimap register: " + error.what());
+    }
+}
+
 }  // namespace
 
 void TemplateLandmarks::add_name(const std::string& name) {
@@ -129,19 +131,29 @@ void TemplateLandmarks::add_name(const std::string& name) {
     names.push_back(name.empty() ? std::to_string(names.size() + 1) : name);
 }
 
-Registration read_registration(const std::string& path) {
+Registration read_registration(const std::string& path, LandmarkSpace space) {
     Registration all;
-    try {
-        const Json manifest = Json::parse(read_file(path));
+    with_manifest(path, [&](const Json& manifest) {
         all.first = read_mesh(text_of(manifest, "template"));
         const std::string landmarks = text_of(manifest, "landmarks");
-        if (!landmarks.empty()) all.landmarks = read_template_landmarks(landmarks, all.first);
-        for (const Json& specimen : manifest.at("specimens")) add_specimen(specimen, path, all);
-    } catch (const nlohmann::json::exception& error) {
-        throw InputError(path + ": not a manifest of varimap register: " + error.what());
-    }
+        if (!landmarks.empty()) all.landmarks = read_template_landmarks(landmarks, all.first, space);
+        for (const Json& specimen : manifest.at("specimens")) add_specimen(specimen, path, space, all);
+    });
     if (all.names.empty()) throw InputError(path + ": no specimens");
     return all;
+}
+
+void check_landmarks(const std::string& path, LandmarkSpace space) {
+    with_manifest(path, [&](const Json& manifest) {
+        std::optional<TemplateLandmarks> first;
+        for (const Json& entry : manifest.at("templates")) {
+            const std::string file = text_of(entry, "landmarks"), mesh = text_of(entry, "template");
+            if (!first)
+                first = read_template_landmarks(file, read_mesh(mesh), space);
+            else if (const auto further = mesh_if_readable(mesh))
+                in_order_of(*first, read_template_landmarks(file, *further, space), file);
+        }
+    });
 }
 
 }  // namespace varimap

@@ -105,10 +105,16 @@ void warn_of_landmarks(const LandmarkQuality& landmarks) {
     warn_of_shift(is_off, is_exchanged);
 }
 
-void warn_of_choice(const ChoiceQuality& choice, std::size_t candidates) {
+/// What to give where the map is doubtful.
+const char* landmarks_to_give(const PairRecord& record) {
+    return record.landmarks.empty() ? "landmarks" : "more landmarks";
+}
+
+void warn_of_choice(const ChoiceQuality& choice, const PairRecord& record) {
     if (choice.when_found.confident && !choice.finished.confident)
-        warn("the map is less sure than its candidate was ({}): look at the picture, {}or give landmarks",
-             choice.doubt, candidates > 1 ? "try --candidate 2, " : "");
+        warn("the map is less sure than its candidate was ({}): look at the picture, {}or give {}",
+             choice.doubt, record.candidates.size() > 1 ? "try --candidate 2, " : "",
+             landmarks_to_give(record));
 }
 
 /// Distortion is measured on the input's faces: one much longer than high is sheared by the least shift of a
@@ -132,13 +138,15 @@ bool tears(const DirectionQuality& direction) {
            direction.coverage.share < little_covered;
 }
 
-void warn_of_tears(const DirectionQuality& direction, const char* which, const std::string& slivers) {
-    if (tears(direction))
-        warn("{}: the map tears: {:.1f}% of the area is reversed, {:.1f}% of the other surface covered. {}",
-             which, direction.verification.reversed_area_percent, 100 * direction.coverage.share,
-             !slivers.empty() ? slivers
-                              : "Is one a part of the other, or do they have different parts? Look at the "
-                                "picture, give landmarks");
+void warn_of_tears(const DirectionQuality& direction, const char* which, const std::string& slivers,
+                   const PairRecord& record) {
+    if (!tears(direction)) return;
+    const std::string cause = fmt::format(
+        "Is one a part of the other, or do they have different parts? Look at the picture, give {}",
+        landmarks_to_give(record));
+    warn("{}: the map tears: {:.1f}% of the area is reversed, {:.1f}% of the other surface covered. {}",
+         which, direction.verification.reversed_area_percent, 100 * direction.coverage.share,
+         slivers.empty() ? cause : slivers);
 }
 
 /// Right maps between whole surfaces of the known pairs have 1.32 at most, four-legged animals of other
@@ -157,10 +165,10 @@ void warn_of_strain(double dirichlet, const std::string& slivers) {
 
 void warn_of(const MapQuality& quality, const PairRecord& record) {
     if (record.pins_landmarks()) warn_of_landmarks(quality.landmarks);
-    if (quality.choice) warn_of_choice(*quality.choice, record.candidates.size());
+    if (quality.choice) warn_of_choice(*quality.choice, record);
     const std::string slivers = slivers_in_words(quality);
-    warn_of_tears(quality.A_to_B, "source to target", slivers);
-    warn_of_tears(quality.B_to_A, "target to source", slivers);
+    warn_of_tears(quality.A_to_B, "source to target", slivers, record);
+    warn_of_tears(quality.B_to_A, "target to source", slivers, record);
     if (!tears(quality.A_to_B) && !tears(quality.B_to_A))
         warn_of_strain(quality.in_the_end.dirichlet, slivers);
 }

@@ -83,7 +83,7 @@ std::string name_line(const TextRows& list) {
 
 int vertex_number(const TextRow& row, const std::string& path, int count, const char* what) {
     long long number = -1;
-    if (!to_integer(row.words[0], number) || number < 0 || number >= count)
+    if (!to_index(row.words[0], number) || number < 0 || number >= count)
         throw InputError(fmt::format("{}:{}: '{}' is not one of the mesh's {} {}, counted from 0", path,
                                      row.line, excerpt(row.words[0]), count, what));
     return int(number);

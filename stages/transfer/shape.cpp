@@ -33,10 +33,8 @@ struct WeldedMesh {
 /// The faces that name no vertex twice.
 TriangleMesh without_degenerate_faces(const TriangleMesh& mesh) {
     std::vector<int> kept;
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto corner = mesh.faces.row(f);
-        if (corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0]) kept.push_back(f);
-    }
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (!repeats_vertex(mesh.faces, f)) kept.push_back(f);
     return {mesh.vertices, mesh.faces(kept, Eigen::all), mesh.space};
 }
 

@@ -1,6 +1,7 @@
 #include "stages/transfer/text_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "varimap/core/error.h"
@@ -111,6 +112,15 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
 bool is_index_name(std::string_view name) {
     const std::string lower = lower_case(name);
     return lower == "vertex" || lower == "face" || lower == "index" || lower == "id" || lower.empty();
+}
+
+bool to_index(std::string_view word, long long& index) {
+    constexpr double exact = 9007199254740992;  // 2^53
+    if (to_integer(word, index)) return true;
+    double value;
+    if (!to_number(word, value) || std::abs(value) >= exact || value != std::floor(value)) return false;
+    index = static_cast<long long>(value);
+    return true;
 }
 
 std::string join(const std::vector<std::string>& words, char separator) {

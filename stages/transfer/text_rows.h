@@ -31,6 +31,9 @@ struct TextRows {
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content);
 /// Whether a column of that name numbers the rows, or holds numbers of vertices or faces.
 bool is_index_name(std::string_view name);
+/// The whole word as an integer, also where it is written as a float, as NumPy writes all numbers
+/// (0.000000000000000000e+00); false if it is none, or too large for a float to tell it from the next.
+bool to_index(std::string_view word, long long& index);
 /// A line, without its end, of which split_rows makes these words, in quotes where they need some.
 std::string join(const std::vector<std::string>& words, char separator);
 

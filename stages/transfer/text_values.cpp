@@ -21,7 +21,8 @@ bool any_number(const TextRow& row) {
 
 /// Whether the row begins with the number of the first, and goes on.
 bool is_first_number(const TextRow& row) {
-    return row.words.size() > 1 && row.words[0] == "0";
+    long long number;
+    return row.words.size() > 1 && to_index(row.words[0], number) && number == 0;
 }
 
 /// Words stand for numbers where values are labels.
@@ -71,7 +72,7 @@ double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& 
 void require_number(const TextRow& row, std::size_t number, const std::string& name,
                     const std::string& path) {
     long long found;
-    if (!to_integer(row.words[0], found) || found != static_cast<long long>(number))
+    if (!to_index(row.words[0], found) || found != static_cast<long long>(number))
         throw InputError(fmt::format(
             "{}:{}: number '{}' where {} should stand: the column '{}' numbers the rows, in their "
             "order from 0; call one that holds values otherwise",

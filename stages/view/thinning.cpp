@@ -1,6 +1,7 @@
 #include "stages/view/thinning.h"
 
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "varimap/core/error.h"
@@ -8,6 +9,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/coarsening.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -27,17 +29,9 @@ Shown whole(const TriangleMesh& mesh) {
 
 /// The surface without the vertices that no face uses.
 Shown used_part(const TriangleMesh& mesh) {
-    std::vector<int> number(std::size_t(mesh.vertex_count()), -1);
-    for (const int v : mesh.faces.reshaped()) number[std::size_t(v)] = 0;
-    Shown shown;
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (number[std::size_t(v)] == 0) {
-            number[std::size_t(v)] = int(shown.vertex.size());
-            shown.vertex.push_back(v);
-        }
-    shown.mesh = {mesh.vertices(shown.vertex, Eigen::all), mesh.faces, mesh.space};
-    for (int& v : shown.mesh.faces.reshaped()) v = number[std::size_t(v)];
-    return shown;
+    UsedVertices used = used_vertices(mesh.faces, mesh.vertex_count());
+    return {{mesh.vertices(used.vertex, Eigen::all), std::move(used.faces), mesh.space},
+            std::move(used.vertex)};
 }
 
 Shown shown_of(const TriangleMesh& mesh, const std::string& file, int most) {

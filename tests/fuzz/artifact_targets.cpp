@@ -97,6 +97,9 @@ void use(const Candidates& read) {
 
 void use(const PartRegion& read) {
     if (read.faces.back() >= read.face_count) throw std::logic_error("a face is none of the whole's");
+    if (read.face_count != surface().input.face_count()) return;
+    const RepairedMesh cut = cropped({surface().input, {}, {}}, read);
+    if (cut.link.face != read.faces) throw std::logic_error("other faces are cut out");
 }
 
 void use(const QualityNumbers& read) {
@@ -238,7 +241,7 @@ std::vector<Target> artifact_targets() {
             artifact(diffusion()),
             artifact(plan()),
             artifact(candidates()),
-            artifact(PartRegion{9, {1, 2, 5, 8}, true, point_map()}),
+            artifact(PartRegion{surface().input.face_count(), {1, 2, 5, 8}, true, point_map()}),
             artifact(SurfaceMap{point_map(), point_map(), {}}),
             artifact(QualityNumbers{
                 R"({"energy": 0.5, "landmarks": [0, 1e-3], "levels": [{"kind": "diffusion"}]})"}),

@@ -42,6 +42,22 @@ jq -e '.part | .is == "target" and .area_percent > 40 and .area_percent < 75' ba
 "$VARIMAP_BIN/varimap-evaluate" whole.off back/target_to_source.csv used.txt used.txt --index-base 0 --json 2>log |
     jq -e '.mean < .03 and .maximum < .2' >/dev/null || fail "the target is elsewhere"
 
+# Without landmarks, and with one: the part tells where it belongs.
+head -n 1 tips.txt >one.txt
+for landmarks in '' '--landmarks one.txt'; do
+    # shellcheck disable=SC2086
+    map part.off whole.off -o free $landmarks --part source
+    "$VARIMAP_BIN/varimap-evaluate" whole.off free/source_to_target.csv used.txt used.txt --index-base 0 --json 2>log |
+        jq -e '.mean < .03 and .maximum < .2' >/dev/null || fail "the part is elsewhere: $landmarks"
+    jq -e '.part.lead > .1 and (has("exploration") | not or .exploration == null)' free/quality.json >/dev/null || fail "how sure it is: $landmarks"
+    ! grep -q '^warning' free/log.txt || fail "a warning in vain: $(grep '^warning' free/log.txt)"
+done
+# Files of other units have no part of each other.
+awk 'NF == 3 && /[.]/ { print $1 * 40, $2 * 40, $3 * 40; next } { print }' part.off >large.off
+code=0
+"$varimap" map large.off whole.off -o other --part source >log 2>&1 || code=$?
+((code == 3)) && grep -q 'same units' log || fail "other units: exit code $code, $(<log)"
+
 # As far as the place of the part, with axes of landmarks that all stages get.
 map whole.off part.off -o back --landmarks tips.txt --part target --until locate --landmark-space lps
 expect_ran locate
@@ -61,9 +77,8 @@ refused() {  # WORDS ARGUMENTS
     ((code == 2)) || fail "${*:2}: exit code $code instead of 2"
     grep -q -- "$1" log || fail "${*:2}: does not say '$1'"
 }
-head -n 2 tips.txt >two.txt
-refused 'needs --landmarks' --part source
 refused 'say source or target' --part whole --landmarks tips.txt
+refused "part '': say source or target" --part '' --landmarks tips.txt
 refused '--until locate needs --part' --until locate --landmarks tips.txt
 refused 'locate.part=target: part is not a parameter' --part source --landmarks tips.txt --set locate.part=target
 printf '[locate]\npart = "target"\n[preprocess]\nfill_holes = "all"\n' >bad.toml
@@ -75,7 +90,6 @@ for all in '--fill-holes all' '--set preprocess.fill_holes=all'; do
     refused "$all: with --part" --part source --landmarks tips.txt $all
 done
 [[ ! -e bad ]] || fail "what is refused left files"
-refused 'three' --part source --landmarks two.txt
 # A number of edges is taken, and counts more than the file.
 map part.off whole.off -o filled --landmarks tips.txt --part source --config bad.toml --fill-holes 3 --until preprocess
 ! make -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=part.off TARGET=whole.off OUT=made until-locate >log 2>&1 || fail "until-locate without PART"

@@ -48,6 +48,15 @@ register template.off meshes -o out --landmarks-from points -j 1
 grep -q '4 done already' log || fail "maps were made again"
 for file in points.npy aligned.npy landmarks.csv specimens.csv components.csv mean.ply; do same "out/$file" "before/$file"; done
 
+# Of two meshes with one name the second gets a number; landmarks, which go by names, would be the same.
+mkdir same
+cp meshes/s1.off same/template.off
+register "${coarse[@]}" template.off same -o named -j 2
+grep -q '^register: warning: other names.* same/template.off is template-2$' log || fail "another name is not told"
+[[ -s named/specimens/template-2.csv && -s named/maps/pairs/template--template-2/quality.json ]] || fail "the second of one name"
+expect_exit 3 "$varimap" register "${small_picture[@]}" template.off same -o none --landmarks-from points
+grep -q 'another mesh is called template' log || fail "landmarks of two meshes"
+
 # What cannot be done leaves the results as they are.
 for modes in five -1 1.5 1001; do
     expect_exit 2 "$varimap" register "${small_picture[@]}" template.off meshes -o out --landmarks-from points --modes $modes
@@ -140,6 +149,32 @@ expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --landmarks
 expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates template.off
 grep -q 'register: error: template.off: .* twice' log || fail "the template as a further one"
 expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates other.off ./other.off
+
+# Landmarks may be points, of the template and of the specimens, by their names; whatever could not be carried is refused before a map
+# is made.
+mkdir places wrong
+for mesh in template other meshes/s1; do
+    { echo name,x,y,z
+        while read -r v; do echo "tip $v,$(vertices $mesh.off | sed -n "$((v + 1))p" | tr ' ' ,)"; done <points/template.txt; } >"places/${mesh##*/}.csv"
+done
+register template.off meshes/s1.off meshes/s2.off -o placed "${coarse[@]}" --landmarks-from places --templates other.off
+[[ $(cut -d , -f 2 placed/landmarks.csv | sed -n 2p) == "tip $(head -n 1 points/template.txt)" ]] || fail "names of landmarks that are points"
+cut -d , -f 2-4 places/template.csv | tail -n +2 | tr , ' ' >wrong/template.txt
+register template.off meshes/s1.off meshes/s2.off -o placed "${coarse[@]}" --landmarks-from places --points-from wrong --templates other.off
+grep -q '5 done already' log || fail "points to carry make maps anew"
+awk '{ print $1 + 50, $2, $3 }' wrong/template.txt >far.txt && mv far.txt wrong/template.txt
+for folder in landmarks-from points-from; do
+    expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --$folder wrong
+    grep -q 'register: error: .*/wrong/template.txt:[0-9]*: .* lie farther' log || fail "points far from the template, --$folder"
+done
+expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --landmarks-from wrong --points-from points
+cp places/template.csv wrong && rm wrong/template.txt
+sed 's/^tip/top/' places/other.csv >wrong/other.csv
+expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --points-from wrong --templates other.off
+grep -q "register: error: .*/wrong/other.csv: 'tip .* is not there" log || fail "other names on a further template"
+printf '1 2\n3 4\n' >wrong/template.csv
+expect_exit 3 "$varimap" register template.off meshes/s1.off -o none --points-from wrong
+grep -q 'register: error: .*/wrong/template.csv:1: expected a vertex number' log || fail "pairs instead of a list"
 
 # Options of maps are looked at first; what a run writes is not what the next one reads.
 for option in --set=eigen.cout=3 --area-bound=0.5 --mirror -j9999; do

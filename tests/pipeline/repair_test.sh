@@ -48,6 +48,7 @@ grep -q 'warning  preprocess a-spoiled: repaired: ' out.txt || fail "what was re
 map a-spoiled.off b-spoiled.off -o part-elsewhere --artifacts elsewhere --until preprocess
 grep -q 'warning  preprocess a-spoiled: repaired: ' out.txt || fail "what was repaired is not said of artifacts elsewhere"
 map a-spoiled.off b-spoiled.off -o out --landmarks tips-spoiled.txt
+cp out.txt summary.txt
 grep -q 'warning  preprocess a-spoiled: repaired: .* welded, .* dropped, .* turned, 1 component left out' out.txt ||
     fail "what was repaired is not said"
 jq -e '.stages["preprocess a-spoiled"] | .welded_vertices > 1000 and .not_finite_faces == 1 and .degenerate_faces == 1
@@ -169,6 +170,8 @@ LIST
 "$varimap" report out >report.txt 2>log || fail "report"
 grep -q '^verdict  look here: before you use this map, see what preprocess a-spoiled warns of; what preprocess b-spoiled warns of' report.txt ||
     fail "what to look at is not said: $(head -n 1 report.txt)"
+# So said the run that made the map.
+grep -qxF -- "$(head -n 1 report.txt)" summary.txt || fail "the summary does not say what the report says: $(<summary.txt)"
 
 # Which meshes are taken, and what is repaired.
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 0\n3 0 1 0\n' >nothing.off

@@ -78,6 +78,11 @@ check_front_end() {  # VARIMAP
     says "bench-list FOLDER PAIRS" "$1" bench-list --help
     says "varimap batch LIST" "$1" batch --help
     says "varimap register TEMPLATE" "$1" register --help
+    says "LANDMARKS" "$1" help landmark
+    says "CARRYING THINGS OVER" "$1" help transfers
+    says "--count" "$1" help eig
+    expect_exit 2 "$1" help re
+    grep -q 'error: no help on re; did you mean one of: .*register .*results?' log || fail "the nearest topics"
     expect_exit 2 "$1" help nothing
     expect_exit 2 "$1" help ../map
     expect_exit 2 "$1" nothing
@@ -93,7 +98,7 @@ grep -q 'survey: error: empty: no mesh there' log || fail "a folder without mesh
 # From an installed prefix, and through a link to it.
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
-cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,script.sh,progress.sh,bench,bench-list,debian-meshes,gallery,plot,register,scaling,selftest,torus} prefix/share/varimap
+cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,summary.jq,script.sh,progress.sh,bench,bench-list,debian-meshes,gallery,plot,register,scaling,selftest,torus} prefix/share/varimap
 cp -r "$VARIMAP_SOURCE/pipelines/batch" prefix/share/varimap
 cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap

@@ -514,6 +514,12 @@ TEST(Starts, SwapsExchangeRowsPairwise) {
     EXPECT_EQ(swapped[1].value, (Eigen::VectorXd(6) << 4, 5, 2, 3, 0, 1).finished());
 }
 
+TEST(Confidence, NeverCallsAMapImpossible) {
+    EXPECT_EQ(probability_in_words({.probability = .914}), "right with a probability of 0.91");
+    EXPECT_EQ(probability_in_words({.probability = .0099}), "right with a probability below 0.01");
+    EXPECT_EQ(probability_in_words({.probability = 0}), "right with a probability below 0.01");
+}
+
 TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     const Candidate best{.dirichlet = 1, .relief = .9, .score = -30},
         rival{.dirichlet = 1.2, .relief = .7, .score = -24, .moved_mass = .8};

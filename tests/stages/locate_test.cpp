@@ -1,12 +1,16 @@
 #include "stages/locate/locate.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "fixtures/shapes.h"
 #include "fixtures/surface_data.h"
 #include "stages/coarsen/coarsen.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {
@@ -51,12 +55,11 @@ struct Pair {
                 best = v;
         return best;
     }
-    Located locate(bool part_is_source, std::size_t count = 4) const {
+    Located locate(bool part_is_source) const { return locate(part_is_source, landmarks); }
+    Located locate(bool part_is_source, const Landmarks& used) const {
         const Surface &A = part_is_source ? part : whole, &B = part_is_source ? whole : part;
-        Landmarks used = landmarks;
-        used.vertices.resize(count, landmarks.vertices.front());
         LocateParams params;
-        params.alternation.part = part_is_source ? PartSide::source : PartSide::target;
+        params.part = part_is_source ? PartSide::source : PartSide::target;
         const auto sketch = [&](const Surface& surface) {
             return shapes::surface_data(sketch_of(surface, &surface == &part ? 400 : 700), 60);
         };
@@ -98,8 +101,71 @@ TEST(LocateStage, FindsThePartOnTheWhole) {
     }
 }
 
-TEST(LocateStage, NeedsThreeLandmarks) {
-    EXPECT_THROW(Pair().locate(true, 2), UsageError);
+TEST(LocateStage, FindsThePartWithFewLandmarksOrNone) {
+    const Pair pair;
+    for (const std::size_t count : {0u, 2u}) {
+        Landmarks few = pair.landmarks;
+        few.vertices.resize(count);
+        const std::size_t before = logged_warnings().size();
+        const Located place = pair.locate(count == 0, few);
+        EXPECT_GT(pair.overlap(place.region), .9) << count;
+        EXPECT_LT(place.strain, .1) << count;
+        EXPECT_LT(pair.mean_error(place.region), .03) << count;
+        EXPECT_GT(place.lead, .1) << count;
+        EXPECT_TRUE(std::isfinite(place.lead)) << count;
+        EXPECT_EQ(logged_warnings().size(), before) << count;
+    }
+}
+
+TEST(LocateStage, DoesNotGuessBetweenUnits) {
+    Pair pair;
+    for (const double factor : {.02, 10.}) {
+        pair.part.input.vertices *= factor;
+        pair.part = preprocess(pair.part.input, {});
+        EXPECT_THROW(pair.locate(true, {}), InputError) << factor;
+        pair.part.input.vertices /= factor;
+    }
+}
+
+/// Nothing tells one end of an ellipsoid from the other.
+TEST(LocateStage, SaysThatThePartMayLieElsewhere) {
+    const TriangleMesh whole = shapes::ellipsoid(4, Vec3(2, 1, 1));
+    std::vector<int> faces;
+    for (int f = 0; f < whole.face_count(); ++f)
+        if (whole.vertices(whole.faces.row(f), 0).minCoeff() > .8) faces.push_back(f);
+    const Surface part = preprocess(TriangleMesh{whole.vertices, whole.faces(faces, Eigen::all)}, {}),
+                  all = preprocess(whole, {});
+    LocateParams params;
+    params.part = PartSide::source;
+    const std::size_t before = logged_warnings().size();
+    const Located place = locate(pair_context(shapes::surface_data(sketch_of(part, 200), 60),
+                                              shapes::surface_data(sketch_of(all, 600), 60), {}, 1),
+                                 part, all, {}, params);
+    EXPECT_LT(std::abs(place.lead), .05);
+    ASSERT_EQ(logged_warnings().size(), before + 1);
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("agrees with another place"));
+}
+
+TEST(LocateStage, SaysWhichLandmarksAreExchanged) {
+    const Pair pair;
+    Landmarks exchanged = pair.landmarks;
+    std::swap(exchanged.vertices[1].second, exchanged.vertices[3].second);
+    const std::size_t before = logged_warnings().size();
+    pair.locate(false, exchanged);
+    ASSERT_EQ(logged_warnings().size(), before + 2);
+    EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 2 and 4 look exchanged"));
+}
+
+/// A part that does not fit is no reason to suspect its landmarks.
+TEST(LocateStage, DoesNotCallRightLandmarksExchanged) {
+    Pair pair;
+    pair.whole.input.vertices.col(1) *= 2.5;
+    pair.whole = preprocess(pair.whole.input, {});
+    const std::size_t before = logged_warnings().size();
+    EXPECT_GT(pair.locate(true).strain, .12);
+    ASSERT_EQ(logged_warnings().size(), before + 1);
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("had to be strained"));
 }
 
 }  // namespace

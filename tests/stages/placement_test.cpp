@@ -5,6 +5,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/quality/image_mesh.h"
 
 namespace varimap {
 namespace {
@@ -31,7 +32,8 @@ struct Pair {
     }
 
     Placement result() const {
-        return placed(start, part, whole, VertexData<bool>(part.vertex_count()), share, false, {});
+        return placed(start, part, whole, VertexData<bool>(part.vertex_count()), share,
+                      relief_pairs(unit_area(part), whole), {});
     }
     double mean_error(const PointMap& map) const {
         double sum = 0, count = 0;
@@ -62,7 +64,9 @@ TEST(Placement, IsStrainedWhereItDoesNotFit) {
     VertexData<bool> pinned(pair.part.vertex_count());
     for (const int v : pair.part.faces.reshaped())
         if (v % 20 == 0) pinned[v] = true;
-    EXPECT_GT(placed(pair.start, pair.part, pair.whole, pinned, .5 * pair.share, false, {}).strain,
+    EXPECT_GT(placed(pair.start, pair.part, pair.whole, pinned, .5 * pair.share,
+                     relief_pairs(unit_area(pair.part), pair.whole), {})
+                  .strain,
               10 * right + .01);
 }
 

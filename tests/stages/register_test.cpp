@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -196,11 +197,11 @@ TEST(Manifest, PickedLandmarksFarFromTheTemplateAreRefused) {
     write_file_atomically(folder / "manifest", R"({"template": ")" + (folder / "template.ply") +
                                                    R"(", "landmarks": ")" + (folder / "far.pp") + R"("})");
     try {
-        read_registration(folder / "manifest");
+        read_registration(folder / "manifest", LandmarkSpace::stated);
         FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(),
-                    HasSubstr("far.pp: 1 of 1 landmarks lie farther than 0.02 from the surface"));
+                    HasSubstr("far.pp:1: 1 of 1 landmarks lie farther than 0.02 from the surface"));
     }
 }
 
@@ -223,7 +224,7 @@ class FurtherTemplate : public ::testing::Test {
                               R"(, "answers": [{"template": )" + path("body.ply") + R"(, "there": )" +
                               path("same.csv") + R"(, "back": )" + path("same.csv") + R"(, "from_first": )" +
                               path("same.csv") + R"(, "landmarks": )" + path("own.csv") + "}]}]}");
-        return read_registration(folder_ / "manifest");
+        return read_registration(folder_ / "manifest", LandmarkSpace::stated);
     }
     std::string refusal(const std::string& first, const std::string& own) {
         try {
@@ -247,6 +248,33 @@ TEST_F(FurtherTemplate, LandmarksBelongTogetherByTheirNames) {
 TEST_F(FurtherTemplate, LandmarksWithoutNamesBelongTogetherRowByRow) {
     const Registration all = registration("nose,5\ntail,50\n", "6\n51\n");
     EXPECT_LT((all.transferred[0].positions.row(1) - body().vertices.row(51)).norm(), 1e-9);
+}
+
+std::string at(const TriangleMesh& mesh, int vertex, const char* separator) {
+    const Vec3 place = mesh.vertex(vertex);
+    return fmt::format("{}{}{}{}{}\n", place[0], separator, place[1], separator, place[2]);
+}
+
+TEST_F(FurtherTemplate, LandmarksMayBePoints) {
+    const Registration all =
+        registration("name,x,y,z\nnose," + at(body(), 5, ",") + "tail," + at(body(), 50, ","),
+                     at(body(), 6, " ") + at(body(), 51, " "));
+    EXPECT_THAT(all.landmarks->names, ElementsAre("nose", "tail"));
+    EXPECT_LT((position(body(), all.landmarks->points[1]) - body().vertex(50)).norm(), 1e-9);
+    EXPECT_LT((all.transferred[0].positions.row(1) - body().vertices.row(51)).norm(), 1e-9);
+}
+
+TEST_F(FurtherTemplate, LandmarksAreReadInTheAxesThatWereAskedFor) {
+    std::string turned;
+    for (const int v : {5, 50, 90}) {
+        const Vec3 place = body().vertex(v);
+        turned += fmt::format("{} {} {}\n", -place[0], -place[1], place[2]);
+    }
+    write("turned.txt", turned);
+    write("manifest", R"({"templates": [{"template": ")" + (folder_ / "body.ply") + R"(", "landmarks": ")" +
+                          (folder_ / "turned.txt") + R"("}]})");
+    EXPECT_NO_THROW(check_landmarks(folder_ / "manifest", LandmarkSpace::ras));
+    EXPECT_THROW(check_landmarks(folder_ / "manifest", LandmarkSpace::stated), InputError);
 }
 
 TEST_F(FurtherTemplate, RefusesLandmarksOfOtherNames) {

@@ -1,5 +1,6 @@
 #include "stages/remesh/remesh.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -289,6 +290,17 @@ TEST(RemeshWarnings, AreOfLandmarksThenOfTheChoiceThenOfTears) {
               std::string::npos);
     EXPECT_NE(said[3].find("target to source: the map tears: 0.0% of the area is reversed, 50.0%"),
               std::string::npos);
+}
+
+TEST(RemeshWarnings, AskForMoreLandmarksWhereThereAreSome) {
+    PairRecord record;
+    record.candidates.resize(2);
+    EXPECT_THAT(said_of(doubtful_quality(), record),
+                testing::Each(testing::Not(testing::HasSubstr("more landmarks"))));
+    record.landmarks = {{MeshVertex{0}, MeshVertex{0}}};
+    const auto said = said_of(doubtful_quality(), record);
+    EXPECT_THAT(said[1], testing::HasSubstr("try --candidate 2, or give more landmarks"));
+    EXPECT_THAT(said[2], testing::HasSubstr("Look at the picture, give more landmarks"));
 }
 
 TEST(RemeshWarnings, SayStrainWhereNothingTearsAndNothingOfSoftLandmarks) {

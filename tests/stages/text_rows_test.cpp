@@ -35,6 +35,18 @@ TEST(TextRows, CommentsBeginLinesAndStandBehindNumbers) {
                 ElementsAre(Words{"nose #1", "0", "0", "1"}));
 }
 
+TEST(TextRows, AnIndexMayBeAFloatThatIsExact) {
+    const auto index = [](std::string_view word) {
+        long long found = -1;
+        return to_index(word, found) ? found : -1;
+    };
+    EXPECT_EQ(index("12"), 12);
+    EXPECT_EQ(index("0.000000000000000000e+00"), 0);
+    EXPECT_EQ(index("4.711e+03"), 4711);
+    for (const char* word : {"0.5", "4.7115e+03", "1e300", "9007199254740992.0", "nan", "inf", "arm", ""})
+        EXPECT_EQ(index(word), -1) << word;
+}
+
 TEST(TextRows, TheFirstLineTellsTheSeparator) {
     EXPECT_THAT(rows("a, b ,\n1,,3\r\n"), ElementsAre(Words{"a", "b", ""}, Words{"1", "", "3"}));
     EXPECT_THAT(rows("a;b c\n1;2,5\n"), ElementsAre(Words{"a", "b c"}, Words{"1", "2,5"}));

@@ -32,6 +32,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 PointMap closest_points(const Points& positions, const TriangleMesh& mesh) {
     const ClosestPoint closest(mesh);
@@ -654,6 +655,28 @@ TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
     request.values = {write("id.csv", "id,heat\n" + by_turns("7,1", "8,2"))};
     EXPECT_THAT(refusal(request, map),
                 HasSubstr("id.csv:2: number '7' where 0 should stand: the column 'id' numbers the rows"));
+}
+
+TEST_F(Transfer, NumbersOfRowsMayBeWrittenAsFloats) {
+    const auto table = [&](const std::string& value, double shift = 0) {
+        std::string rows = "vertex,x\n";
+        for (int v = 0; v < ball_.vertex_count(); ++v) rows += fmt::format("{:.18e},{}\n", v + shift, value);
+        return rows;
+    };
+    const Correspondence map = identity(ball_);
+    TransferRequest request;
+    request.values = {write("heat.csv", table("2"))};
+    request.labels = {write("parts.csv", table("arm"))};
+    request.weights = {write("skin.csv", table("1"))};
+    request.points = {write("points.txt", "7.000000000000000000e+00\n")};
+    auto carried = carry(request, map);
+    EXPECT_THAT(carried.at("heat.csv"), StartsWith("vertex,x\n0,2\n1,2\n"));
+    EXPECT_THAT(carried.at("parts.csv"), StartsWith("vertex,x\n0,arm\n1,arm\n"));
+    EXPECT_THAT(carried.at("skin.csv"), StartsWith("vertex,x\n0,1\n1,1\n"));
+    EXPECT_EQ(carried.at("points.txt"), "7\n");
+    request = {};
+    request.values = {write("heat.csv", table("2", .5))};
+    EXPECT_THAT(refusal(request, map), HasSubstr("heat.csv:2: number '5.000000000000000000e-01' where 0"));
 }
 
 TEST_F(Transfer, CarriesRegions) {

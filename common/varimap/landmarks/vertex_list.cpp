@@ -264,17 +264,18 @@ SurfacePoint place_of(const Named& named, const TriangleMesh& mesh) {
     return named.point ? *named.point : point_at_vertex(mesh, named.vertex);
 }
 
-/// A vertex of a component that is not mapped has no face of the mesh either.
 void require_used(const std::vector<Named>& list, const std::string& path, const char* role,
-                  const TriangleMesh& mesh) {
+                  const TriangleMesh& mesh, const std::vector<VertexFate>& fates) {
     std::vector<bool> used(size_t(mesh.vertex_count()), mesh.face_count() == 0);  // points of no surface
     for (int v : mesh.faces.reshaped()) used[size_t(v)] = true;
-    for (const Named& named : list)
-        if (named.vertex != no_vertex && !used[size_t(named.vertex)])
-            throw InputError(fmt::format(
-                "{}: {} vertex {} belongs to no face that is mapped: no face of the file names it, or its "
-                "component is left out; choose another, or map that component (varimap help meshes)",
-                row_of(path, named.line).place, role, named.vertex));
+    for (const Named& named : list) {
+        const auto v = size_t(named.vertex);
+        if (named.vertex == no_vertex || used[v]) continue;
+        const VertexFate fate = fates.empty() ? VertexFate::unused : fates[v];
+        throw InputError(fmt::format("{}: {} vertex {} belongs to no face that is mapped: {}; choose another",
+                                     row_of(path, named.line).place, role, named.vertex,
+                                     reason_without_face(fate)));
+    }
 }
 
 void require_distinct(const std::vector<Named>& list, const std::string& path, const char* role) {
@@ -293,17 +294,19 @@ void require_distinct(const std::vector<Named>& list, const std::string& path, c
 
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
     std::vector<int> vertices;
-    for (const ListedVertex& listed : read_named_vertices(path, base, mesh))
-        vertices.push_back(listed.vertex);
+    for (const Named& named : vertices_of_list(read_list_rows(path), path, base, mesh))
+        vertices.push_back(named.vertex);
     return vertices;
 }
 
-std::vector<ListedVertex> read_named_vertices(const std::string& path, IndexBase base,
-                                              const TriangleMesh* mesh) {
-    std::vector<ListedVertex> vertices;
-    for (const Named& named : vertices_of_list(read_list_rows(path), path, base, mesh))
-        vertices.push_back({named.vertex, named.name});
-    return vertices;
+std::vector<PlacedLandmark> read_placed_landmarks(const std::string& path, const TriangleMesh& mesh,
+                                                  LandmarkSpace space) {
+    const std::vector<Named> list = read_side(path, mesh, space);
+    require_used(list, path, "landmark", mesh, {});
+    std::vector<PlacedLandmark> landmarks;
+    for (const Named& named : list)
+        if (named.vertex != no_vertex) landmarks.push_back({named.name, place_of(named, mesh)});
+    return landmarks;
 }
 
 PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, const TriangleMesh& target) {
@@ -319,7 +322,9 @@ bool holds_points(const std::string& path) {
 }
 
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input, LandmarkSpace space, Repeats repeats) {
+                         const TriangleMesh& target_input, LandmarkSpace space, Repeats repeats,
+                         const std::vector<VertexFate>& source_fates,
+                         const std::vector<VertexFate>& target_fates) {
     if (files.size() != 1 && files.size() != 2)
         throw UsageError(
             "landmarks: give one file of pairs, or a list for the source and one for the target");
@@ -332,7 +337,7 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
         lists[side] = are_pairs ? side_of_pairs(pairs, path, side, *meshes[side], space)
                                 : read_side(path, *meshes[side], space);
         const char* role = side == 0 ? "source" : "target";
-        require_used(lists[side], path, role, *meshes[side]);
+        require_used(lists[side], path, role, *meshes[side], side == 0 ? source_fates : target_fates);
         if (repeats == Repeats::refuse) require_distinct(lists[side], path, role);
     }
     Landmarks landmarks;

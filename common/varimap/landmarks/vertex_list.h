@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "varimap/landmarks/landmark_points.h"
+#include "varimap/mesh/file_link.h"
 #include "varimap/mesh/io/index_base.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/mesh/vertex_index.h"
@@ -18,13 +19,15 @@ namespace varimap {
 /// out of range) or an empty file.
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
 
-struct ListedVertex {
-    int vertex;
-    std::string name;  ///< empty where the line has none
+/// A landmark of one surface.
+struct PlacedLandmark {
+    std::string name;  ///< empty where the file has none
+    SurfacePoint point;
 };
-/// The same with the lines' names.
-std::vector<ListedVertex> read_named_vertices(const std::string& path, IndexBase base,
-                                              const TriangleMesh* mesh);
+/// Those of a list for one surface, as read_landmarks reads it. Points that are switched off or not defined
+/// are left out, with a warning; several may be in one place. Throws as read_landmarks does.
+std::vector<PlacedLandmark> read_placed_landmarks(const std::string& path, const TriangleMesh& mesh,
+                                                  LandmarkSpace space);
 
 /// Whether a file holds points of one surface rather than numbers of vertices: picked points, or x y z in the
 /// first row. Throws as the readers do.
@@ -52,9 +55,11 @@ enum class Repeats { refuse, allow };
 /// distance is logged. Points that are switched off or not defined are left out with their partners. Throws
 /// InputError also where most points lie far from the surface, naming the likely cause, for a different
 /// number of rows, a vertex that no face uses or, unless that is allowed, that two rows name; UsageError for
-/// any other number of files.
+/// any other number of files. `source_fates`, `target_fates`: of the vertices (FileLink), by which errors say
+/// why one has no face; empty where the mesh has all faces of its file.
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
                          const TriangleMesh& target_input, LandmarkSpace space = LandmarkSpace::stated,
-                         Repeats repeats = Repeats::refuse);
+                         Repeats repeats = Repeats::refuse, const std::vector<VertexFate>& source_fates = {},
+                         const std::vector<VertexFate>& target_fates = {});
 
 }  // namespace varimap

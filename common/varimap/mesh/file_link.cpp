@@ -78,6 +78,21 @@ PointMap from_file(const PointMap& map, const FileLink& source, const FileLink& 
     return result;
 }
 
+const char* reason_without_face(VertexFate fate) {
+    switch (fate) {
+        case VertexFate::unused:
+            return "no face of the file names it";
+        case VertexFate::not_finite:
+            return "a coordinate of it is not a number";
+        case VertexFate::component_dropped:
+            return "its component is left out (varimap help meshes)";
+        case VertexFate::outside_part:
+            return "it lies outside of the part that is mapped";
+        default:
+            return "its faces were dropped by the repair (varimap help meshes)";
+    }
+}
+
 FileLink link_to_itself(const TriangleMesh& mesh) {
     FileLink link{mesh, std::vector<int>(std::size_t(mesh.vertex_count())), {}, {}, {}, {}};
     std::iota(link.vertex.begin(), link.vertex.end(), 0);

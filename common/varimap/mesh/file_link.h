@@ -28,6 +28,9 @@ struct EnumNames<VertexFate> {
         "outside_part"};
 };
 
+/// Why no face of the mesh has a vertex of the file, in words: "no face of the file names it".
+const char* reason_without_face(VertexFate fate);
+
 /// The way from a repaired mesh back to its file, whose vertices and faces users count. Where nothing was
 /// repaired the mesh is as the file has it, and all of this is empty.
 struct FileLink {

@@ -6,7 +6,6 @@
 
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/private/disjoint_sets.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -44,10 +43,8 @@ void refuse_not_finite(const TriangleMesh& mesh, const std::string& path) {
 
 void refuse_degenerate_faces(const TriangleMesh& mesh, const std::string& path) {
     Defect defect;
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const int a = mesh.faces(f, 0), b = mesh.faces(f, 1), c = mesh.faces(f, 2);
-        if (a == b || b == c || c == a) defect.add(f);
-    }
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (repeats_vertex(mesh.faces, f)) defect.add(f);
     if (defect.count > 0)
         throw InputError(fmt::format("{}: {} faces name a vertex twice, the first is face {}; remove them",
                                      path, defect.count, defect.first));
@@ -81,23 +78,12 @@ void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edge
         path, defect.count, a, b));
 }
 
-/// The faces around a vertex are one fan where its corners hang together over the edges at it. Edges have one
-/// or two sides, and those run in opposite directions.
+/// Edges have one or two sides, and those run in opposite directions.
 void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
-    const auto next = [](int corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
-    DisjointSets fans(3 * mesh.face_count());
-    for (int e = 0; e < edges.size(); ++e) {
-        const auto sides = edges.sides[e];
-        if (sides.size() < 2) continue;
-        fans.join(sides[0], next(sides[1]));
-        fans.join(next(sides[0]), sides[1]);
-    }
-    VertexData<int> fans_at(mesh.vertex_count(), 0);
-    for (int c = 0; c < 3 * mesh.face_count(); ++c)
-        if (fans.lowest(c) == c) ++fans_at[mesh.faces(c / 3, c % 3)];
+    const VertexData<int> fans = count_fans(mesh, edges, FaceData<char>(mesh.face_count(), 1));
     Defect defect;
     for (int v = 0; v < mesh.vertex_count(); ++v)
-        if (fans_at[v] > 1) defect.add(v);
+        if (fans[v] > 1) defect.add(v);
     if (defect.count > 0)
         throw InputError(
             fmt::format("{}: at {} vertices the faces form more than one fan, the first is vertex {}; "

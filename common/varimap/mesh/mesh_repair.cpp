@@ -141,8 +141,7 @@ void Repair::drop_not_finite() {
 
 void Repair::drop_degenerate() {
     std::vector<char> keep;
-    for (const auto corner : faces_.rowwise())
-        keep.push_back(corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0]);
+    for (int f = 0; f < int(faces_.rows()); ++f) keep.push_back(!repeats_vertex(faces_, f));
     counts_.degenerate += keep_faces(keep);
     require_faces();
 }
@@ -234,21 +233,15 @@ RepairedMesh Repair::result() const {
     RepairedMesh result;
     result.counts = counts_;
     FileLink& link = result.link;
-    std::vector<int> number(origin_.size(), -1);
-    for (const int v : faces_.reshaped()) number[std::size_t(v)] = 0;
-    for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] < 0) continue;
-        number[v] = int(link.origin.size());
-        link.origin.push_back(origin_[v]);
-    }
-    const Faces corners = faces_.unaryExpr([&](int v) { return number[std::size_t(v)]; });
-    result.mesh = {file_.vertices(link.origin, Eigen::all), corners, file_.space};
+    const UsedVertices used = used_vertices(faces_, int(origin_.size()));
+    for (const int v : used.vertex) link.origin.push_back(origin_[std::size_t(v)]);
+    result.mesh = {file_.vertices(link.origin, Eigen::all), used.faces, file_.space};
     for (int f = 0; f < result.mesh.face_count(); ++f)
         if (turned_[std::size_t(f)]) std::swap(result.mesh.faces(f, 1), result.mesh.faces(f, 2));
     link.file = file_;
     link.face = number_;
     link.turned = turned_;
-    find_fates(link, corners);
+    find_fates(link, used.faces);
     return result;
 }
 

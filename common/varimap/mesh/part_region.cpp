@@ -64,28 +64,13 @@ void drop_pieces(const TriangleMesh& mesh, const Edges& edges, FaceData<char>& m
             for (const int f : patch) marked[f] = 0;
 }
 
-/// Into how many fans a vertex's marked faces fall.
-int fans(std::span<const int> faces, int v, const Edges& edges, const FaceData<char>& marked) {
-    int count = 0, joints = 0;  // every joint of two marked faces is seen from both
-    for (const int f : faces) {
-        if (!marked[f]) continue;
-        ++count;
-        for (int c = 0; c < 3; ++c) {
-            const auto& ends = edges.vertices[std::size_t(edges.of_side[std::size_t(3 * f + c)])];
-            if (ends[0] != v && ends[1] != v) continue;
-            for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + c)]])
-                joints += side / 3 != f && marked[side / 3];
-        }
-    }
-    return count - joints / 2;
-}
-
 void open_pinches(const TriangleMesh& mesh, const Edges& edges, FaceData<char>& marked) {
     const Adjacency faces_of_vertex = vertex_faces(mesh);
     for (bool changed = true; changed;) {
         changed = false;
+        const VertexData<int> fans = count_fans(mesh, edges, marked);
         for (int v = 0; v < mesh.vertex_count(); ++v) {
-            if (fans(faces_of_vertex[v], v, edges, marked) < 2) continue;
+            if (fans[v] < 2) continue;
             changed = true;
             for (const int f : faces_of_vertex[v]) marked[f] = 1;
         }
@@ -112,26 +97,18 @@ RepairedMesh cropped(RepairedMesh whole, const PartRegion& region) {
     result.counts = whole.counts;
     FileLink& link = result.link;
     link.file = before.file;
-    std::vector<int> number(std::size_t(whole.mesh.vertex_count()), -1);
     for (const int f : region.faces) {
         link.face.push_back(before.face[std::size_t(f)]);
         link.turned.push_back(before.turned[std::size_t(f)]);
-        for (const int v : whole.mesh.faces.row(f)) number[std::size_t(v)] = 0;
     }
-    std::vector<int> kept;
-    for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] < 0) continue;
-        number[v] = int(kept.size());
-        kept.push_back(int(v));
-        link.origin.push_back(before.origin[v]);
-    }
-    const Faces corners = whole.mesh.faces(region.faces, Eigen::all);
-    result.mesh = {whole.mesh.vertices(kept, Eigen::all),
-                   corners.unaryExpr([&](int v) { return number[std::size_t(v)]; }), whole.mesh.space};
+    const UsedVertices kept =
+        used_vertices(whole.mesh.faces(region.faces, Eigen::all), whole.mesh.vertex_count());
+    for (const int v : kept.vertex) link.origin.push_back(before.origin[std::size_t(v)]);
+    result.mesh = {whole.mesh.vertices(kept.vertex, Eigen::all), kept.faces, whole.mesh.space};
     link.fate = before.fate;
     for (std::size_t v = 0; v < before.vertex.size(); ++v) {
         const int own = before.vertex[v];
-        link.vertex.push_back(own < 0 ? -1 : number[std::size_t(own)]);
+        link.vertex.push_back(own < 0 ? -1 : kept.number[std::size_t(own)]);
         const bool had_face = own >= 0 && before.fate[v] < VertexFate::unused;
         if (had_face && link.vertex.back() < 0) link.fate[v] = VertexFate::outside_part;
     }

@@ -61,6 +61,23 @@ std::vector<int> vertices_of(const TriangleMesh& mesh, std::span<const int> face
     return vertices;
 }
 
+UsedVertices used_vertices(const Faces& faces, int vertex_count) {
+    UsedVertices used{{}, std::vector<int>(std::size_t(vertex_count), -1), faces};
+    for (const int v : faces.reshaped()) used.number[std::size_t(v)] = 0;
+    for (int v = 0; v < vertex_count; ++v) {
+        if (used.number[std::size_t(v)] < 0) continue;
+        used.number[std::size_t(v)] = int(used.vertex.size());
+        used.vertex.push_back(v);
+    }
+    for (int& corner : used.faces.reshaped()) corner = used.number[std::size_t(corner)];
+    return used;
+}
+
+bool repeats_vertex(const Faces& faces, int f) {
+    const int a = faces(f, 0), b = faces(f, 1), c = faces(f, 2);
+    return a == b || b == c || c == a;
+}
+
 Adjacency vertex_neighbours(const TriangleMesh& mesh) {
     const Adjacency faces = vertex_faces(mesh);
     Adjacency result;
@@ -143,6 +160,21 @@ std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<ch
         parts.push_back(std::move(part));
     }
     return parts;
+}
+
+VertexData<int> count_fans(const TriangleMesh& mesh, const Edges& edges, const FaceData<char>& marked) {
+    const auto next = [](int corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+    DisjointSets fans(3 * mesh.face_count());  // of corners
+    for (int e = 0; e < edges.size(); ++e) {
+        const auto sides = edges.sides[e];
+        if (sides.size() < 2 || !marked[sides[0] / 3] || !marked[sides[1] / 3]) continue;
+        fans.join(sides[0], next(sides[1]));
+        fans.join(next(sides[0]), sides[1]);
+    }
+    VertexData<int> count(mesh.vertex_count(), 0);
+    for (int c = 0; c < 3 * mesh.face_count(); ++c)
+        if (marked[c / 3] && fans.lowest(c) == c) ++count[mesh.faces(c / 3, c % 3)];
+    return count;
 }
 
 std::vector<int> vertex_components(const TriangleMesh& mesh) {

@@ -29,6 +29,18 @@ Adjacency vertex_neighbours(const TriangleMesh& mesh);
 /// The vertices that some faces use, ascending.
 std::vector<int> vertices_of(const TriangleMesh& mesh, std::span<const int> faces);
 
+/// The vertices that faces use, numbered anew.
+struct UsedVertices {
+    std::vector<int> vertex;  ///< those that are used, ascending
+    std::vector<int> number;  ///< per vertex: where it stands among these; -1 where no face uses it
+    Faces faces;              ///< by these numbers
+};
+/// `vertex_count`: of all, used or not.
+UsedVertices used_vertices(const Faces& faces, int vertex_count);
+
+/// Whether a face names a vertex twice.
+bool repeats_vertex(const Faces& faces, int f);
+
 /// Per vertex: the length of its longest edge, which is as far as its faces go from it; 0 without a face.
 VertexData<double> longest_edges(const TriangleMesh& mesh);
 
@@ -58,6 +70,10 @@ inline SharedEdges find_shared_edges(const TriangleMesh& mesh) {
 
 /// Sets of marked faces that hang together over edges, by their lowest faces; each from that face outwards.
 std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked);
+
+/// Per vertex: how many fans its marked faces form, groups that hang together over the edges at it. Edges
+/// have one or two sides, and those run in opposite directions.
+VertexData<int> count_fans(const TriangleMesh& mesh, const Edges& edges, const FaceData<char>& marked);
 
 /// Per vertex: its connected component, numbered by lowest vertex from 0; -1 where no face uses it.
 std::vector<int> vertex_components(const TriangleMesh& mesh);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/mass.h"
@@ -58,41 +59,43 @@ double trust_in_relief(double correlation, bool sheets) {
     return std::clamp((correlation - none) / (full - none), 0.0, 1.0);
 }
 
-ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight, bool opposed)
-    : map_(map), weight_(weight * voronoi_masses(map.source())) {
-    const double unit =
-        std::max({least_scale, equilateral_edge(map.source()), equilateral_edge(map.target())});
+std::vector<ReliefPair> relief_pairs(const TriangleMesh& source, const TriangleMesh& target, bool opposed) {
+    const double unit = std::max({least_scale, equilateral_edge(source), equilateral_edge(target)});
+    std::vector<ReliefPair> pairs;
     for (const double scale : scales)
-        channels_.push_back(
-            {(opposed ? -1 : 1) * relief(map.source(), scale * unit), relief(map.target(), scale * unit)});
+        pairs.push_back({(opposed ? -1 : 1) * relief(source, scale * unit), relief(target, scale * unit)});
+    return pairs;
 }
+
+ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight, std::vector<ReliefPair> reliefs)
+    : map_(map), weight_(weight * voronoi_masses(map.source())), reliefs_(std::move(reliefs)) {}
 
 double ReliefAgreement::correlation() const {
     Eigen::VectorXd weight = weight_;
     for (int v = 0; v < int(weight.size()); ++v)
         if (!map_.has_image(v)) weight[v] = 0;
     double sum = 0;
-    for (const Channel& channel : channels_) {
+    for (const ReliefPair& pair : reliefs_) {
         Eigen::VectorXd there = Eigen::VectorXd::Zero(weight.size());
         for (int v = 0; v < int(weight.size()); ++v)
-            if (weight[v] > 0) there[v] = channel.source[v] - residual(channel, v);
-        sum += varimap::correlation(channel.source, there, weight);
+            if (weight[v] > 0) there[v] = pair.source[v] - residual(pair, v);
+        sum += varimap::correlation(pair.source, there, weight);
     }
-    return sum / double(channels_.size());
+    return sum / double(reliefs_.size());
 }
 
-double ReliefAgreement::residual(const Channel& channel, int v) const {
+double ReliefAgreement::residual(const ReliefPair& pair, int v) const {
     const SurfacePoint& image = map_.point(v);
     double there = 0;
     for (int k = 0; k < 3; ++k)
-        there += image.barycentric[k] * channel.target[map_.target().faces(image.face, k)];
-    return channel.source[v] - there;
+        there += image.barycentric[k] * pair.target[map_.target().faces(image.face, k)];
+    return pair.source[v] - there;
 }
 
 double ReliefAgreement::value(int v) const {
     double sum = 0;
-    for (const Channel& channel : channels_) {
-        const double r = residual(channel, v);
+    for (const ReliefPair& pair : reliefs_) {
+        const double r = residual(pair, v);
         sum += std::log1p(r * r / c2);
     }
     return weight_[v] * c2 / 2 * sum;
@@ -110,10 +113,10 @@ ReliefAgreement::Quadratic ReliefAgreement::derivatives(int v, const TangentFram
             target.vertex(target.faces(face, (k + 2) % 3)) - target.vertex(target.faces(face, (k + 1) % 3));
         slopes.col(k) = frame.transpose() * n.cross(opposite) / n.squaredNorm();
     }
-    for (const Channel& channel : channels_) {
+    for (const ReliefPair& pair : reliefs_) {
         Eigen::Vector2d J = Eigen::Vector2d::Zero();
-        for (int k = 0; k < 3; ++k) J += channel.target[target.faces(face, k)] * slopes.col(k);
-        const double r = residual(channel, v), u = weight_[v] / (1 + r * r / c2);
+        for (int k = 0; k < 3; ++k) J += pair.target[target.faces(face, k)] * slopes.col(k);
+        const double r = residual(pair, v), u = weight_[v] / (1 + r * r / c2);
         sum.gradient -= u * r * J;
         sum.hessian += u * J * J.transpose();
     }

@@ -20,6 +20,15 @@ constexpr double agreement_of_bent_sheets = 0.6;
 /// How far reliefs are to be trusted that agree by so much, 0 to 1.
 double trust_in_relief(double correlation, bool sheets);
 
+/// The reliefs of two surfaces at one scale.
+struct ReliefPair {
+    Eigen::VectorXd source, target;  ///< by vertex
+};
+/// At each of the scales of ReliefAgreement. Both meshes of unit area. `opposed`: the faces of one of them
+/// alone look inward, so that its bumps are hollows.
+std::vector<ReliefPair> relief_pairs(const TriangleMesh& source, const TriangleMesh& target,
+                                     bool opposed = false);
+
 /// A data term that holds relief in place: the sum over two scales s and the source's vertices v, of area
 /// a_v, of
 ///     weight a_v rho(r),   r = h_A(v) - h_B(f(v)),   rho(r) = c^2 / 2 log(1 + r^2 / c^2)
@@ -30,9 +39,11 @@ double trust_in_relief(double correlation, bool sheets);
 /// longer. Coarser ones follow the pose.
 class ReliefAgreement {
   public:
-    /// Keeps a reference to the map. `opposed`: the faces of one mesh alone look inward, so that its bumps
-    /// are hollows.
-    ReliefAgreement(const SlidingMap& map, double weight, bool opposed = false);
+    /// Keeps a reference to the map. `reliefs`: of its surfaces.
+    ReliefAgreement(const SlidingMap& map, double weight, std::vector<ReliefPair> reliefs);
+    /// `opposed`: as for relief_pairs.
+    ReliefAgreement(const SlidingMap& map, double weight, bool opposed = false)
+        : ReliefAgreement(map, weight, relief_pairs(map.source(), map.target(), opposed)) {}
 
     /// Of both reliefs where the map takes them, mean of the scales.
     double correlation() const;
@@ -47,15 +58,11 @@ class ReliefAgreement {
     Quadratic derivatives(int v, const TangentFrame& frame) const;
 
   private:
-    /// The reliefs at one scale.
-    struct Channel {
-        Eigen::VectorXd source, target;
-    };
-    double residual(const Channel& channel, int v) const;
+    double residual(const ReliefPair& pair, int v) const;
 
     const SlidingMap& map_;
     Eigen::VectorXd weight_;  ///< with the area
-    std::vector<Channel> channels_;
+    std::vector<ReliefPair> reliefs_;
 };
 
 }  // namespace varimap

@@ -18,6 +18,7 @@
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/missed_parts.h"
 #include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/relief_agreement.h"
 
@@ -278,6 +279,12 @@ class Untangling {
         }
         report_.disagreeing_after = int(agreement.disagreeing_faces().size());
     }
+    /// By the other direction (missed_parts.h), and repairs what comes of it.
+    void recover(const PointMap& back) {
+        if (options_.replace_parts && options_.align_normals &&
+            recover_missed_parts(sliding_, back, held(), landmarks_, options_.inverse_weight))
+            repair(back);
+    }
     UntanglingReport finish() {
         if (replacement_) {
             report_.parts_tried = replacement_->report().tried;
@@ -439,6 +446,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     if (there.is_repaired_again() || back.is_repaired_again())
         with_each_other(there, back,
                         [](Untangling& map, const PointMap& inverse) { map.repair_again(inverse); });
+    with_each_other(there, back, [](Untangling& map, const PointMap& inverse) { map.recover(inverse); });
     UntanglingReports reports;
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;

@@ -98,6 +98,11 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
     return {margin, probability, probability >= sure};
 }
 
+std::string probability_in_words(const Confidence& confidence) {
+    if (confidence.probability < .01) return "right with a probability below 0.01";
+    return fmt::format("right with a probability of {:.2f}", confidence.probability);
+}
+
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished) {
     constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 2, mirrored = 0.05,
                      covered = 0.92;

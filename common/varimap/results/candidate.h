@@ -50,6 +50,9 @@ struct InTheEnd {
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 
+/// "right with a probability of 0.91", or "below 0.01": a rounded 0 would call it impossible.
+std::string probability_in_words(const Confidence& confidence);
+
 /// Why the choice is not sure, in words; for a choice that is, "".
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 

@@ -101,4 +101,13 @@ void decode(const std::string& payload, Hierarchy& hierarchy) {
     require_complete(hierarchy);
 }
 
+std::vector<int> spread_vertices(const Hierarchy& hierarchy, std::size_t count) {
+    const std::vector<Level>& levels = hierarchy.levels;
+    auto level =
+        std::find_if(levels.begin(), levels.end(), [&](const Level& l) { return l.samples.size() >= count; });
+    if (level == levels.end()) --level;
+    const std::vector<int>& samples = level->samples;
+    return {samples.begin(), samples.begin() + std::ptrdiff_t(std::min(samples.size(), count))};
+}
+
 }  // namespace varimap

@@ -32,6 +32,10 @@ struct ArtifactType<Hierarchy> {
 std::string encode(const Hierarchy& hierarchy);
 void decode(const std::string& payload, Hierarchy& hierarchy);
 
+/// A few vertices far from each other, `count` at most: the first samples of a level with as many, which are
+/// the same on all levels.
+std::vector<int> spread_vertices(const Hierarchy& hierarchy, std::size_t count);
+
 /// Builds all levels of a domain (Sec. 4.2 and 4.5) and describes its local shape. Near-linear in the number
 /// of vertices.
 Hierarchy build_hierarchy(const Domain& domain, const Basis& basis, const HierarchyOptions& options);

@@ -13,11 +13,6 @@ namespace varimap {
 
 namespace {
 
-Points outward_normals(const Domain& surface) {
-    const Points normals = vertex_normals(surface.mesh);
-    return looks_inward(surface) ? Points(-normals) : normals;
-}
-
 /// Compresses heights of either sign, relative to the typical one. Flat surfaces have none.
 Eigen::VectorXd compressed(const Eigen::VectorXd& height) {
     constexpr double flat = 1e-4;  // units of sqrt(area): what files and rounding leave of a plane
@@ -63,6 +58,11 @@ double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, 
 bool looks_inward(const Domain& surface) {
     if (!is_closed(surface.mesh)) return surface.mirrored;
     return signed_volume(surface.mesh) < 0;
+}
+
+Points outward_normals(const Domain& surface) {
+    const Points normals = vertex_normals(surface.mesh);
+    return looks_inward(surface) ? Points(-normals) : normals;
 }
 
 Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time) {

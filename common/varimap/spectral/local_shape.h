@@ -11,6 +11,8 @@ namespace varimap {
 /// Whether faces look inward: of a closed surface, whether they enclose a negative volume; of others, whether
 /// it is mirrored.
 bool looks_inward(const Domain& surface);
+/// Unit normals at vertices (vertex_normals) that point outward by looks_inward.
+Points outward_normals(const Domain& surface);
 
 /// How far each vertex stands out of the smoothed surface, along the outward normal, units of sqrt(area): the
 /// surface less its heat flow (by the eigenbasis) at a time in units of area. Positive on ridges, negative in

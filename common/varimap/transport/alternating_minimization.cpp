@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
 
 #include "varimap/core/error.h"
 
@@ -18,22 +17,8 @@ constexpr long full_plan_entries = 10000;
 /// the paper gives no number.
 constexpr double slack = 1.1;
 
-/// Of a part's masses, and of those of the whole that its place may carry, relative to equal areas. Without
-/// the upper bound a part would shrink to where it varies least; what carries nothing would have no images.
-constexpr double part_slack = 1.02, whole_upper = 1.2, whole_lower = 0.002;
-
-/// The part keeps its masses; the whole may carry anything between next to nothing and equal areas.
-PlanBounds part_bounds(const Eigen::VectorXd& part, const Eigen::VectorXd& whole, double share) {
-    return {MassBounds::around(part, part_slack), {whole_lower * whole, whole_upper / share * whole}};
-}
-
 /// The area bound: a factor of sqrt(B) on each side.
 PlanBounds area_bounds(const Side& X, const Side& Y, const AlternationOptions& options) {
-    if (options.part == PartSide::source) return part_bounds(X.mass, Y.mass, options.part_share);
-    if (options.part == PartSide::target) {
-        auto [part, whole] = part_bounds(Y.mass, X.mass, options.part_share);
-        return {std::move(whole), std::move(part)};
-    }
     const double D = std::sqrt(options.area_bound);
     return {MassBounds::around(X.mass, D), MassBounds::around(Y.mass, D)};
 }
@@ -145,10 +130,15 @@ SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
     const double largest = std::max(cost.maxCoeff(), 1e-300);
     gamma = largest / options_.gamma_divisor;
     const PlanBounds bounds = plan_bounds(X_, Y_, solution_.relaxed, options_);
-    const TransportProblem problem{solution_.plan.support, cost, X_.mass, Y_.mass, gamma,
-                                   options_.background_factor * largest, bounds.row, bounds.column,
-                                   // What is left of the whole is not to be drawn to its masses.
-                                   options_.part == PartSide::none ? options_.mass_penalty * largest : 0};
+    const TransportProblem problem{solution_.plan.support,
+                                   cost,
+                                   X_.mass,
+                                   Y_.mass,
+                                   gamma,
+                                   options_.background_factor * largest,
+                                   bounds.row,
+                                   bounds.column,
+                                   options_.mass_penalty * largest};
     const double first_divisor = fresh_ ? options_.annealing_divisor : options_.gamma_divisor;
     const SinkhornReport report =
         solve_annealed(problem, {largest, first_divisor, options_.gamma_divisor},

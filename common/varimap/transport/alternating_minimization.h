@@ -21,14 +21,6 @@ struct EnumNames<AreaEnergy> {
     static constexpr std::array names{"transported", "paper"};
 };
 
-/// Which side, if any, is a part of the other. All mass of the part goes to the places of the whole that it
-/// has there: what is left of the whole carries next to nothing.
-enum class PartSide : int { none = 0, source = 1, target = 2 };
-template <>
-struct EnumNames<PartSide> {
-    static constexpr std::array names{"none", "source", "target"};
-};
-
 /// The defaults were chosen by hand on the known pairs, not swept: the paper gives none of these numbers but
 /// for gamma, which it takes as small as the largest cost / 1e4.
 struct AlternationOptions {
@@ -43,10 +35,8 @@ struct AlternationOptions {
         1e-2;               ///< entries below this share of their row's and column's mass do not spread
     double area_bound = 2;  ///< B = D^2: row and column sums stay within [m / sqrt(B), m sqrt(B)]
     AreaEnergy area_energy = AreaEnergy::transported;
-    double mass_penalty = 0.1;       ///< rho within these bounds / largest instantiated cost
-    double background_factor = 10;   ///< cost of entries that are not instantiated, times the largest cost
-    PartSide part = PartSide::none;  ///< of a part areas hardly change, whatever their bound and energy
-    double part_share = 1;           ///< of the whole's area, which the part has
+    double mass_penalty = 0.1;      ///< rho within these bounds / largest instantiated cost
+    double background_factor = 10;  ///< cost of entries that are not instantiated, times the largest cost
 };
 
 /// Kept entries of a plan, one sorted list of columns per row.

@@ -54,6 +54,29 @@ class VertexList : public testing::Test {
     const TriangleMesh mesh_ = strip();
 };
 
+TEST_F(VertexList, SaysWhyAVertexHasNoFace) {
+    const std::string pairs = write("a.txt", "1 2\n3 10\n");
+    EXPECT_THAT(
+        error_of({pairs}),
+        HasSubstr("target vertex 10 belongs to no face that is mapped: no face of the file names it"));
+    const std::pair<VertexFate, const char*> reasons[] = {
+        {VertexFate::unused, "no face of the file names it"},
+        {VertexFate::not_finite, "not a number"},
+        {VertexFate::faces_dropped, "dropped by the repair"},
+        {VertexFate::component_dropped, "its component is left out"},
+        {VertexFate::outside_part, "outside of the part"}};
+    for (const auto& [fate, reason] : reasons) {
+        std::vector<VertexFate> fates(11, VertexFate::kept);
+        fates[10] = fate;
+        try {
+            read_landmarks({pairs}, mesh_, mesh_, LandmarkSpace::stated, Repeats::refuse, {}, fates);
+            ADD_FAILURE();
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(reason));
+        }
+    }
+}
+
 TEST_F(VertexList, ReadsNumbersCommentsAndBlankLines) {
     const auto path = write("a.pinned", "# five\n 3\n\n0 # first\r\n\t7\n");
     EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 0, 7));
@@ -127,7 +150,7 @@ TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
                 HasSubstr(":2: vertex 12 is out of range: the mesh has 11 vertices"));
     EXPECT_THAT(error_of({write("a", "1 10\n")}),
                 HasSubstr(":1: target vertex 10 belongs to no face that is mapped"));
-    EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr("or its component is left out; choose another"));
+    EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr("no face of the file names it; choose another"));
     EXPECT_THAT(error_of({write("a", "1\n")}), HasSubstr(":1: expected two vertex numbers"));
     EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
 }

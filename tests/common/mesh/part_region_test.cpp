@@ -47,7 +47,6 @@ TEST(PartRegion, LosesHolesAndPiecesThatAreSmall) {
     for (const int f : region.faces) EXPECT_GT(middle(ball, f).z(), 0);
 }
 
-/// Two quarters of a square, whose faces meet in its middle alone.
 /// Where the part is in small pieces only, the largest of them is kept.
 TEST(PartRegion, IsNeverEmpty) {
     const TriangleMesh square = shapes::square(30);
@@ -56,6 +55,7 @@ TEST(PartRegion, IsNeverEmpty) {
     EXPECT_FALSE(tidy_region(square, marked).empty());
 }
 
+/// Two quarters of a square, whose faces meet in its middle alone.
 TEST(PartRegion, HasNoPinches) {
     const TriangleMesh square = shapes::square(8);
     const PartRegion region =

@@ -260,28 +260,5 @@ TEST(AlternatingMinimization, KeepsTheIdentity) {
     EXPECT_GT(dense(minimization.solution().plan).cwiseProduct(RowMatrix(pair.A.side.weights)).sum(), .8);
 }
 
-/// Of a tube's half, the other tube carries all mass in a half of its own.
-TEST(AlternatingMinimization, MassOfAPartGoesToItsPlace) {
-    const LevelPair pair = tube_level();
-    for (const PartSide part : {PartSide::source, PartSide::target}) {
-        AlternationOptions options;
-        options.part = part;
-        options.part_share = .5;
-        AlternatingMinimization minimization(pair.A.side, pair.B.side, options, pair.partners);
-        minimization.start(zero_centres(pair), {});
-        minimization.run(unobserved);
-        minimization.tight_step();
-        const Eigen::VectorXd of_A = row_sums(minimization.solution().plan).cwiseQuotient(pair.A.side.mass);
-        const Eigen::VectorXd of_B =
-            column_sums(minimization.solution().plan).cwiseQuotient(pair.B.side.mass);
-        const Eigen::VectorXd &own = part == PartSide::source ? of_A : of_B,
-                              &whole = part == PartSide::source ? of_B : of_A;
-        EXPECT_GT(own.minCoeff(), .97);
-        EXPECT_LT(own.maxCoeff(), 1.03);
-        EXPECT_LT(whole.maxCoeff(), 2 * 1.2 * 1.01);
-        EXPECT_GT((whole.array() < .1).count(), whole.size() / 3);
-    }
-}
-
 }  // namespace
 }  // namespace varimap

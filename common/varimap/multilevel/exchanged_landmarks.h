@@ -14,7 +14,8 @@ using Exchange = std::vector<std::pair<int, int>>;
 /// Of all exchanges the one after which distances between the landmarks of both surfaces agree best, mean
 /// |log| of their ratios; none where they agree by much less than as they are. Only the ends of limbs that
 /// are alike can be exchanged so. All exchanges of ten landmarks are 9495; of more than that none is tried.
-Exchange likely_exchange(const PairContext& context);
+/// `scale`: what lengths of A's mesh are multiplied with to be those of B's.
+Exchange likely_exchange(const PairContext& context, double scale = 1);
 
 /// The landmarks with these partners exchanged.
 VertexPairs<MeshVertex> exchanged(VertexPairs<MeshVertex> landmarks, const Exchange& exchange);

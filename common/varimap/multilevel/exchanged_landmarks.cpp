@@ -1,4 +1,4 @@
-#include "stages/explore/exchanged_landmarks.h"
+#include "varimap/multilevel/exchanged_landmarks.h"
 
 #include <cmath>
 #include <limits>
@@ -70,11 +70,11 @@ class ExchangeSearch {
 
 }  // namespace
 
-Exchange likely_exchange(const PairContext& context) {
+Exchange likely_exchange(const PairContext& context, double scale) {
     constexpr std::size_t most = 10;
     const std::size_t count = context.landmarks().size();
     if (count < 2 || count > most) return {};
-    return ExchangeSearch(distances_between(context.landmarks_A(), context.graph_A()),
+    return ExchangeSearch(scale * distances_between(context.landmarks_A(), context.graph_A()),
                           distances_between(context.landmarks_B(), context.graph_B()))
         .best();
 }
