@@ -30,6 +30,9 @@ grep -q 'part placed  *strained by 0[.]0[0-9]*  *good$' report.txt || fail "the 
 jq '.part.strain = .13' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/report.jq" |
     jq -e '.verdict == "look here" and any(.checks[]; .what == "part placed" and .grade == "look here")' >/dev/null ||
     fail "a strained part does not make one look"
+jq '.round_trip.p95 = .12' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/report.jq" |
+    jq -e '.verdict == "look here" and any(.checks[]; .what == "there and back, 95 %" and .grade == "look here")' >/dev/null ||
+    fail "directions that disagree do not make one look"
 "$varimap" map part.off whole.off -o out --landmarks tips.txt --part source "${small_picture[@]}" -v >again.txt 2>log || fail "again"
 ! grep -q ' done:' log || fail "a second run finds something to do: $(grep -m 1 ' done:' log)"
 "$VARIMAP_BIN/varimap-inspect" --check out/artifacts/*.{region,surface} || fail "artifacts"
