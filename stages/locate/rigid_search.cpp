@@ -16,7 +16,7 @@ namespace {
 // Chosen on ten parts by hand, not swept.
 constexpr int bases = 4, places = 250, turns = 12;  ///< poses that are tried: their product
 constexpr std::size_t measured = 60;                ///< vertices of the part that misfits are measured at
-constexpr std::size_t slid = 60, kept = 12;         ///< poses that differ
+constexpr std::size_t slid = 100, kept = 20;         ///< poses that differ
 /// In units of sqrt(area) of the part.
 constexpr double tolerance = 0.12, fine_tolerance = 0.06, landmark_tolerance = 0.3, differing = 0.15;
 

@@ -15,7 +15,7 @@ namespace varimap {
 
 namespace {
 
-constexpr std::size_t improved = 3;   ///< placements that are placed again
+constexpr std::size_t improved = 6;   ///< placements that are placed again
 constexpr int most_improvements = 4;  ///< of each
 constexpr double least_gain = 1e-3;   ///< of the agreement
 /// Mean distance of placements that are elsewhere, in units of sqrt(area) of the part.

@@ -19,8 +19,8 @@ namespace varimap {
 /// vertices on the wrong side of a thin part. Defects are faces reversed along the target and
 /// branch points (along_target.h). They are widened, ring by ring; the part takes the images that the other
 /// direction, inverted, has for it, or, where it is a disc, is mapped anew in the plane (charted_part.h).
-/// What comes of it is relaxed on the target and kept if there are fewer defects than before. A large part
-/// that was mapped anew is then relaxed as a whole (global_relaxation.h).
+/// What comes of it is relaxed on the target and kept if there are fewer defects than before, and no limb was
+/// crushed for that. A large part that was mapped anew is then relaxed as a whole (global_relaxation.h).
 class ChartRepair {
   public:
     enum class Outcome { inverted, repaired, no_disc, no_simple_rim, folded, no_gain };
@@ -49,6 +49,16 @@ class ChartRepair {
     std::vector<int> all_defects();
     /// Once it gets to `limit`, the rest is left out.
     double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
+    /// What a repair is judged by.
+    struct State {
+        double badness;
+        double crushed;  ///< share of the area
+    };
+    /// Of faces that a repair may move.
+    State state(const std::vector<int>& faces);
+    bool is_better(const std::vector<int>& faces, const State& before);
+    /// Share of the faces' area whose image is reversed or hardly has an area.
+    double crushed_share(const std::vector<int>& faces) const;
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
     /// too much.
     std::vector<int> enclosed_on_target(const SubMesh& part, const std::vector<int>& rim);
@@ -59,8 +69,8 @@ class ChartRepair {
     Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
     /// The vertices of faces of which all lie among these, but for fixed ones.
     std::vector<int> free_within(const std::vector<int>& faces, const VertexData<bool>& fixed);
-    /// `before`: the badness of `around`, the faces that may move; it is to fall.
-    bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, double before,
+    /// `before`: of `around`, the faces that may move, which are to become better.
+    bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, const State& before,
                        const VertexData<bool>& fixed);
     void polish(std::vector<int> vertices);
     /// Global steps for these vertices, unless the badness of `around` gets beyond `most`.

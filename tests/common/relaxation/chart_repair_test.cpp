@@ -101,6 +101,42 @@ TEST(ChartRepair, TakesAPartFromTheOtherDirection) {
     EXPECT_TRUE(after.branch_vertices.empty()) << after.branch_vertices.size();
 }
 
+/// A sphere with a thin limb, as long as four of its radii, towards `along`.
+TriangleMesh with_limb(const TriangleMesh& sphere, const Vec3& along) {
+    TriangleMesh mesh = sphere;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const double off = (sphere.vertex(v) - along).norm() / 0.25;
+        if (off < 1) mesh.vertices.row(v) *= 1 + 4 * (1 - off);
+    }
+    return mesh;
+}
+
+TEST(ChartRepair, LeavesFaultsAtTheRootOfALimbRatherThanCrushIt) {
+    // The target has its limb elsewhere. What surrounds the limb's root is mapped to where the target has
+    // none, and so would a chart of both map the limb.
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Vec3::UnitZ()).toRotationMatrix();
+    const TriangleMesh sphere = shapes::ellipsoid(4), source = with_limb(sphere, Vec3::UnitX()),
+                       target = with_limb(sphere, turn * Vec3::UnitX());
+    const ClosestPoint closest(sphere);
+    PointMap images;
+    std::vector<int> limb;
+    for (int v = 0; v < sphere.vertex_count(); ++v) {
+        const bool on_limb = source.vertex(v).norm() > 1.001;
+        if (on_limb) limb.push_back(v);
+        images.push_back(closest(on_limb ? Vec3(turn * sphere.vertex(v)) : sphere.vertex(v)).point);
+    }
+    SlidingMap map(images, source, target);
+    AlongTarget along_target(map);
+    NormalAgreement agreement(map, along_target);
+    const PointMap back;
+    ChartRepair repair(map, along_target, agreement, back);
+    EXPECT_GT(repair.faulty_faces(), 10);
+    repair(none(source));
+    double farthest = 0;
+    for (const int v : limb) farthest = std::max(farthest, position(target, map.point(v)).norm());
+    EXPECT_GT(farthest, 4);
+}
+
 TEST(InverseMap, LeadsBackWhereTheOtherDirectionCameFrom) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
     const PointMap there = shapes::turned_identity(sphere, 0.3), back = shapes::turned_identity(sphere, -0.3);
