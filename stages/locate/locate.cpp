@@ -141,8 +141,8 @@ double known_share(const PartSize& size, const Sides& surface, PartSide part) {
     if (!surface.landmarks_tell() && (size.share > larger || size.share < tiny))
         throw InputError(
             fmt::format("the {} has {:.2g} times the area of the other: is it really the part (--part), and "
-                        "are both files in the same "
-                        "units? From three landmarks on sizes may differ (--landmarks)",
+                        "are both files in the same units? From three landmarks on (--landmarks) sizes may "
+                        "differ",
                         name, size.share));
     if (size.share > larger)
         warn(
@@ -160,8 +160,7 @@ void warn_of_rivals(double lead, PartSide part) {
     if (lead < little_lead)
         warn(
             "the {} agrees with another place of the {} nearly as well (by {:.2f} less): look at the "
-            "picture, and give "
-            "landmarks, three tell",
+            "picture, and give landmarks, three tell",
             part == PartSide::source ? "source" : "target", part == PartSide::source ? "target" : "source",
             lead);
 }

@@ -9,7 +9,8 @@ namespace varimap {
 /// or while folds were removed. Its energy is bounded and its triangles may be upright, but it leaves a part
 /// of the target out that the other direction takes to the limb. Where the way there and back ends more than
 /// 0.05 sqrt(area) from where it began, images are taken from the other direction, inverted, and relaxed;
-/// they are kept if the map then enters more of the target, by 0.4 % of its area. Returns whether they were.
+/// they are kept if the map then enters more of the target, by 0.4 % of its area and by half of what
+/// disagreed: less is gained where the directions are two different maps. Returns whether they were.
 /// `back`: the other direction. Vertices with fixed[v] stay, `landmarks` hold.
 bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexData<bool>& fixed,
                           const std::vector<SoftConstraint>& landmarks, double inverse_weight);
