@@ -8,6 +8,7 @@
 #include "stages/locate/anchors.h"
 #include "stages/locate/rigid_search.h"
 #include "stages/locate/starts.h"
+#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 
@@ -45,6 +46,7 @@ class PlacementSearch {
         }
         for (Rated& one : placed(rigid_guesses(sketches_, sides_, share_), {1}))
             found.push_back(std::move(one));
+        if (found.empty()) throw InputError("the part has no face by which it could be placed");
         sort(found);
         parallel_for_each_index(std::min(improved, found.size()), std::size_t(1),
                                 [&](std::size_t k) { improve(found[k]); });

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "varimap/core/rotation.h"
-#include "varimap/mesh/closest_point.h"
+#include "stages/locate/rigid_body.h"
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/mesh/topology.h"
 
@@ -37,21 +36,10 @@ PointMap images_by_landmarks(const Sketches& sketches, const Sides& sides, doubl
 }
 
 PointMap rigid_images(const Sides& sides, double share) {
-    const TriangleMesh &part = sides.part.mesh, &whole = sides.whole.mesh;
-    const Points from = std::sqrt(share) * part.vertices(sides.landmarks_part, Eigen::all),
-                 to = whole.vertices(sides.landmarks_whole, Eigen::all);
-    const Eigen::RowVector3d from_mean = from.colwise().mean(), to_mean = to.colwise().mean();
-    const Eigen::Matrix3d rotation = nearest_rotation(
-        (to.rowwise() - to_mean).transpose() * (from.rowwise() - from_mean), sides.are_opposed());
-    TriangleMesh moved = part;
-    moved.vertices = ((std::sqrt(share) * part.vertices).rowwise() - from_mean) * rotation.transpose();
-    moved.vertices.rowwise() += to_mean;
-    const Points normals = vertex_normals(moved);
-    const ClosestPoint closest(whole);
-    PointMap images;
-    for (int v = 0; v < moved.vertex_count(); ++v)
-        images.push_back(closest(moved.vertex(v), normals.row(v).transpose()).point);
-    return images;
+    const RigidBody body(sides, share);
+    const Points from = body.points()(sides.landmarks_part, Eigen::all),
+                 to = sides.whole.mesh.vertices(sides.landmarks_whole, Eigen::all);
+    return body.images(body.fitted(from, to, Eigen::VectorXd::Ones(from.rows())));
 }
 
 }  // namespace varimap
