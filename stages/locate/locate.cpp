@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "stages/locate/covered.h"
@@ -107,21 +108,26 @@ FoundPlacement find_on_surfaces(const PairContext& sketches, const Sides& surfac
 /// stages/locate/README.md has what right parts and wrong ones were strained by.
 constexpr double much_strain = 0.12;
 
-/// Warns of a part that is strained much, and names landmarks with which it would be hardly strained if they
-/// were exchanged, as left and right.
-void warn_of_strain(double strain, const PairContext& sketches, const Surface& A, const Surface& B,
-                    const VertexPairs<MeshVertex>& landmarks, double share, const LocateParams& params) {
-    const PartSide side = params.part;
-    const bool is_source = side == PartSide::source;
-    warn(
-        "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it, and are the landmarks "
-        "right? look at the picture, and give more landmarks",
-        is_source ? "source" : "target", is_source ? "target" : "source", strain);
-    const Exchange exchange = likely_exchange(sketches, is_source ? std::sqrt(share) : 1 / std::sqrt(share));
+void warn_of_strain(double strain, PartSide part) {
+    if (strain > much_strain)
+        warn(
+            "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it, and are the "
+            "landmarks right? look at the picture, and give more landmarks",
+            part == PartSide::source ? "source" : "target", part == PartSide::source ? "target" : "source",
+            strain);
+}
+
+/// Names landmarks with which the part would be hardly strained if they were exchanged, as left and right:
+/// placed by them alone, which the right ones lead to at once.
+void warn_of_exchange(double strain, const PairContext& sketches, const Surface& A, const Surface& B,
+                      const VertexPairs<MeshVertex>& landmarks, double share, LocateParams params) {
+    const double scale = params.part == PartSide::source ? std::sqrt(share) : 1 / std::sqrt(share);
+    const Exchange exchange = likely_exchange(sketches, scale);
     if (exchange.empty()) return;
     const PairContext other(sketches.A(), sketches.B(), exchanged(sketches.landmarks(), exchange),
                             sketches.landmark_weight());
-    const Sides surface(A, B, exchanged(landmarks, exchange), side);
+    const Sides surface(A, B, exchanged(landmarks, exchange), params.part);
+    params.enough = std::numeric_limits<double>::infinity();
     const double otherwise =
         find_on_surfaces(other, surface, std::min(1.0, surface.size().share), params).placement.strain;
     log("landmarks {} exchanged: strain {:.4f}", exchanged_in_words(exchange), otherwise);
@@ -176,8 +182,9 @@ Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
     const FoundPlacement found = find_on_surfaces(sketches, surface, share, params);
     const Placement& placement = found.placement;
     warn_of_rivals(found.lead, side);
-    if (placement.strain > much_strain)
-        warn_of_strain(placement.strain, sketches, A, B, landmarks, share, params);
+    warn_of_strain(placement.strain, side);
+    if (surface.landmarks_tell() && placement.strain > params.enough)
+        warn_of_exchange(placement.strain, sketches, A, B, landmarks, share, params);
     FaceData<char> covered = covered_faces(placement.images, surface.part.mesh, surface.whole);
     add_landmarks(surface, covered);
     const TriangleMesh& whole = surface.whole.input;

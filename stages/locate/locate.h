@@ -16,11 +16,11 @@ struct Located {
 
 /// Where a part lies on its whole: found on sketches (search.h), placed there once more on the surfaces; the
 /// region is what the part covers then (covered.h), tidied up. `landmarks`: vertices of the surfaces' meshes.
-/// Where the part is strained much, warns of that, and of landmarks that look exchanged: the part is placed a
-/// second time then, with the likeliest of them exchanged, and has to be strained by less than half as much.
-/// With fewer landmarks the files have to be in the same units; warns where the part would be elsewhere
-/// nearly as well. Throws InputError where a landmark lies outside of the region, and where sizes cannot be
-/// the same units'.
+/// Warns where the part is strained much, and of landmarks that look exchanged: where it is strained at all,
+/// it is placed a second time with the likeliest of them exchanged, and has to be strained by less than half
+/// as much. With fewer than three landmarks the files have to be in the same units; warns where the part
+/// would be elsewhere nearly as well. Throws InputError where a landmark lies outside of the region, and
+/// where sizes cannot be the same units'.
 Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
                const VertexPairs<MeshVertex>& landmarks, const LocateParams& params);
 

@@ -152,9 +152,22 @@ TEST(LocateStage, SaysWhichLandmarksAreExchanged) {
     std::swap(exchanged.vertices[1].second, exchanged.vertices[3].second);
     const std::size_t before = logged_warnings().size();
     pair.locate(false, exchanged);
+    ASSERT_EQ(logged_warnings().size(), before + 1);
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 2 and 4 look exchanged"));
+}
+
+/// The part is strained much then, which is said as well.
+TEST(LocateStage, SaysThatAllLandmarksAreExchanged) {
+    const Pair pair;
+    Landmarks exchanged = pair.landmarks;
+    std::swap(exchanged.vertices[0].second, exchanged.vertices[1].second);
+    std::swap(exchanged.vertices[2].second, exchanged.vertices[3].second);
+    const std::size_t before = logged_warnings().size();
+    pair.locate(false, exchanged);
     ASSERT_EQ(logged_warnings().size(), before + 2);
     EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
-    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 2 and 4 look exchanged"));
+    EXPECT_THAT(logged_warnings().back(),
+                testing::HasSubstr("landmarks 1 with 2 and 3 with 4 look exchanged"));
 }
 
 /// A part that does not fit is no reason to suspect its landmarks.
