@@ -279,11 +279,18 @@ class Untangling {
         }
         report_.disagreeing_after = int(agreement.disagreeing_faces().size());
     }
-    /// By the other direction (missed_parts.h), and repairs what comes of it.
+    /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where more faults
+    /// come of it.
     void recover(const PointMap& back) {
-        if (options_.replace_parts && options_.align_normals &&
-            recover_missed_parts(sliding_, back, held(), landmarks_, options_.inverse_weight))
-            repair(back);
+        if (!options_.replace_parts || !options_.align_normals) return;
+        const PointMap kept = sliding_.points();
+        const int faults = faults_;
+        if (!recover_missed_parts(sliding_, back, held(), landmarks_, options_.inverse_weight)) return;
+        repair(back);
+        if (faults_ <= faults) return;
+        log("{} faulty faces more come of them: they are left", faults_ - faults);
+        place(kept);
+        faults_ = faults;
     }
     UntanglingReport finish() {
         if (replacement_) {
