@@ -108,13 +108,14 @@ FoundPlacement find_on_surfaces(const PairContext& sketches, const Sides& surfac
 /// stages/locate/README.md has what right parts and wrong ones were strained by.
 constexpr double much_strain = 0.12;
 
-void warn_of_strain(double strain, PartSide part) {
+void warn_of_strain(double strain, PartSide part, bool has_landmarks) {
     if (strain > much_strain)
         warn(
-            "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it, and are the "
-            "landmarks right? look at the picture, and give more landmarks",
+            "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it{}? look at the "
+            "picture, {}",
             part == PartSide::source ? "source" : "target", part == PartSide::source ? "target" : "source",
-            strain);
+            strain, has_landmarks ? ", and are the landmarks right" : "",
+            has_landmarks ? "and give more landmarks" : "and give landmarks");
 }
 
 /// Names landmarks with which the part would be hardly strained if they were exchanged, as left and right:
@@ -182,7 +183,7 @@ Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
     const FoundPlacement found = find_on_surfaces(sketches, surface, share, params);
     const Placement& placement = found.placement;
     warn_of_rivals(found.lead, side);
-    warn_of_strain(placement.strain, side);
+    warn_of_strain(placement.strain, side, !landmarks.empty());
     if (surface.landmarks_tell() && placement.strain > params.enough)
         warn_of_exchange(placement.strain, sketches, A, B, landmarks, share, params);
     FaceData<char> covered = covered_faces(placement.images, surface.part.mesh, surface.whole);
