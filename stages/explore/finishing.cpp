@@ -10,7 +10,7 @@
 #include "varimap/core/timing.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
-#include "varimap/multilevel/solved_map.h"
+#include "varimap/multilevel/sparse_plan.h"
 #include "varimap/multilevel/vertex_images.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
@@ -177,6 +177,18 @@ class JointDescent {
     std::vector<Pursued> pursued_;
 };
 
+/// What a solution on the last Euclidean level, that of every vertex in space, says of both meshes' vertices.
+MapPair read_out(const Solution& solution, const LevelPair& level, const PairContext& context,
+                 double area_bound) {
+    Plan plan;
+    plan.plan = to_sample_plan(level, solution.plan, area_bound);
+    plan.centre_A = solution.step.centres.row.leftCols<3>();
+    plan.centre_B = solution.step.centres.column.leftCols<3>();
+    plan.record.landmarks = context.landmarks();
+    plan.record.landmark_weight = context.landmark_weight();
+    return read_out(plan, context.A().surface, context.B().surface);
+}
+
 PinnedPair pinned(const PairContext& context) {
     PinnedPair pinned{VertexData<bool>(context.A().surface.mesh.vertex_count()),
                       VertexData<bool>(context.B().surface.mesh.vertex_count())};
@@ -209,7 +221,7 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
         FinishedMap map{one.start,
-                        solved_map(one.solution, descent.level(), context, options.alternation.area_bound),
+                        read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy(), one.rough_scores};
         const auto is_same = [&](const FinishedMap& other) {
             return are_the_same(other.maps, map.maps, context, options.distinct);

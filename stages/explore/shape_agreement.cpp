@@ -5,6 +5,7 @@
 
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/boundary.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
 
@@ -26,18 +27,6 @@ constexpr std::size_t sample_count = 80;
 
 /// Added to both of two distances, lest short ones, which the meshes' edges make uncertain, count.
 constexpr double short_distance = 0.1;
-
-/// Values of the target's vertices, row by row, at the images.
-template <class Values>
-Values pulled_back(const Values& values, const TriangleMesh& target, const PointMap& map) {
-    Values result(Eigen::Index(map.size()), values.cols());
-    for (std::size_t v = 0; v < map.size(); ++v) {
-        auto row = result.row(Eigen::Index(v));
-        row.setZero();
-        for (int k = 0; k < 3; ++k) row += map[v].barycentric[k] * values.row(target.faces(map[v].face, k));
-    }
-    return result;
-}
 
 PointMap at(const PointMap& map, const std::vector<int>& vertices) {
     PointMap images;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "varimap/mesh/pulled_back.h"
+
 namespace varimap {
 
 namespace {
@@ -27,14 +29,8 @@ PlacementAgreement::PlacementAgreement(const Sketches& sketches, const Sides& si
 
 double PlacementAgreement::operator()(const Placement& placement) const {
     if (!std::isfinite(placement.strain)) return -std::numeric_limits<double>::infinity();
-    Points images(Eigen::Index(placement.images.size()), 3), normals(images);
-    for (Eigen::Index v = 0; v < images.rows(); ++v) {
-        const SurfacePoint& image = placement.images[std::size_t(v)];
-        images.row(v) = position(whole_, image).transpose();
-        normals.row(v).setZero();
-        for (int k = 0; k < 3; ++k)
-            normals.row(v) += image.barycentric[k] * whole_normals_.row(whole_.faces(image.face, k));
-    }
+    const Points images = pulled_back(whole_.vertices, whole_, placement.images),
+                 normals = pulled_back(whole_normals_, whole_, placement.images);
     return 0.5 * placement.relief + 2 * patches_(images, normals, opposed_) -
            0.3 * std::min(placement.strain, 1.0);
 }

@@ -55,6 +55,12 @@ struct Pair {
                 best = v;
         return best;
     }
+    /// The landmarks with the partners of these exchanged.
+    Landmarks exchanged(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) const {
+        Landmarks other = landmarks;
+        for (const auto& [i, j] : pairs) std::swap(other.vertices[i].second, other.vertices[j].second);
+        return other;
+    }
     Located locate(bool part_is_source) const { return locate(part_is_source, landmarks); }
     Located locate(bool part_is_source, const Landmarks& used) const {
         const Surface &A = part_is_source ? part : whole, &B = part_is_source ? whole : part;
@@ -148,10 +154,8 @@ TEST(LocateStage, SaysThatThePartMayLieElsewhere) {
 
 TEST(LocateStage, SaysWhichLandmarksAreExchanged) {
     const Pair pair;
-    Landmarks exchanged = pair.landmarks;
-    std::swap(exchanged.vertices[1].second, exchanged.vertices[3].second);
     const std::size_t before = logged_warnings().size();
-    pair.locate(false, exchanged);
+    pair.locate(false, pair.exchanged({{1, 3}}));
     ASSERT_EQ(logged_warnings().size(), before + 1);
     EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 2 and 4 look exchanged"));
 }
@@ -159,11 +163,8 @@ TEST(LocateStage, SaysWhichLandmarksAreExchanged) {
 /// The part is strained much then, which is said as well.
 TEST(LocateStage, SaysThatAllLandmarksAreExchanged) {
     const Pair pair;
-    Landmarks exchanged = pair.landmarks;
-    std::swap(exchanged.vertices[0].second, exchanged.vertices[1].second);
-    std::swap(exchanged.vertices[2].second, exchanged.vertices[3].second);
     const std::size_t before = logged_warnings().size();
-    pair.locate(false, exchanged);
+    pair.locate(false, pair.exchanged({{0, 1}, {2, 3}}));
     ASSERT_EQ(logged_warnings().size(), before + 2);
     EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
     EXPECT_THAT(logged_warnings().back(),

@@ -231,9 +231,10 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     place(part.vertices(), unfolded);
     polish(free);
     if (is_better(around, before)) {
-        const double after = badness(around);
-        if (int(free.size()) > most_with_care)
+        if (int(free.size()) > most_with_care) {
+            const double after = badness(around);
             relax(free, around, after + may_spoil * (before.badness - after));
+        }
         return Outcome::repaired;
     }
     agreement_.improve(agreement_.disagreeing_among(part.faces()), all_but(free));

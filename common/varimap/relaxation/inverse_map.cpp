@@ -28,4 +28,11 @@ SurfacePoint InverseMap::operator()(int v) {
     return search_->target_on_source.is_mapped(point.face) ? point : SurfacePoint{};
 }
 
+void InverseMap::place(SlidingMap& map, const VertexData<bool>& marked) {
+    for (int v = 0; v < marked.size(); ++v) {
+        if (!marked[v] || !map.has_image(v)) continue;
+        if (const SurfacePoint image = (*this)(v); image.face >= 0) map.place(v, image);
+    }
+}
+
 }  // namespace varimap

@@ -19,6 +19,8 @@ class InverseMap {
     /// The image of a vertex; its face is -1 where the target's faces there have no image, or nothing is
     /// known.
     SurfacePoint operator()(int v);
+    /// Places the marked vertices of `map`, the map it was made of, on their images.
+    void place(SlidingMap& map, const VertexData<bool>& marked);
 
   private:
     struct Search;

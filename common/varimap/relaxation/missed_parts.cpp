@@ -63,12 +63,10 @@ double area_of(const VertexData<bool>& marks, const TriangleMesh& mesh) {
     return sum / mass.sum();
 }
 
-void invert(SlidingMap& map, const PointMap& back, const VertexData<bool>& open,
-            const VertexData<bool>& fixed) {
-    InverseMap inverse_of_back(map, back);
-    for (int v = 0; v < open.size(); ++v)
-        if (open[v] && !fixed[v] && map.has_image(v))
-            if (const SurfacePoint image = inverse_of_back(v); image.face >= 0) map.place(v, image);
+/// The marked vertices that may move.
+VertexData<bool> movable(VertexData<bool> marks, const VertexData<bool>& fixed) {
+    for (int v = 0; v < marks.size(); ++v) marks[v] = marks[v] && !fixed[v];
+    return marks;
 }
 
 void relax(SlidingMap& map, const VertexData<bool>& held, const std::vector<SoftConstraint>& constraints) {
@@ -94,10 +92,10 @@ bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexDat
     const std::vector<char> before = cells.occupied(map);
     const PointMap kept = map.points();
     widen(open, map.source(), rings_replaced);
-    invert(map, back, open, fixed);
+    InverseMap(map, back).place(map, movable(open, fixed));
     widen(open, map.source(), rings_relaxed);
-    VertexData<bool> held = fixed;
-    for (int v = 0; v < held.size(); ++v) held[v] = held[v] || !open[v];
+    VertexData<bool> held = movable(open, fixed);
+    for (int v = 0; v < held.size(); ++v) held[v] = !held[v];
     std::vector<SoftConstraint> constraints = inverse_constraints(map, back, inverse_weight);
     constraints.insert(constraints.end(), landmarks.begin(), landmarks.end());
     relax(map, held, constraints);

@@ -110,12 +110,7 @@ void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
     const Timer timer("parts, in all");
     judge_by(back, options_.inverse_weight);
     InverseMap inverse_of_back(map_, back);
-    const auto invert = [&](const VertexData<bool>& open) {
-        for (int v = 0; v < open.size(); ++v) {
-            if (!open[v] || !map_.has_image(v)) continue;
-            if (const SurfacePoint image = inverse_of_back(v); image.face >= 0) map_.place(v, image);
-        }
-    };
+    const auto invert = [&](const VertexData<bool>& open) { inverse_of_back.place(map_, open); };
     const Proposals inverse = [&](const VertexData<bool>&) { return std::vector<Proposal>{invert}; };
     std::fill(rejected_.begin(), rejected_.end(), 0);
     if (whole) try_part(OpenPart(map_, FaceData<bool>(rejected_.size(), true), context_.fixed), inverse);

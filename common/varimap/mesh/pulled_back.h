@@ -1,0 +1,20 @@
+#pragma once
+
+#include "varimap/mesh/triangle_mesh.h"
+
+namespace varimap {
+
+/// Values of a mesh's vertices, row by row, linear on its faces, at points of it.
+template <class Values>
+Values pulled_back(const Values& values, const TriangleMesh& mesh, const PointMap& points) {
+    Values result(Eigen::Index(points.size()), values.cols());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        auto row = result.row(Eigen::Index(v));
+        row.setZero();
+        for (int k = 0; k < 3; ++k)
+            row += points[v].barycentric[k] * values.row(mesh.faces(points[v].face, k));
+    }
+    return result;
+}
+
+}  // namespace varimap
