@@ -1,14 +1,14 @@
 # What jobs cost by the model (cost_model.csv: seconds of a core and megabytes of each stage, linear in thousands of
 # vertices; of a pair, those of both surfaces divided by two).
-#   awk -v what=pending|stages|sum -v full= -v explore= -v part= -v cores= -f cost.awk cost_model.csv surfaces.tsv DONE pairs.tsv
+#   awk -v what=pending|stages|sum -v full= -v explore= -v cores= -f cost.awk cost_model.csv surfaces.tsv DONE pairs.tsv
 # pending: lines of KIND NAME SECONDS MEGABYTES ROW (the byte, from 1, at which its row in surfaces.tsv or pairs.tsv begins); stages: of KIND NAME STAGE SECONDS MEGABYTES; sum: all of it in words.
 # Of pairs with landmarks, explore_if_needed is what exploration costs in the mean, with the sketches for it.
-# locate: with --part alone, what parts cost more, their sketches and the cut among it.
+# locate: of parts alone, what they cost more, their sketches and the cut among it.
 # DONE: lines of KIND and NAME, tab-separated, which cost nothing any more.
-function add(kind, name, size, looked_for, row,    s, solves, further, seconds, megabytes, all, peak) {
+function add(kind, name, size, looks, part, row,    s, solves, further, seconds, megabytes, all, peak) {
     for (s = 1; s <= stages; s++) {
         if (of[s] != kind) continue
-        if (looked_for ? stage[s] == "explore_if_needed" : stage[s] == "explore" || stage[s] == "sketches") continue
+        if (stage[s] ~ /^explore/ && stage[s] != looks || stage[s] == "sketches" && looks != "explore") continue
         if (stage[s] == "locate" && !part) continue
         # Solved for on every vertex instead of 6000: 24 MB and 2.5 seconds more for a thousand vertices. On up to
         # 24,000 of them where walls are thin, which is not known in advance: room for it, but no time.
@@ -44,14 +44,15 @@ FILENAME ~ /\/done$/ { done[$1, $2]; next }
 { row = row_after() }
 ("pair", $1) in done { next }
 {
-    looked_for = $4 == "-" || explore
+    part = $6 != "-"
+    looks = explore || $4 == "-" && !part ? "explore" : $4 == "-" ? "" : "explore_if_needed"
     needed[$2]; needed[$3]
-    if (looked_for) { sketched[$2]; sketched[$3] }
-    add("pair", $1, (size[$2] + size[$3]) / 2, looked_for, row)
+    if (looks == "explore") { sketched[$2]; sketched[$3] }
+    add("pair", $1, (size[$2] + size[$3]) / 2, looks, part, row)
 }
 END {
     for (i = 1; i <= surfaces; i++)
-        if (order[i] in needed && !(("surface", order[i]) in done)) add("surface", order[i], size[order[i]], order[i] in sketched, row_of[order[i]])
+        if (order[i] in needed && !(("surface", order[i]) in done)) add("surface", order[i], size[order[i]], order[i] in sketched ? "explore" : "", 0, row_of[order[i]])
     if (what == "sum")
         printf "about %.2f core-hours for %d surfaces and %d pairs, %.0f MB for one at a time; %.2f hours on %d cores\n",
             total / 3600, count["surface"], count["pair"], highest, total / 3600 / cores, cores

@@ -1,3 +1,7 @@
+#include <algorithm>
+
+#include "stages/register/comparison.h"
+#include "stages/register/extent.h"
 #include "stages/register/manifest.h"
 #include "stages/register/results.h"
 #include "varimap/core/error.h"
@@ -21,21 +25,10 @@ struct RegisterParams {
     }
 };
 
-ShapeComparison compare_shapes(const Registration& all, const CommonPart& common,
-                               const RegisterParams& params) {
-    std::vector<Points> shapes;
-    for (const Points& points : all.points) shapes.push_back(common.of(points));
-    ShapeComparison result;
-    result.alignment = procrustes(shapes, common.of(all.first.vertices), common.weights, params.scale);
-    result.components = principal_components(result.alignment, common.weights, params.components);
-    result.is_outlier = outliers(result.alignment.distances);
-    return result;
-}
-
 void warn_of_outliers(const std::vector<std::string>& names, const ShapeComparison& shapes) {
     for (std::size_t i = 0; i < names.size(); ++i)
         if (shapes.is_outlier[i])
-            warn("{} is an outlier: {:.4g} from the mean shape", names[i], shapes.alignment.distances[i]);
+            warn("{} is an outlier: {:.4g} from the mean shape", names[i], shapes.distances[i]);
 }
 
 }  // namespace
@@ -53,14 +46,15 @@ int main(int argc, char** argv) {
         if (check) return check_landmarks(manifest, params.landmark_space);
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
         const Registration all = read_registration(manifest, params.landmark_space);
-        const CommonPart common = common_part(all.first, all.points);
+        const Extents extents(all.first, all.points, all.is_part);
         const ResultFolder folder(stage, out);
-        write_points(folder, all, common);
+        write_points(folder, all, extents);
         if (all.landmarks) write_landmarks(folder, all);
-        const ShapeComparison shapes = compare_shapes(all, common, params);
-        write_shapes(folder, all, common, shapes);
+        const ShapeComparison shapes = compare_shapes(all, extents, params.components, params.scale);
+        write_shapes(folder, all, extents, shapes);
         warn_of_outliers(all.names, shapes);
-        log("{} specimens, {} of {} vertices in all of them", all.names.size(), common.vertices.size(),
+        log("{} specimens, {} of them parts; {} of {} vertices in all that are whole", all.names.size(),
+            std::count(all.is_part.begin(), all.is_part.end(), true), extents.common().vertices.size(),
             all.first.vertex_count());
     });
 }

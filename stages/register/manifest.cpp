@@ -100,6 +100,7 @@ void add_specimen(const Json& specimen, const std::string& path, LandmarkSpace s
     if (answers.empty()) throw InputError(path + ": " + name + ": no answers");
     log("{}: {} answers", name, answers.size());
     all.names.push_back(name);
+    all.is_part.push_back(specimen.value("part", false));
     all.spaces.push_back(answers.front().map.to.space);
     all.points.push_back(corresponding_points(answers));
     if (all.landmarks) all.transferred.push_back(transfer_landmarks(answers, landmarks));

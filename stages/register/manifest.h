@@ -25,6 +25,7 @@ struct Registration {
     TriangleMesh first;                          ///< the first template
     std::optional<TemplateLandmarks> landmarks;  ///< on it, where the manifest has some
     std::vector<std::string> names;
+    std::vector<bool> is_part;                      ///< of what the template is
     std::vector<Space> spaces;                      ///< what the specimens' files say of their axes
     std::vector<Points> points;                     ///< where the vertices of `first` lie; NaN: nowhere
     std::vector<TransferredLandmarks> transferred;  ///< none without `landmarks`

@@ -36,6 +36,21 @@ void turn_onto(const Points& mean, std::vector<Points>& shapes, const Eigen::Vec
 
 }  // namespace
 
+double size_about_centroid(const Points& points, const Eigen::VectorXd& weights) {
+    return size_of(points.rowwise() - centroid(points, weights), weights);
+}
+
+LaidOver laid_over(const Points& points, const Points& onto, const Eigen::VectorXd& weights, bool scale) {
+    const Eigen::RowVector3d place = centroid(onto, weights);
+    const Points there = onto.rowwise() - place;
+    Points shape = points.rowwise() - centroid(points, weights);
+    const double ratio = size_of(shape, weights) / size_of(there, weights);
+    if (scale) shape /= ratio;
+    shape = ((shape * best_rotation(shape, there, weights)).rowwise() + place).eval();
+    const double distance = size_of(shape - onto, weights);
+    return {std::move(shape), ratio, distance};
+}
+
 Alignment procrustes(const std::vector<Points>& shapes, const Points& start, const Eigen::VectorXd& weights,
                      bool scale) {
     Alignment result;

@@ -22,6 +22,17 @@ struct Alignment {
 Alignment procrustes(const std::vector<Points>& shapes, const Points& start, const Eigen::VectorXd& weights,
                      bool scale);
 
+/// Root mean square distance from the centroid.
+double size_about_centroid(const Points& points, const Eigen::VectorXd& weights);
+
+/// Points laid over others, as `procrustes` lays shapes over their mean.
+struct LaidOver {
+    Points shape;       ///< moved, turned and, if asked, scaled to the size of what they are laid over
+    double size_ratio;  ///< of the points given, beside that
+    double distance;    ///< root mean square
+};
+LaidOver laid_over(const Points& points, const Points& onto, const Eigen::VectorXd& weights, bool scale);
+
 /// Principal components of aligned shapes: the eigenvectors of their covariance, weighted as the alignment
 /// is, about their average.
 struct Components {

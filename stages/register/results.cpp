@@ -46,32 +46,33 @@ std::string array_of(const std::vector<Points>& shapes) {
     return to_npy("<f8", {(long long)(shapes.size()), (long long)(shapes.front().rows()), 3}, numbers);
 }
 
-/// Points of the common vertices by the template's numbers; its other vertices at one place.
-Points on_template(const Points& points, const CommonPart& common, int vertices,
+/// Points of the vertices of an extent by the template's numbers; its other vertices at one place.
+Points on_template(const Points& points, const Extent& extent, int vertices,
                    const Eigen::RowVector3d& others) {
     Points all = others.replicate(vertices, 1);
-    all(common.vertices, Eigen::all) = points;
+    all(extent.vertices, Eigen::all) = points;
     return all;
 }
 
-/// A mesh with the template's vertices, of which no face uses those that are not common. Their place is that
+/// A mesh with the template's vertices, of which no face uses those beyond the extent. Their place is that
 /// of another, since many programs take no mesh with places that are not numbers.
-std::string ply_of(const Points& points, const CommonPart& common, const Registration& all, Space space) {
-    return to_ply({on_template(points, common, all.first.vertex_count(), points.row(0)), common.faces, space},
+std::string ply_of(const Points& points, const Extent& extent, const Registration& all, Space space) {
+    return to_ply({on_template(points, extent, all.first.vertex_count(), points.row(0)), extent.faces, space},
                   PlyFormat::ascii);
 }
 
-std::string aligned_npy(const Alignment& alignment, const CommonPart& common, int vertices) {
+std::string aligned_npy(const ShapeComparison& shapes, const Extents& extents, int vertices) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Points> aligned;
-    for (const Points& shape : alignment.shapes)
-        aligned.push_back(on_template(shape, common, vertices, Eigen::RowVector3d::Constant(nan)));
+    for (std::size_t i = 0; i < shapes.aligned.size(); ++i)
+        aligned.push_back(
+            on_template(shapes.aligned[i], extents.of(i), vertices, Eigen::RowVector3d::Constant(nan)));
     return array_of(aligned);
 }
 
-void write_component_meshes(const ResultFolder& folder, const Registration& all, const CommonPart& common,
+void write_component_meshes(const ResultFolder& folder, const Registration& all, const Extent& common,
                             const ShapeComparison& shapes) {
-    const Points& mean = shapes.alignment.mean;
+    const Points& mean = shapes.mean;
     for (std::size_t k = 0; k < shapes.components.displacement.size(); ++k) {
         const Points two = 2 * shapes.components.displacement[k];
         folder.write(fmt::format("component_{}_minus.ply", k + 1),
@@ -91,16 +92,19 @@ std::string components_csv(const Components& components) {
     return text;
 }
 
-std::string specimens_csv(const std::vector<std::string>& names, const ShapeComparison& shapes) {
+/// Parts have no scores.
+std::string specimens_csv(const Registration& all, const ShapeComparison& shapes) {
     const Eigen::MatrixXd& scores = shapes.components.scores;
-    std::string text = "specimen,size,distance,outlier";
+    std::string text = "specimen,size,distance,outlier,part";
     for (Eigen::Index k = 0; k < scores.cols(); ++k) text += fmt::format(",pc{}", k + 1);
     text += "\n";
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += fmt::format("{},{},{},{}", field(names[i]), shapes.alignment.sizes[i],
-                            shapes.alignment.distances[i], shapes.is_outlier[i] ? "yes" : "no");
+    Eigen::Index whole = 0;
+    for (std::size_t i = 0; i < all.names.size(); ++i) {
+        text += fmt::format("{},{},{},{},{}", field(all.names[i]), shapes.sizes[i], shapes.distances[i],
+                            shapes.is_outlier[i] ? "yes" : "no", all.is_part[i] ? "yes" : "no");
         for (Eigen::Index k = 0; k < scores.cols(); ++k)
-            text += fmt::format(",{}", scores(Eigen::Index(i), k));
+            text += all.is_part[i] ? "," : fmt::format(",{}", scores(whole, k));
+        if (!all.is_part[i]) ++whole;
         text += "\n";
     }
     return text;
@@ -117,12 +121,12 @@ PointMap identity_map(const Faces& faces, int vertices) {
 
 }  // namespace
 
-void write_points(const ResultFolder& folder, const Registration& all, const CommonPart& common) {
+void write_points(const ResultFolder& folder, const Registration& all, const Extents& extents) {
     folder.write("points.npy", array_of(all.points));
     for (std::size_t i = 0; i < all.names.size(); ++i) {
         folder.write("specimens/" + all.names[i] + ".csv", points_csv(all.points[i]));
         folder.write("specimens/" + all.names[i] + ".ply",
-                     ply_of(common.of(all.points[i]), common, all, all.spaces[i]));
+                     ply_of(extents.of(i).of(all.points[i]), extents.of(i), all, all.spaces[i]));
     }
 }
 
@@ -142,13 +146,14 @@ void write_landmarks(const ResultFolder& folder, const Registration& all) {
     folder.write("landmarks.npy", array_of(positions));
 }
 
-void write_shapes(const ResultFolder& folder, const Registration& all, const CommonPart& common,
+void write_shapes(const ResultFolder& folder, const Registration& all, const Extents& extents,
                   const ShapeComparison& shapes) {
     const int vertices = all.first.vertex_count();
-    folder.write("aligned.npy", aligned_npy(shapes.alignment, common, vertices));
-    folder.write("mean.ply", ply_of(shapes.alignment.mean, common, all, all.first.space));
+    const Extent& common = extents.common();
+    folder.write("aligned.npy", aligned_npy(shapes, extents, vertices));
+    folder.write("mean.ply", ply_of(shapes.mean, common, all, all.first.space));
     write_component_meshes(folder, all, common, shapes);
-    folder.write("specimens.csv", specimens_csv(all.names, shapes));
+    folder.write("specimens.csv", specimens_csv(all, shapes));
     folder.write("components.csv", components_csv(shapes.components));
     folder.write("identity.csv", to_csv(identity_map(common.faces, vertices)));
 }

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "stages/register/common_part.h"
+#include "stages/register/comparison.h"
+#include "stages/register/extent.h"
 #include "stages/register/manifest.h"
-#include "stages/register/procrustes.h"
 #include "varimap/stage/stage_main.h"
 
 namespace varimap {
@@ -26,22 +26,15 @@ class ResultFolder {
     std::filesystem::path path_;
 };
 
-/// How the specimens differ in shape, on their common part.
-struct ShapeComparison {
-    Alignment alignment;
-    Components components;
-    std::vector<bool> is_outlier;  ///< per specimen
-};
-
 /// points.npy, and specimens/NAME.csv and NAME.ply of each specimen.
-void write_points(const ResultFolder& folder, const Registration& all, const CommonPart& common);
+void write_points(const ResultFolder& folder, const Registration& all, const Extents& extents);
 
 /// landmarks.csv and landmarks.npy; only where there are some.
 void write_landmarks(const ResultFolder& folder, const Registration& all);
 
 /// aligned.npy, mean.ply, component_K_minus.ply and component_K_plus.ply, components.csv, specimens.csv, and
 /// identity.csv, by which pictures show one of these meshes as a map onto another.
-void write_shapes(const ResultFolder& folder, const Registration& all, const CommonPart& common,
+void write_shapes(const ResultFolder& folder, const Registration& all, const Extents& extents,
                   const ShapeComparison& shapes);
 
 }  // namespace varimap

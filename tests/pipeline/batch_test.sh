@@ -199,7 +199,7 @@ jq -e '.exploration == null' together/pairs/a--b/quality.json >/dev/null || fail
 batch --all-pairs meshes -o together --consistent -j 2
 same together/pairs/a--b/source_to_target.csv all/pairs/a--b/source_to_target.csv
 
-# A part and two wholes: what places it is of the pairs, which need landmarks; maps are those of each pair alone.
+# A part and two wholes: what places it is of the pairs; maps are those of each pair alone.
 mkdir wholes tips
 figure rest.off 12
 figure wholes/d.off 12 .3
@@ -218,6 +218,21 @@ same parts/pairs/upper--d/source_to_target.csv part_alone/source_to_target.csv
     fail "--plan of parts"
 ! grep -q . parts/batch/pending || fail "finished parts are not known: $(<parts/batch/pending)"
 grep -q '^pair upper--d locate [1-9]' parts/batch/costs || fail "placing parts costs nothing"
+# In a list each pair says so itself, and needs no landmarks.
+printf 'source,target,part\nupper.off,wholes/d.off,source\nwholes/e.off,wholes/d.off,\n' >lists/parts.csv
+"$varimap" batch "${coarse[@]}" lists/parts.csv -o listed -j 2 >out.txt 2>log || fail "a list of parts (exit $?)"
+jq -e '.part.is == "source"' listed/pairs/upper--d/quality.json >/dev/null || fail "a list does not say what is a part"
+jq -e '.part == null and .exploration != null' listed/pairs/e--d/quality.json >/dev/null || fail "a whole pair beside a part"
+"$varimap" batch "${coarse[@]}" lists/parts.csv -o listed --plan >out.txt 2>log || fail "--plan of a list of parts"
+! grep -q . listed/batch/pending || fail "finished parts of a list are not known"
+cut -d ' ' -f 1-3 listed/batch/costs | grep '^pair' | grep -E 'locate|explore' | xargs -n 3 | diff - <(printf 'pair upper--d locate\npair e--d explore\n') ||
+    fail "what a part and a whole cost"
+"$VARIMAP_SOURCE/pipelines/batch/job" "$PWD/listed" pair e--d 1 locate >out.txt 2>log || fail "nothing to locate (exit $?)"
+grep -q $'^pair:locate\te--d\t0\t' out.txt || fail "a whole pair has nothing to locate"
+sed 's/source$/both/' lists/parts.csv >lists/bad_parts.csv
+expect_exit 3 "$varimap" batch lists/bad_parts.csv -o none --plan
+grep -q 'part is both; say source or target' log || fail "a part that is neither is not told"
+expect_exit 2 "$varimap" batch lists/parts.csv -o none --plan --consistent
 expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part
 expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part whole
 expect_exit 2 "$varimap" batch --star upper.off wholes -o none --plan --part source --fill-holes all

@@ -37,7 +37,7 @@ done
 # They differ in one thing, how far they are twisted: the first component is that.
 share=$(sed -n 's/^1,[^,]*,//p' out/components.csv)
 at_most .9 "$share" "share of the first component"
-tail -n +2 out/specimens.csv | cut -d , -f 5 | sort -g -c 2>/dev/null || tail -n +2 out/specimens.csv | cut -d , -f 5 | sort -gr -c ||
+tail -n +2 out/specimens.csv | cut -d , -f 6 | sort -g -c 2>/dev/null || tail -n +2 out/specimens.csv | cut -d , -f 6 | sort -gr -c ||
     fail "scores are not in the order of the twists"
 [[ -s out/component_1.png && -s out/mean.png ]] || fail "pictures"
 "$varimap" inspect out/mean.ply >/dev/null 2>log || true
@@ -86,6 +86,25 @@ code=0
 ((code == 1)) || fail "exit $code with a further template that fails"
 grep -q '^failed      1 .*: s9; why: several/maps/status.csv' out.txt || fail "which template failed"
 ! grep -q '^left out' out.txt || fail "a specimen is left out though templates are mapped to it"
+
+# A broken specimen has points where it is; those that are whole are compared as if it were not there.
+mkdir specimens
+cp meshes/s1.off meshes/s4.off specimens
+upper_part meshes/s2.off >specimens/broken.off
+register template.off specimens -o partly --landmarks-from points --parts specimens/broken.off -j 2
+grep -c ',nan,nan,nan$' partly/specimens/broken.csv >missing.txt
+(($(<missing.txt) > 100 && $(<missing.txt) < 300)) || fail "what a broken specimen lacks"
+paste -d ' ' <(tail -n +2 partly/specimens/broken.csv | cut -d , -f 2-4 | tr , ' ') <(vertices meshes/s2.off) |
+    awk '$1 != "nan" { sum += sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2); n++ } END { print sum / n }' >error.txt
+at_most "$(<error.txt)" .06 "points of a broken specimen"
+[[ $(cut -d , -f 1,5 partly/specimens.csv | xargs) == 'specimen,part broken,yes s1,no s4,no' ]] || fail "which specimen is a part"
+grep -q '^broken,.*,$' partly/specimens.csv || fail "a part has scores"
+awk -F, '$1 == "broken" { print $2 } $1 == "s1" { print $2 }' partly/specimens.csv |
+    awk '{ size[NR] = $1 } END { r = size[1] / size[2]; exit !(r > .97 && r < 1.03) }' || fail "the size of a part"
+grep -c 'broken,.*,nan,nan,nan,0.0000' partly/landmarks.csv >missing.txt
+(($(<missing.txt) == 2)) || fail "landmarks that a broken specimen lacks"
+expect_exit 2 "$varimap" register "${small_picture[@]}" template.off specimens -o none --parts template.off
+grep -q 'template.off: a template, and among --parts' log || fail "a template that is a part"
 
 # A specimen of a format that is imported, though its ending makes it no mesh of a folder.
 if [[ -x $VARIMAP_BIN/varimap-import ]]; then

@@ -8,7 +8,8 @@
 #include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
 #include "stages/register/answers.h"
-#include "stages/register/common_part.h"
+#include "stages/register/comparison.h"
+#include "stages/register/extent.h"
 #include "stages/register/manifest.h"
 #include "stages/register/procrustes.h"
 #include "varimap/artifact/artifact.h"
@@ -286,19 +287,70 @@ TEST_F(FurtherTemplate, RefusesLandmarksOfOtherNames) {
     EXPECT_THAT(refusal(first, "nose,5\n"), HasSubstr("own.csv: 1 landmarks, but the first template has 2"));
 }
 
-TEST(CommonPart, LacksWhatOneSpecimenLacks) {
+TEST(Extents, LackWhatOneSpecimenLacks) {
     TriangleMesh square;
     square.vertices = Points{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
     square.faces = Faces{{0, 1, 2}, {0, 2, 3}};
     Points lacking = square.vertices;
     lacking.row(1).setConstant(std::nan(""));
-    const CommonPart common = common_part(square, {square.vertices, lacking});
+    const Extent common = Extents(square, {square.vertices, lacking}, {false, false}).common();
     EXPECT_THAT(common.vertices, ElementsAre(0, 2, 3));
     EXPECT_EQ(common.faces, (Faces{{0, 2, 3}}));
     EXPECT_THAT(common.weights, Each(DoubleNear(1. / 3, 1e-12)));
     EXPECT_EQ(common.of(lacking).row(2), square.vertices.row(3));
     lacking.row(3).setConstant(std::nan(""));
-    EXPECT_THROW(common_part(square, {lacking}), InputError);
+    EXPECT_THROW(Extents(square, {lacking}, {false}), InputError);
+    EXPECT_THROW(Extents(square, {square.vertices, lacking}, {false, true}), InputError);
+}
+
+TEST(Extents, OfAPartAreNotThoseOfTheOthers) {
+    TriangleMesh square;
+    square.vertices = Points{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+    square.faces = Faces{{0, 1, 2}, {0, 2, 3}};
+    Points part = square.vertices;
+    part.row(1).setConstant(std::nan(""));
+    const Extents extents(square, {square.vertices, part}, {false, true});
+    EXPECT_THAT(extents.common().vertices, ElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(extents.of(0).vertices, ElementsAre(0, 1, 2, 3));
+    EXPECT_THAT(extents.of(1).vertices, ElementsAre(0, 2, 3));
+    EXPECT_EQ(extents.of(1).faces, (Faces{{0, 2, 3}}));
+    EXPECT_THAT(extents.of(1).weights, Each(DoubleNear(1. / 3, 1e-12)));
+}
+
+/// The body bent in three ways, and a moved, larger copy of one of these that lacks a fifth of its vertices.
+Registration with_a_part() {
+    Registration all;
+    all.first = body();
+    Points part = moved(bent(.02), 3, 1.2, {5, 0, -4});
+    for (Eigen::Index v = 0; v < part.rows(); ++v)
+        if (body().vertices(v, 0) > 0) part.row(v).setConstant(std::nan(""));
+    all.points = {bent(0), part, bent(.01), bent(.02)};
+    all.is_part = {false, true, false, false};
+    all.names = {"a", "part", "b", "c"};
+    return all;
+}
+
+TEST(Comparison, LaysAPartOverTheMeanByWhatItHas) {
+    const Registration all = with_a_part();
+    const Extents extents(all.first, all.points, all.is_part);
+    const ShapeComparison shapes = compare_shapes(all, extents, 5, true);
+    EXPECT_EQ(shapes.components.scores.rows(), 3);
+    EXPECT_NEAR(shapes.sizes[1] / shapes.sizes[3], 3, .02);
+    // Where the whole one lies of which it is a part, but for what little the rest of that moves it.
+    Points whole = Points::Zero(body().vertex_count(), 3);
+    whole(extents.common().vertices, Eigen::all) = shapes.aligned[3];
+    EXPECT_LT(largest_distance(shapes.aligned[1], extents.of(1).of(whole)), .02);
+    EXPECT_LT(shapes.distances[1], .02);
+}
+
+TEST(Comparison, OfPartsAloneIsWithTheTemplate) {
+    Registration all = with_a_part();
+    all.is_part = {true, true, true, true};
+    const Extents extents(all.first, all.points, all.is_part);
+    const ShapeComparison shapes = compare_shapes(all, extents, 5, true);
+    EXPECT_EQ(shapes.components.variance.size(), 0);
+    EXPECT_LT(largest_distance(shapes.mean, extents.common().of(body().vertices)), 1e-12);
+    EXPECT_LT(shapes.distances[0], 1e-9);
 }
 
 }  // namespace
