@@ -30,14 +30,18 @@ std::vector<Candidate> ratings(const std::vector<Appraised>& list) {
 }
 
 void FinishedPool::add_new_of(const std::vector<PooledMap>& pool) {
-    const std::size_t before = origins_.size();
-    if (pool.size() == before) return;
+    add(std::span(pool).subspan(origins_.size()));
+}
+
+void FinishedPool::add(std::span<const PooledMap> added) {
+    if (added.empty()) return;
     const Timer timer("finishing");
+    const std::size_t before = origins_.size();
     std::vector<MapStart> starts;
-    for (std::size_t n = before; n < pool.size(); ++n) {
+    for (const PooledMap& map : added) {
         starts.push_back(
-            [&images = pool[n].images](const LevelPair& level) { return matching_of(images, level); });
-        origins_.push_back(pool[n].origin);
+            [&images = map.images](const LevelPair& level) { return matching_of(images, level); });
+        origins_.push_back(map.origin);
     }
     for (FinishedMap& map : finish(context_, appraisal_, starts, options_, maps_)) {
         map.start += int(before);

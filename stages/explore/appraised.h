@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "stages/explore/finishing.h"
@@ -25,8 +26,9 @@ class FinishedPool {
     FinishedPool(const PairContext& context, FinishingOptions options, const Appraisal& appraisal)
         : context_(context), options_(std::move(options)), appraisal_(appraisal) {}
 
-    /// Finishes the maps that have joined the pool since the last time, and keeps those that do not become
-    /// what is there already.
+    /// Finishes these maps, and keeps those that do not become what is there already.
+    void add(std::span<const PooledMap> maps);
+    /// The same of those that have joined a pool since the last time; nothing else is added before.
     void add_new_of(const std::vector<PooledMap>& pool);
 
     /// All that are kept, in order.

@@ -1,9 +1,11 @@
 #include "stages/explore/explore.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "stages/explore/appraised.h"
 #include "stages/explore/candidate_maps.h"
+#include "stages/explore/mirror_images.h"
 #include "stages/explore/surface_comparison.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
@@ -63,6 +65,30 @@ std::vector<Appraised> quickly_found(const PairContext& context, const ExplorePa
     return finished.appraised();
 }
 
+/// Whether the surfaces fit better as mirror images of each other.
+struct ByMirrorImages {
+    std::vector<PooledMap> maps;  ///< mirrored back
+    /// Of the best map between mirror images, if that tells that one is a left and the other a right one.
+    double score = std::numeric_limits<double>::infinity();
+};
+/// `found`: the best first. Where shapes differ much either search may miss the best map: a horse and a cow
+/// fit better by 3 as mirror images, though both are their own. Then what was found is mirrored back, if the
+/// choice is not sure. Shapes that are much alike are told apart by less.
+ByMirrorImages found_by_mirror_images(const PairContext& context, const ExploreParams& params,
+                                      const std::vector<Candidate>& found) {
+    // Chosen by hand. Bodies in other poses, which are their own mirror images, differ by .2, and fit by -36
+    // at best; left bones and hands fit right ones by -39.
+    constexpr double better = 0.35, much_alike = -36;
+    const MirrorImages mirror(context, params, quick_finishing(params));
+    const double score = mirror.best().score, as_they_are = found.front().score;
+    log("as mirror images: score {:.2f}, as they are {:.2f}", score, as_they_are);
+    const bool are_much_alike = score < much_alike;
+    if (score + better > as_they_are || (!are_much_alike && confidence_of(found).confident)) return {};
+    ByMirrorImages result{mirror.mirrored_back()};
+    if (are_much_alike) result.score = score;
+    return result;
+}
+
 /// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with the
 /// area bound and with exact areas, that give more maps and more alike ones a chance, more compositions, and
 /// maps finished with care. Chosen by hand on two hippopotamuses.
@@ -112,6 +138,13 @@ bool is_isometry_of_sheets(const Candidate& there, const PairContext& context) {
            is_sheet(context.B().surface.mesh) && landmarks_apart(context) >= 2;
 }
 
+/// The best of the maps that the landmarks of the context lead to.
+Candidate best_led(const PairContext& context, const Appraisal& appraisal, const ExploreParams& params) {
+    FinishedPool finished(context, quick_finishing(params), appraisal);
+    finished.add_new_of(led_by_landmarks(context, params));
+    return finished.appraised().front().candidate;
+}
+
 /// Warns where the map that landmarks lead to would be far more probable with two or more of them exchanged:
 /// with left and right exchanged, the only map that meets all landmarks and mirrors nothing has the front of
 /// a body on its back, and is hardly strained. Asked only where relief agrees less than it does on right maps
@@ -119,22 +152,35 @@ bool is_isometry_of_sheets(const Candidate& there, const PairContext& context) {
 void warn_of_exchanged_landmarks(const Candidate& led, const PairContext& context, const Appraisal& appraisal,
                                  const ExploreParams& params) {
     constexpr double alike = 0.9, much = 3, plausible = 0.9;
+    // Bodies that are their own mirror images, whose landmarks are exchanged, fit as well both ways.
+    constexpr double clear = 0.5;
     if (led.relief > alike) return;
     const Exchange exchange = likely_exchange(context);
     if (exchange.empty()) return;
     const Timer timer("exchanged landmarks");
     const PairContext other(context.A(), context.B(), exchanged(context.landmarks(), exchange),
                             context.landmark_weight());
-    FinishedPool finished(other, quick_finishing(params), appraisal);
-    finished.add_new_of(led_by_landmarks(other, params));
-    const Candidate found = finished.appraised().front().candidate;
+    const Candidate found = best_led(other, appraisal, params);
     log("landmarks {} exchanged: score {:.2f}, as they are {:.2f}", exchanged_in_words(exchange), found.score,
         led.score);
     if (is_mirrored(found) || plausibility(found) < plausible || found.score + much > led.score) return;
-    warn(
-        "landmarks {} look exchanged: with their partners exchanged the map is far more probable; are they "
-        "left and right?",
-        exchanged_in_words(exchange));
+    const PairContext mirror = with_mirror_image(context);
+    const double mirrored = best_led(mirror, Appraisal(mirror), params).score;
+    log("as mirror images: score {:.2f}", mirrored);
+    if (mirrored < found.score - clear)
+        warn(
+            "the landmarks fit mirror images: if one of the surfaces is a left and the other a right one, "
+            "{}; "
+            "with landmarks {} exchanged the map would be more probable, too, but less so",
+            context.A().surface.mirrored != context.B().surface.mirrored ? "leave --mirror out"
+                                                                         : "give --mirror",
+            exchanged_in_words(exchange));
+    else
+        warn(
+            "landmarks {} look exchanged: with their partners exchanged the map is far more probable; are "
+            "they "
+            "left and right?",
+            exchanged_in_words(exchange));
 }
 
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
@@ -183,17 +229,27 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     }
     LazySelfMaps self_maps(context, ask.self_maps);
     std::vector<Appraised> list = quickly_found(context, params, led_there, finished, self_maps);
+    ByMirrorImages mirrored;
+    if (self_maps.exist()) {
+        mirrored = found_by_mirror_images(context, params, ratings(list));
+        finished.add(mirrored.maps);
+        list = finished.appraised();
+    }
     if (!is_good(list.front().candidate, if_needed)) {
         log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "
             "further",
             plausibility(list.front().candidate), list.front().candidate.dirichlet);
-        list = thoroughly_found(context, params, led_there, appraisal, self_maps);
+        std::vector<PooledMap> known = led_there;
+        known.insert(known.end(), mirrored.maps.begin(), mirrored.maps.end());
+        list = thoroughly_found(context, params, known, appraisal, self_maps);
     } else if (if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }
+    const double mirror_gain = std::max(0.0, list.front().candidate.score - mirrored.score);
     if (ask.surfaces)
         list = compared_on_surfaces(std::move(list), context, quick_finishing(params), ask.surfaces);
+    list.front().candidate.mirror_gain = mirror_gain;
     return with_previews(list, context);
 }
 

@@ -11,7 +11,7 @@ using namespace varimap;
 
 namespace {
 
-void report(const std::vector<Candidate>& candidates, bool has_landmarks) {
+void report(const std::vector<Candidate>& candidates, bool has_landmarks, bool opposed) {
     for (size_t k = 0; k < candidates.size(); ++k)
         log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, alignment {:.3f}, "
             "stretch "
@@ -27,6 +27,11 @@ void report(const std::vector<Candidate>& candidates, bool has_landmarks) {
         warn(
             "only mirrored maps were found; are the surfaces of opposite handedness (--mirror)? look at "
             "candidates.png");
+    else if (fits_mirrored(candidates.front()))
+        warn(
+            "the surfaces fit better as mirror images of each other: if one is a left and the other a right "
+            "one, {}; else give landmarks",
+            opposed ? "leave --mirror out" : "give --mirror");
     else if (!confidence.confident)
         warn(
             "the choice among the candidates is not sure ({}): look at candidates.png, {}or give {}landmarks",
@@ -170,7 +175,8 @@ int main(int argc, char** argv) {
         else if (landmarks_decide(found))
             log("varimap-diffuse follows the landmarks");
         else
-            report(found.list, !landmark_files.empty());
+            report(found.list, !landmark_files.empty(),
+                   context.A().surface.mirrored != context.B().surface.mirrored);
         found.sketched_A = inputs.sketched("A");
         found.sketched_B = inputs.sketched("B");
         stage.record_number("candidates", double(found.list.size()));

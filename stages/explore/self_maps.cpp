@@ -45,15 +45,19 @@ std::vector<int> spread(const std::vector<std::pair<int, int>>& pairs, const Tri
 
 }  // namespace
 
-Candidates find_self_maps(const PairContext& context, const ExploreParams& params) {
-    constexpr double another = 0.1;  // share of the surface that a self-map moves; chosen by hand
+ExplorationOptions self_map_options(const ExploreParams& params) {
     ExplorationOptions options = params.exploration;
     options.area_bound = 1;  // the surface has the areas it has
     options.distinct = 0.4;
     options.random_starts *= 2;
     options.candidates = 4;
     options.last_samples = 400;  // rougher self-maps composed are no good
-    const std::vector<PooledMap> pool = explored(context, options, params);
+    return options;
+}
+
+Candidates find_self_maps(const PairContext& context, const ExploreParams& params) {
+    constexpr double another = 0.1;  // share of the surface that a self-map moves; chosen by hand
+    const std::vector<PooledMap> pool = explored(context, self_map_options(params), params);
     const Surface& surface = context.A().surface;
     const MapPair same{points_at_vertices(surface.mesh), points_at_vertices(surface.mesh)};
     Candidates found;

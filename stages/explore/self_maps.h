@@ -15,6 +15,9 @@ namespace varimap {
 /// of the surface with itself. Sketches are enough (varimap-coarsen to a thousand vertices).
 Candidates find_self_maps(const PairContext& surface, const ExploreParams& params);
 
+/// What they are looked for with.
+ExplorationOptions self_map_options(const ExploreParams& params);
+
 struct SelfMaps {
     Candidates A, B;  ///< of each surface onto itself
 };

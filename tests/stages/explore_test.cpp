@@ -14,6 +14,7 @@
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/appraisal.h"
 #include "stages/explore/finishing.h"
+#include "stages/explore/mirror_images.h"
 #include "stages/explore/pool.h"
 #include "stages/explore/self_maps.h"
 #include "stages/explore/starts.h"
@@ -227,6 +228,41 @@ KnownPair person() {
     const TriangleMesh mesh = shapes::level_set(f, {-1.2, -.6, -1.4}, {1.2, .8, 1.8}, .09),
                        other = shapes::level_set(f, {-1.25, -.63, -1.42}, {1.2, .8, 1.8}, .09);
     return shapes::known_pair(mesh, other, {}, 60, tips, 1000);
+}
+
+/// Explored without landmarks, as a pair of files is.
+Candidate best_of(const KnownPair& pair) {
+    const PairContext context = pair.context();
+    OnDemand ask;
+    ask.self_maps = [&] { return find_self_maps_of_both(context, ExploreParams()); };
+    return explore(context, ExploreParams(), ask).list.front();
+}
+
+TEST(MirrorImages, TellALeftOneFromARightOne) {
+    const KnownPair same = shapes::figure_pair(.5, false, 1000);
+    EXPECT_FALSE(fits_mirrored(best_of(same)));
+    const Candidate opposite = best_of(reflected(same));
+    EXPECT_TRUE(fits_mirrored(opposite));
+    EXPECT_FALSE(confidence_of({opposite}).confident);
+    EXPECT_THAT(doubt({opposite}), testing::HasSubstr("fit better as mirror images"));
+}
+
+TEST(MirrorImages, OfBodiesThatAreTheirOwnLeadToMapsAsTheyAre) {
+    const KnownPair pair = person();
+    const PairContext context(pair.A, pair.B, {});
+    FinishingOptions options;
+    options.gap = options.gap_at_first = 1000;
+    const MirrorImages mirror(context, ExploreParams(), options);
+    EXPECT_LT(mirror.best().score, -30);
+    std::vector<VertexImages> starts;
+    for (const PooledMap& map : mirror.mirrored_back()) {
+        EXPECT_TRUE(map.origin.mirrored_back);
+        starts.push_back(map.images);
+    }
+    double least = 1;
+    for (const FinishedMap& map : finish_from(context, starts, options))
+        least = std::min(least, shapes::mean_error(map.maps, pair));
+    EXPECT_LT(least, .05);
 }
 
 /// Warnings of exploring where landmarks may decide.
@@ -514,10 +550,13 @@ TEST(Starts, SwapsExchangeRowsPairwise) {
     EXPECT_EQ(swapped[1].value, (Eigen::VectorXd(6) << 4, 5, 2, 3, 0, 1).finished());
 }
 
-TEST(Confidence, NeverCallsAMapImpossible) {
+TEST(Confidence, NeverCallsAMapImpossibleOrCertain) {
     EXPECT_EQ(probability_in_words({.probability = .914}), "right with a probability of 0.91");
     EXPECT_EQ(probability_in_words({.probability = .0099}), "right with a probability below 0.01");
     EXPECT_EQ(probability_in_words({.probability = 0}), "right with a probability below 0.01");
+    EXPECT_EQ(probability_in_words({.probability = .994}), "right with a probability of 0.99");
+    EXPECT_EQ(probability_in_words({.probability = .995}), "right with a probability above 0.99");
+    EXPECT_EQ(probability_in_words({.probability = 1}), "right with a probability above 0.99");
 }
 
 TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
@@ -548,6 +587,12 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     EXPECT_THAT(doubt({partly, rival}), testing::HasSubstr("17% of the surface is mirrored"));
     partly.reversed_mass = .04;  // a foot, which the final map still puts right
     EXPECT_TRUE(confidence_of({partly, rival}).confident);
+    Candidate left = best;
+    left.mirror_gain = .3;  // by how much bodies' scores differ that are their own mirror images
+    EXPECT_TRUE(confidence_of({left}).confident);
+    left.mirror_gain = 1.4;
+    EXPECT_LT(confidence_of({left}).probability, .1);
+    EXPECT_THAT(doubt({left}), testing::HasSubstr("fit better as mirror images"));
     Candidate mirrored = best;
     mirrored.reversed_mass = 1;
     EXPECT_EQ(confidence_of({mirrored}).probability, 0);

@@ -65,6 +65,13 @@ double plausibility_of_reversed(double reversed_mass) {
     return 1 / (1 + std::exp((reversed_mass - even) / scale));
 }
 
+/// How probable it is that the surfaces are not a left and a right one, by how much better they fit as mirror
+/// images. Chosen by hand on a femur and a hand, which gained 1.6 and 1.4.
+double plausibility_of_handedness(double mirror_gain) {
+    constexpr double even = 0.85, scale = 0.2;
+    return 1 / (1 + std::exp((mirror_gain - even) / scale));
+}
+
 /// Whether it is another answer than the first.
 bool is_rival(const Candidate& candidate) {
     constexpr double detail = 0.05;  // what differs on less, a foot or an ear, is no other map
@@ -72,6 +79,10 @@ bool is_rival(const Candidate& candidate) {
 }
 
 }  // namespace
+
+bool fits_mirrored(const Candidate& best) {
+    return plausibility_of_handedness(best.mirror_gain) < 0.5;
+}
 
 double plausibility(const Candidate& candidate) {
     constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
@@ -89,9 +100,10 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
         margin = std::min(margin, rival.score - best.score);
         doubt = std::max(doubt, doubt_by(rival, best));
     }
-    double probability =
-        is_mirrored(best) ? 0
-                          : plausibility(best) * plausibility_of_reversed(best.reversed_mass) * (1 - doubt);
+    double probability = is_mirrored(best)
+                             ? 0
+                             : plausibility(best) * plausibility_of_reversed(best.reversed_mass) *
+                                   plausibility_of_handedness(best.mirror_gain) * (1 - doubt);
     if (finished)
         probability *=
             plausibility_when_finished(finished->dirichlet) * plausibility_when_covered(finished->coverage);
@@ -100,6 +112,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 
 std::string probability_in_words(const Confidence& confidence) {
     if (confidence.probability < .01) return "right with a probability below 0.01";
+    if (confidence.probability >= .995) return "right with a probability above 0.99";
     return fmt::format("right with a probability of {:.2f}", confidence.probability);
 }
 
@@ -112,6 +125,7 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
     if (is_mirrored(best)) return "only mirrored maps were found";
     std::string why;
     const auto add = [&](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
+    if (fits_mirrored(best)) add("the surfaces fit better as mirror images");
     if (confidence.margin < close)
         add(confidence.margin > 0
                 ? fmt::format("another is {:.0f}% as probable", 100 * std::exp(-confidence.margin))
@@ -164,6 +178,7 @@ std::string relation(const Candidate& candidate) {
 std::string origin(const Candidate& candidate) {
     std::string text =
         candidate.explored == 0 ? "where the landmarks lead" : fmt::format("map {}", candidate.explored);
+    if (candidate.mirrored_back) return text + " of the mirror image, mirrored back";
     if (candidate.self_map_A > 0)
         text += fmt::format(" after self-map {} of the source", candidate.self_map_A);
     if (candidate.self_map_B > 0)

@@ -19,6 +19,12 @@ struct Candidate {
     double score = 0;          ///< score_of
     double reversed_mass = 0;  ///< share of the surfaces that the map reverses
     double moved_mass = 0;     ///< share of A with another image than the best candidate gives it
+    /// Found between A and the mirror image of B, and mirrored back by a map of one of them onto its own
+    /// mirror image, which the number of its self-map counts.
+    bool mirrored_back = false;
+    /// Of the first: its score, less that of the best map between A and the mirror image of B, if that is
+    /// better; 0 where it was not looked for.
+    double mirror_gain = 0;
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
 };
 
@@ -32,6 +38,10 @@ double score_of(const Candidate& candidate);
 
 /// A mirrored map is no answer, however small its energy.
 bool is_mirrored(const Candidate& candidate);
+
+/// Whether the surfaces fit better as mirror images of each other: probably one is a left and the other a
+/// right one.
+bool fits_mirrored(const Candidate& best);
 
 /// How probable it is that a map of that quality is right at all, if it is the best of those found.
 double plausibility(const Candidate& candidate);
@@ -50,7 +60,8 @@ struct InTheEnd {
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 
-/// "right with a probability of 0.91", or "below 0.01": a rounded 0 would call it impossible.
+/// "right with a probability of 0.91", or "below 0.01" or "above 0.99": a rounded 0
+/// would call it impossible, a rounded 1 certain.
 std::string probability_in_words(const Confidence& confidence);
 
 /// Why the choice is not sure, in words; for a choice that is, "".

@@ -13,7 +13,7 @@ namespace {
 
 bool is_finite(const Candidate& c) {
     for (const double number : {c.energy, c.dirichlet, c.relief, c.alignment, c.stretch, c.score,
-                                c.reversed_mass, c.moved_mass, c.turn})
+                                c.reversed_mass, c.moved_mass, c.mirror_gain, c.turn})
         if (!std::isfinite(number)) return false;
     return c.explored >= 0 && c.self_map_A >= 0 && c.self_map_B >= 0;
 }

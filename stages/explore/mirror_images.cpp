@@ -1,0 +1,87 @@
+#include "stages/explore/mirror_images.h"
+
+#include <utility>
+
+#include "stages/explore/self_maps.h"
+#include "varimap/core/log.h"
+#include "varimap/core/timing.h"
+
+namespace varimap {
+
+namespace {
+
+/// The basis and the levels do not depend on the orientation: descriptors look outward.
+SurfaceData mirror_image(SurfaceData data) {
+    data.surface = with_reversed_orientation(std::move(data.surface));
+    return data;
+}
+
+std::vector<int> vertices_of(const PointMap& map, const TriangleMesh& to) {
+    std::vector<int> vertices;
+    for (const SurfacePoint& point : map) {
+        int corner = 0;
+        point.barycentric.maxCoeff(&corner);
+        vertices.push_back(to.faces(point.face, corner));
+    }
+    return vertices;
+}
+
+VertexImages vertex_images(const MapPair& maps, const PairContext& context) {
+    return {vertices_of(maps.A_to_B, context.B().surface.mesh),
+            vertices_of(maps.B_to_A, context.A().surface.mesh)};
+}
+
+/// Of one exploration, finished: the best of `most` maps first.
+std::vector<Appraised> best_maps(const PairContext& context, const ExplorationOptions& options,
+                                 const ExploreParams& params, FinishingOptions finishing, int most) {
+    finishing.most = most;
+    const Appraisal appraisal(context);
+    FinishedPool finished(context, std::move(finishing), appraisal);
+    finished.add(explored(context, options, params));
+    return finished.appraised();
+}
+
+/// One map is to be found, not all: chosen by hand, as much as finds the best of people, bones and hands.
+ExplorationOptions half_of(ExplorationOptions options) {
+    options.random_starts /= 2;
+    options.tip_starts /= 2;
+    return options;
+}
+
+/// Images of the vertices by the best maps of a surface onto its own mirror image.
+std::vector<VertexImages> own_mirrors(const SurfaceData& data, const ExploreParams& params,
+                                      const FinishingOptions& finishing) {
+    constexpr int most = 2;
+    const PairContext context(data, mirror_image(data), {});
+    std::vector<VertexImages> images;
+    for (const Appraised& one : best_maps(context, self_map_options(params), params, finishing, most)) {
+        log("onto its own mirror image: score {:.2f}", one.candidate.score);
+        images.push_back(vertex_images(one.map.maps, context));
+    }
+    return images;
+}
+
+}  // namespace
+
+PairContext with_mirror_image(const PairContext& context) {
+    return {context.A(), mirror_image(context.B()), context.landmarks(), context.landmark_weight()};
+}
+
+MirrorImages::MirrorImages(const PairContext& context, const ExploreParams& params,
+                           const FinishingOptions& finishing)
+    : context_(context), params_(params), finishing_(finishing) {
+    const Timer timer("mirror images");
+    best_ = best_maps(with_mirror_image(context), half_of(params.exploration), params, finishing, 1).front();
+}
+
+std::vector<PooledMap> MirrorImages::mirrored_back() const {
+    const Timer timer("mirror images");
+    std::vector<PooledMap> pool{{vertex_images(best_.map.maps, context_), best_.candidate}};
+    compose(pool, 1, own_mirrors(context_.A(), params_, finishing_),
+            own_mirrors(context_.B(), params_, finishing_), context_);
+    pool.erase(pool.begin());
+    for (PooledMap& map : pool) map.origin.mirrored_back = true;
+    return pool;
+}
+
+}  // namespace varimap

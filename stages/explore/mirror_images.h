@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "stages/explore/appraised.h"
+#include "stages/explore/params.h"
+
+namespace varimap {
+
+/// The pair with the other orientation of B: a map that keeps orientation there mirrors, as a left hand's
+/// onto a right one.
+PairContext with_mirror_image(const PairContext& context);
+
+/// The best map between A and the mirror image of B. It says whether the surfaces are a left and a right
+/// one, which no map between them as they are can; and of bodies that are their own mirror images it leads,
+/// by these, to a map that may not have been found otherwise. Keeps a reference to the context.
+class MirrorImages {
+  public:
+    MirrorImages(const PairContext& context, const ExploreParams& params, const FinishingOptions& finishing);
+
+    const Candidate& best() const { return best_.candidate; }
+    /// The best map after, or followed by, the maps of either surface onto its own mirror image.
+    std::vector<PooledMap> mirrored_back() const;
+
+  private:
+    const PairContext& context_;
+    ExploreParams params_;
+    FinishingOptions finishing_;
+    Appraised best_;
+};
+
+}  // namespace varimap
