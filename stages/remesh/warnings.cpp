@@ -132,10 +132,17 @@ std::string slivers_in_words(const MapQuality& quality) {
 
 /// Good maps of whole surfaces have less than .5% reversed and more than 95% covered, those of skulls with
 /// their insides 87%. The upper half of a person on a whole one has 8% reversed.
+bool reverses_much(const DirectionQuality& direction) {
+    constexpr double much = 2;
+    constexpr std::size_t several = 5;  // one of 20 faces is as much, on a right map of a bracket
+    return direction.verification.reversed_area_percent > much &&
+           direction.verification.reversed_faces.size() >= several;
+}
+bool covers_little(const DirectionQuality& direction) {
+    return direction.coverage.share < 0.8;
+}
 bool tears(const DirectionQuality& direction) {
-    constexpr double much_reversed = 2, little_covered = 0.8;
-    return direction.verification.reversed_area_percent > much_reversed ||
-           direction.coverage.share < little_covered;
+    return reverses_much(direction) || covers_little(direction);
 }
 
 void warn_of_tears(const DirectionQuality& direction, const char* which, const std::string& slivers,
@@ -144,8 +151,14 @@ void warn_of_tears(const DirectionQuality& direction, const char* which, const s
     const std::string cause = fmt::format(
         "Is one a part of the other, or do they have different parts? Look at the picture, give {}",
         landmarks_to_give(record));
-    warn("{}: the map tears: {:.1f}% of the area is reversed, {:.1f}% of the other surface covered. {}",
-         which, direction.verification.reversed_area_percent, 100 * direction.coverage.share,
+    std::vector<std::string> signs;
+    if (reverses_much(direction))
+        signs.push_back(
+            fmt::format("{:.1f}% of the area is reversed", direction.verification.reversed_area_percent));
+    if (covers_little(direction))
+        signs.push_back(
+            fmt::format("only {:.1f}% of the other surface is covered", 100 * direction.coverage.share));
+    warn("{}: the map tears: {}. {}", which, list_in_words(std::move(signs)),
          slivers.empty() ? cause : slivers);
 }
 

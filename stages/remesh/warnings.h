@@ -10,7 +10,7 @@ namespace varimap {
 ///   pinned landmarks  that are not met, look exchanged, or around which the map is elsewhere; a list of them
 ///                     that looks one row off
 ///   exploration       which was sure of its candidate and is not of the finished map
-///   tears             of either direction: much is reversed or uncovered
+///   tears             of either direction: much is reversed, on several faces, or uncovered
 ///   strain            where neither tears
 /// Where most of a surface's area lies on slivers, these are named as the likely cause of tears or strain.
 void warn_of(const MapQuality& quality, const PairRecord& record);

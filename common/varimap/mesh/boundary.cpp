@@ -37,6 +37,20 @@ std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& bound
     return lengths;
 }
 
+std::vector<double> loop_openings(const TriangleMesh& mesh, const Edges& edges, const Boundary& boundary) {
+    std::vector<Vec3> sums(std::size_t(boundary.loops), Vec3::Zero());
+    std::size_t i = 0;  // of the boundary's edges
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() > 1) continue;
+        const int f = edges.sides[e][0] / 3, k = edges.sides[e][0] % 3;
+        const Vec3 along = mesh.vertex(mesh.faces(f, (k + 1) % 3)) - mesh.vertex(mesh.faces(f, k));
+        sums[std::size_t(boundary.loop[i++])] += along.cross(face_normal(mesh, f).stableNormalized());
+    }
+    std::vector<double> openings;
+    for (const Vec3& sum : sums) openings.push_back(sum.norm());
+    return openings;
+}
+
 bool is_sheet(const TriangleMesh& mesh) {
     constexpr double least = 3;
     const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));

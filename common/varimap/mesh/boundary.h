@@ -19,6 +19,12 @@ Boundary find_boundary(const TriangleMesh& mesh);
 /// Per loop its length.
 std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary);
 
+/// Per loop how wide it is open: the length of the sum of what leads out of the surface across its edges,
+/// each as long as the edge, in its face, at right angles to it. At the end of a tube these point the same
+/// way, and the sum is as long as the way around it, however jagged the cut; around a hole in a wall they
+/// point to all sides and cancel.
+std::vector<double> loop_openings(const TriangleMesh& mesh, const Edges& edges, const Boundary& boundary);
+
 /// Whether it is mostly rim, as a leaf, a shirt or the scan of a face are: its boundary is at least 3
 /// sqrt(area) long (a disc's 3.5, a hemisphere's 2.5). Chosen by hand. Such a surface bends easily, and its
 /// rim tells where its points are.

@@ -100,9 +100,10 @@ LogMap::Vec2 LogMap::in_plane_of(int face, const Vec3& away) const {
             away.dot(normal.stableNormalized().cross(edge.stableNormalized()))};
 }
 
-std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b) const {
+std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b,
+                                                         int farthest) const {
     TriangleStrip strip = straight_strip(mesh_, *edges_, a, b);
-    if (strip.faces.empty()) strip = find_strip(mesh_, *edges_, a.face, b.face, farthest_, detour);
+    if (strip.faces.empty()) strip = find_strip(mesh_, *edges_, a.face, b.face, farthest, detour);
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
     const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
     const StraightPath path = straighten(mesh_, *edges_, strip, start, goal);

@@ -14,15 +14,15 @@ namespace varimap {
 class LogMap {
   public:
     using Vec2 = Eigen::Vector2d;
-    /// `farthest`: faces that the search for a path looks at.
-    explicit LogMap(const TriangleMesh& mesh, int farthest = 20'000)
-        : LogMap(mesh, find_shared_edges(mesh), farthest) {}
-    LogMap(const TriangleMesh& mesh, SharedEdges edges, int farthest = 20'000)
-        : mesh_(mesh), edges_(std::move(edges)), farthest_(farthest) {}
+    /// Faces that the search for a path looks at, unless told otherwise.
+    static constexpr int usual_farthest = 20'000;
+    explicit LogMap(const TriangleMesh& mesh) : LogMap(mesh, find_shared_edges(mesh)) {}
+    LogMap(const TriangleMesh& mesh, SharedEdges edges) : mesh_(mesh), edges_(std::move(edges)) {}
 
     /// b as seen from a, and a as seen from b. Both must have a face. Where no path is found (other
     /// components, too far, or a detour of more than 6 times their distance), both are 0.
-    std::pair<Vec2, Vec2> operator()(const SurfacePoint& a, const SurfacePoint& b) const;
+    std::pair<Vec2, Vec2> operator()(const SurfacePoint& a, const SurfacePoint& b,
+                                     int farthest = usual_farthest) const;
 
   private:
     Vec2 in_plane_of(int face, const Vec3& away) const;
@@ -31,7 +31,6 @@ class LogMap {
 
     const TriangleMesh& mesh_;
     SharedEdges edges_;
-    int farthest_;
 };
 
 /// The vertex a surface point coincides with; -1: none.

@@ -214,11 +214,6 @@ TopologySummary summarise_topology(const TriangleMesh& mesh) {
     return summary;
 }
 
-double longest_boundary(const TriangleMesh& mesh) {
-    const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));
-    return lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
-}
-
 bool is_closed(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
     const auto start = [&](int side) { return mesh.faces(side / 3, side % 3); };

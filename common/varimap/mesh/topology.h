@@ -86,9 +86,6 @@ struct TopologySummary {
 };
 TopologySummary summarise_topology(const TriangleMesh& mesh);
 
-/// The length of the longest boundary loop; 0 where there is none. Loops that touch count as one.
-double longest_boundary(const TriangleMesh& mesh);
-
 /// Whether every edge has one face on either side, of the same orientation.
 bool is_closed(const TriangleMesh& mesh);
 

@@ -1,23 +1,28 @@
 #include "varimap/pair_stage/unlike_surfaces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "varimap/core/log.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/handles.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/results/surface_map.h"
 #include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
 namespace {
 
-/// In units of sqrt(area). A person cut at the waist has .9, a head .8, a leg or an arm .3; holes of scans
-/// mostly less than .2.
-constexpr double long_loop = 0.25;
-/// Of that loop: where the other's longest is no longer, it has no such opening. Of two scans of a body with
-/// the same holes, ragged ones, one had .5.
-constexpr double much_shorter = 0.4;
+/// In units of sqrt(area). A person cut at the waist has .9, a head .8, a leg or an arm .3, all but a hand .2
+/// to .3; ragged holes of a jaw's scan, .2 to .8 long, .07 to .17.
+constexpr double wide = 0.18;
+/// Of that opening: where the other's widest is no wider, it has no such opening.
+constexpr double much_narrower = 0.4;
+/// Up to that a hole of a scan may be as wide.
+constexpr double as_holes = 0.4;
 
 /// To a part of itself.
 bool is_cut(const Surface& surface) {
@@ -25,24 +30,57 @@ bool is_cut(const Surface& surface) {
            surface.link.fate.end();
 }
 
-double opening(const Surface& surface) {
-    return longest_boundary(surface.input) / std::sqrt(surface_area(surface.input));
+/// Per vertex whether it lies on the component of the largest area. Others hang on it by a tube (bridges.h):
+/// a body is whole if it wears an open jacket.
+std::vector<char> on_largest_component(const Surface& surface) {
+    const TriangleMesh mesh = without_added_faces(surface);
+    const std::vector<int> component = vertex_components(mesh);
+    std::vector<double> area(component.size(), 0);  // of which there are fewer
+    for (int f = 0; f < mesh.face_count(); ++f)
+        area[std::size_t(component[std::size_t(mesh.faces(f, 0))])] += face_normal(mesh, f).norm();
+    const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
+    std::vector<char> marks;
+    for (const int c : component) marks.push_back(c == largest);
+    return marks;
 }
 
-void warn_of_part(double own, double other, const char* which, const char* whole) {
-    if (own < long_loop || other > much_shorter * own) return;
+/// The loop at which a surface is open widest.
+struct Opening {
+    double width = 0;   ///< loop_openings (boundary.h); sqrt(area)
+    int edges = 0;      ///< of the loop
+    bool alone = true;  ///< whether there is no other
+};
+Opening widest_opening(const Surface& surface) {
+    const Edges edges = find_edges(surface.input);
+    const Boundary boundary = find_boundary(surface.input, edges);
+    if (boundary.loops == 0) return {};
+    std::vector<double> widths = loop_openings(surface.input, edges, boundary);
+    const std::vector<char> counts = on_largest_component(surface);
+    for (std::size_t i = 0; i < boundary.edges.size(); ++i)
+        if (!counts[std::size_t(boundary.edges[i][0])]) widths[std::size_t(boundary.loop[i])] = 0;
+    const auto widest = std::max_element(widths.begin(), widths.end());
+    return {*widest / std::sqrt(surface_area(surface.input)),
+            int(std::count(boundary.loop.begin(), boundary.loop.end(), int(widest - widths.begin()))),
+            boundary.loops == 1};
+}
+
+void warn_of_part(const Opening& own, const Opening& other, const char* which, const char* whole) {
+    if (own.width < wide || other.width > much_narrower * own.width) return;
+    const bool may_be_hole = !own.alone || own.width < as_holes;
     warn(
-        "the {} looks like a part of the {}: it ends at a loop of {:.2f} sqrt(area), where the {} has none "
+        "the {} looks like a part of the {}: it ends at a loop, {:.2f} sqrt(area) around, where the {} has "
+        "none "
         "beyond {:.2f}; a part is stretched over the whole, so give --part {}, or cut the {} to the same "
-        "part",
-        which, whole, own, whole, other, which, whole);
+        "part{}",
+        which, whole, own.width, whole, other.width, which, whole,
+        may_be_hole ? fmt::format("; if it is a hole, --fill-holes {} closes it", own.edges) : "");
 }
 
 }  // namespace
 
 void warn_of_part(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface() || is_cut(A) || is_cut(B)) return;
-    const double a = opening(A), b = opening(B);
+    const Opening a = widest_opening(A), b = widest_opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");
 }

@@ -5,9 +5,10 @@
 
 namespace varimap {
 
-/// Warns where one surface is likely a part of the other: it is open along a loop much longer than any of the
-/// other, both by their areas. A part is mapped onto the whole of the other all the same, and stretched for
-/// it. Not where the whole was cut to the part (part_region.h).
+/// Warns where one surface is likely a part of the other: its largest component is open, as a limb that was
+/// cut off, much wider than that of the other, both by their areas; a hole in a wall is no such opening
+/// (boundary.h). A part is mapped onto the whole of the other all the same, and stretched for it. Not where
+/// the whole was cut to the part (part_region.h).
 void warn_of_part(const Surface& A, const Surface& B);
 
 /// Warns where the surfaces differ in genus: no map between them is one to one. Beyond 20 handles it is

@@ -7,6 +7,7 @@
 #include "varimap/mesh/disc.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/mass.h"
+#include "varimap/mesh/subdivision.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/image_mesh.h"
 #include "varimap/quality/quality.h"
@@ -14,6 +15,37 @@
 namespace varimap {
 
 namespace {
+
+/// Of a point of a side of the source: the closest to its straight image that faces as the side's ends do.
+SurfacePoint image_along(const SurfacePoint& at, const PointMap& map, const TriangleMesh& source,
+                         const TriangleMesh& target, const ClosestPoint& closest) {
+    Vec3 straight = Vec3::Zero(), normal = Vec3::Zero();
+    int guess = -1;
+    for (int k = 0; k < 3; ++k) {
+        if (at.barycentric[k] == 0) continue;
+        const SurfacePoint& end = map[std::size_t(source.faces(at.face, k))];
+        if (end.face < 0) return end;
+        straight += at.barycentric[k] * position(target, end);
+        normal += face_normal(target, end.face).stableNormalized();
+        guess = end.face;
+    }
+    return closest(straight, normal, guess).point;
+}
+
+/// Cuts faces much larger than the target's in four, until they are as small. Their straight images cut
+/// through what they lie along, and would seem to leave it out.
+void lay_along(const TriangleMesh& target, PointMap& map, TriangleMesh& source) {
+    constexpr int as_small = 4;
+    const ClosestPointOnDemand closest([&] { return target; });
+    while (source.face_count() > 0 && as_small * source.face_count() <= target.face_count()) {
+        Subdivision finer = subdivide(source);
+        PointMap between;
+        for (const SurfacePoint& at : finer.midpoints)
+            between.push_back(image_along(at, map, source, target, *closest));
+        map.insert(map.end(), between.begin(), between.end());
+        source = std::move(finer.mesh);
+    }
+}
 
 /// The image triangles that have an area. Those that face against the target come both ways round, so that
 /// neither a flip nor a sharp crease of the target (where the test for flips may err) counts as a gap.
@@ -98,7 +130,8 @@ std::vector<UncoveredPart> uncovered_parts(const TriangleMesh& mesh, std::vector
 
 }  // namespace
 
-Coverage measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+Coverage measure_coverage(PointMap map, TriangleMesh source, const TriangleMesh& target) {
+    lay_along(target, map, source);
     const ImageMesh images(map, source, target);
     const TriangleMesh image = visible_image(images);
     std::vector<char> uncovered(std::size_t(target.face_count()), 1);

@@ -74,8 +74,10 @@ struct Coverage {
 /// the image of the source: with p the closest point to c on the image triangles that face the way c does,
 /// and q the closest point to p back on the target, |q - c| is at most 0.8 |p - c| or 0.05 of the face's
 /// longest edge. (Where no image is near, p lies at the rim of the image and q beside it, so |q - c| is about
-/// |p - c|.) Flipped image triangles count whichever way they face: a flip is not a gap.
-Coverage measure_coverage(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
+/// |p - c|.) Flipped image triangles count whichever way they face: a flip is not a gap. Where the source has
+/// a quarter of the target's faces or fewer, they are cut in four first, the middles of their sides mapped to
+/// the closest points of the target that face as the sides' ends do.
+Coverage measure_coverage(PointMap map, TriangleMesh source, const TriangleMesh& target);
 
 /// Distance in R^3 of each vertex of A from its image under A -> B -> A, in units of sqrt(area of A),
 /// weighted by the vertices' areas. B_to_A is taken linear on the faces of B (image triangles).

@@ -6,12 +6,20 @@
 
 namespace varimap {
 
+namespace {
+
+/// Faces looked at for a path in any case. Those of torn triangles are looked for in vain again and again:
+/// with 2000 relaxing a skull takes a fifth longer, and as many of its faces end reversed.
+constexpr int least_farthest = 300;
+
+}  // namespace
+
 AlongTarget::AlongTarget(const SlidingMap& map)
     : map_(map),
       target_faces_(vertex_faces(map.target())),
       source_edges_(find_shared_edges(map.source())),
       target_edges_(find_shared_edges(map.target())),
-      log_map_(map.target(), target_edges_, farthest),
+      log_map_(map.target(), target_edges_),
       known_edges_(map, source_edges_->size()),
       known_faces_(map) {}
 
@@ -51,11 +59,20 @@ const Lie& AlongTarget::lie(int f) {
     return known_faces_(f, [&](int g) { return look_at(g); });
 }
 
+/// At least those as near as the edge is long. Else edges that lie over many faces of the target, as those of
+/// a part with two triangles a side do, would be taken for torn.
+int AlongTarget::farthest(const std::array<int, 2>& ends) const {
+    const double squared = (map_.source().vertex(ends[1]) - map_.source().vertex(ends[0])).squaredNorm();
+    const double near = std::numbers::pi * squared * map_.target().face_count();  // of unit area
+    return int(std::clamp<double>(near, least_farthest, LogMap::usual_farthest));
+}
+
 SeenSide AlongTarget::side(int f, int k) {
     const int e = source_edges_->of_side[std::size_t(3 * f + k)];
     const std::array<int, 2>& ends = source_edges_->vertices[std::size_t(e)];
     const std::scoped_lock lock(edge_lock_[std::size_t(e) % locks]);
-    SeenSide seen = known_edges_(e, ends, [&] { return log_map_(map_.point(ends[0]), map_.point(ends[1])); });
+    SeenSide seen = known_edges_(
+        e, ends, [&] { return log_map_(map_.point(ends[0]), map_.point(ends[1]), farthest(ends)); });
     if (map_.source().faces(f, k) != ends[0]) std::swap(seen.first, seen.second);
     return seen;
 }

@@ -46,15 +46,14 @@ class AlongTarget {
     const SharedEdges& target_edges() const { return target_edges_; }
 
   private:
-    /// Faces looked at for the path between two corners. Those of torn triangles are looked for in vain again
-    /// and again: with 2000 relaxing a skull takes a fifth longer, and as many of its faces end reversed.
-    static constexpr int farthest = 300;
     static constexpr std::size_t locks = 256;
 
     const Lie& lie(int f);
     Lie look_at(int f);
     /// From corner k of a face to the next.
     SeenSide side(int f, int k);
+    /// Faces looked at for the path between the ends of an edge of the source.
+    int farthest(const std::array<int, 2>& ends) const;
 
     const SlidingMap& map_;
     Adjacency target_faces_;  ///< per vertex of the target

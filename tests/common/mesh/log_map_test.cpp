@@ -64,7 +64,7 @@ TEST(LogMap, LooksOnlySoFar) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
     const PointMap at = shapes::at_vertices(sphere);
     const auto distance = [&](int farthest, const SurfacePoint& to) {
-        return LogMap(sphere, farthest)(at[0], to).first.norm();
+        return LogMap(sphere)(at[0], to, farthest).first.norm();
     };
     const SurfacePoint &near = at[std::size_t(vertex_neighbours(sphere)[0][0])],
                        &far = at[3];  // the opposite pole

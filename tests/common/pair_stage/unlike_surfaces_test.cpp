@@ -6,6 +6,7 @@
 
 #include "stages/preprocess/preprocess.h"
 #include "tests/fixtures/shapes.h"
+#include "tests/fixtures/together.h"
 #include "varimap/core/warnings.h"
 #include "varimap/mesh/topology.h"
 
@@ -32,18 +33,22 @@ std::size_t warnings_of(const Surface& A, const Surface& B) {
 }
 
 /// The unit ball below a height.
-Surface ball_cut_at(double height) {
+TriangleMesh cut_ball(double height) {
     const TriangleMesh ball = shapes::ellipsoid(4);
     std::vector<int> left;
     for (int f = 0; f < ball.face_count(); ++f)
         if (ball.vertices(ball.faces.row(f), 2).maxCoeff() < height) left.push_back(f);
-    return preprocess(TriangleMesh{ball.vertices, ball.faces(left, Eigen::all)}, {});
+    return {ball.vertices, ball.faces(left, Eigen::all)};
 }
 
-/// Without half of it or a small part, but not where both are open, nor for a hole.
+Surface ball_cut_at(double height) {
+    return preprocess(cut_ball(height), {});
+}
+
+/// Without half of it or a small part, but not where both are open, nor for a hole, .43 long.
 TEST(UnlikeSurfaces, PartsAreSaid) {
-    const Surface whole = ball(false, false), half = ball_cut_at(0), nearly = ball_cut_at(.97),
-                  holed = ball_cut_at(.997);
+    const Surface whole = ball(false, false), half = ball_cut_at(0), nearly = ball_cut_at(.85),
+                  holed = ball_cut_at(.97);
     for (const Surface& part : {half, nearly}) {
         ASSERT_EQ(warnings_of(part, whole, warn_of_part), 1u);
         EXPECT_NE(logged_warnings().back().find("the source looks like a part"), std::string::npos);
@@ -57,6 +62,26 @@ TEST(UnlikeSurfaces, PartsAreSaid) {
     EXPECT_EQ(warnings_of(cut, whole, warn_of_part), 0u) << "it was cut to its part";
     EXPECT_EQ(warnings_of(holed, whole, warn_of_part), 0u);
     EXPECT_EQ(warnings_of(whole, whole, warn_of_part), 0u);
+}
+
+TEST(UnlikeSurfaces, HolesAreNamedWhereAnOpeningMayBeOne) {
+    const auto asked = [](const TriangleMesh& part) {
+        EXPECT_EQ(warnings_of(preprocess(part, {}), ball(false, false), warn_of_part), 1u);
+        return logged_warnings().back().find("--fill-holes") != std::string::npos;
+    };
+    EXPECT_FALSE(asked(cut_ball(0)));
+    EXPECT_TRUE(asked(cut_ball(.9)));
+    EXPECT_TRUE(asked(shapes::tube(20, 12, false))) << "it ends at two loops";
+}
+
+TEST(UnlikeSurfaces, WhatIsWornMayBeOpen) {
+    TriangleMesh hat = cut_ball(0);
+    hat.vertices = (0.4 * hat.vertices).rowwise() + Eigen::RowVector3d(0, 0, 1.5);
+    const auto surface = [](const TriangleMesh& mesh) { return preprocess(prepared(mesh, {}, ""), {}); };
+    const Surface body = ball(false, false);
+    EXPECT_EQ(warnings_of(surface(hat), body, warn_of_part), 1u);
+    EXPECT_EQ(warnings_of(surface(shapes::together(shapes::ellipsoid(4), hat)), body, warn_of_part), 0u);
+    EXPECT_EQ(warnings_of(surface(shapes::together(cut_ball(0), hat)), body, warn_of_part), 1u);
 }
 
 TEST(UnlikeSurfaces, OtherGenusIsSaid) {

@@ -11,6 +11,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/subdivision.h"
 #include "varimap/verification/verification.h"
 
 namespace varimap {
@@ -58,6 +59,17 @@ TEST(LaidOut, TellsTheSidesOfAThinPlate) {
     // The straight triangle looks the same if its last corner slips through to the other side; but from there
     // the others lie beyond the rim, on the other hand of it.
     EXPECT_LT(sense(a, b, at(0.85, 0.2, -0.1)), 0);
+}
+
+TEST(AlongTarget, FacesThatLieOverManyOfTheTargetAreNotTorn) {
+    const TriangleMesh icosahedron = shapes::ellipsoid(0);
+    TriangleMesh fine = icosahedron;
+    for (int i = 0; i < 6; ++i) fine = subdivide(fine).mesh;
+    PointMap images = shapes::at_vertices(fine);
+    images.resize(std::size_t(icosahedron.vertex_count()));
+    const SlidingMap map(images, icosahedron, fine);
+    AlongTarget along_target(map);
+    for (int f = 0; f < icosahedron.face_count(); ++f) EXPECT_FALSE(along_target.is_reversed(f)) << f;
 }
 
 TEST(ChartRepair, MapsACrumpledPatchAnew) {
