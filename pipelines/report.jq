@@ -18,11 +18,13 @@ def direction($words):
           .p95; 3; 6)),
       (.verification.degree // empty | check("how often covered, \($words)"; fixed(2); fabs - 1 | fabs; 0.02; 0.1));
 
-# Of what preprocess recorded: a few faces, edges or vertices were repaired, and nothing that changes the surface's form.
-def few_repaired:
+# Of what preprocess recorded: a few faces, edges or vertices were repaired, or a few components joined, and nothing changed the
+# surface's form but what was asked for: holes are never filled without.
+def little_repaired:
     ([.not_finite_faces, .degenerate_faces, .duplicate_faces, .turned_faces, .cut_edges, .split_vertices, .closed_slits] | add // 0) as $elements
-    | $elements > 0 and $elements <= ([10, .001 * (.input_faces // 0)] | max)
-        and all(.opened_edges, .filled_holes, .unfilled_holes, .cut_handles, .bridges, .dropped_components; . == null);
+    | any($elements, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
+        and $elements <= ([10, .001 * (.input_faces // 0)] | max) and (.bridges // 0) <= 10
+        and .cut_handles == .asked_cuts and all(.opened_edges, .unfilled_holes, .dropped_components; . == null);
 
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
     (.part.strain // empty | check("part placed"; "strained by \(fixed(3))"; .; 0.12; 0.12)),
@@ -36,7 +38,7 @@ def few_repaired:
 # Every textured mesh is welded at its seams: nothing to look at.
 | [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not))
     | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not)] as $warnings
-| [$warnings[] | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | few_repaired) | not)] as $alarms
+| [$warnings[] | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | little_repaired) | not)] as $alarms
 | (($alarms | map(.stage) | unique | map("what \(.) warns of")) + ($checks | map(select(.grade == "look here").what))) as $look
 | {verdict: (if $look | length > 0 then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),

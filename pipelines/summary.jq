@@ -15,7 +15,7 @@ uncovered("target"; .source_to_target), uncovered("source"; .target_to_source),
 "  round trip: \(.round_trip.mean | fixed(4)) (mean), \(.round_trip.p95 | fixed(4)) (95 %), in units of sqrt(area)",
 (.exploration | select(. != null) | "  explored: candidate \(.continued) of \(.candidates | length), "
     + (if .continued == 1 then "" else "as asked; the first is " end) + "right with a probability "
-    + (.probability | if . < 0.01 then "below 0.01" else "of \(fixed(2))" end)
+    + (.probability | if . < 0.01 then "below 0.01" elif . >= 0.995 then "above 0.99" else "of \(fixed(2))" end)
     + (if .confident or .continued != 1 then "" else ", not sure: look at \($out)/\(if .confident_when_found then "picture" else "candidates" end).png" + (if .candidates | length > 1 then ", try another by --candidate" else "" end) end)),
 (.landmarks | select(length > 0) | "  landmarks: off by at most \(max | fixed(4)), the same units"),
 "  stages: \([.stages[].cpu_seconds] | add | fixed(1)) CPU seconds, \([.stages[].peak_megabytes] | max | round) MB at most"

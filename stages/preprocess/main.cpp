@@ -21,7 +21,7 @@ Surface preprocess_file(const std::string& path, RepairedMesh input, const Prepr
 }
 
 /// What is said in words (preprocess.h) once more as numbers, where it is not 0.
-void record(Stage& stage, const RepairCounts& counts) {
+void record(Stage& stage, const RepairCounts& counts, const PreprocessParams& params) {
     const auto number = [&](const char* name, double value) {
         if (value > 0) stage.record_number(name, value);
     };
@@ -38,6 +38,7 @@ void record(Stage& stage, const RepairCounts& counts) {
     number("filling_faces", counts.filling_faces);
     number("unfilled_holes", counts.unfilled_holes);
     number("cut_handles", counts.cut_handles);
+    number("asked_cuts", asked_cuts(counts, params));
     number("bridges", counts.bridges);
     number("dropped_components", counts.dropped_components);
     number("dropped_area_percent", 100 * counts.dropped_area);
@@ -69,7 +70,7 @@ int main(int argc, char** argv) {
         RepairedMesh input = prepared(file, params, in);
         stage.record_file("mesh", in);
         if (!region.empty()) input = cut_to(stage.read<PartRegion>("region", region).value, std::move(input));
-        record(stage, input.counts);
+        record(stage, input.counts, params);
         const Surface surface = preprocess_file(in, std::move(input), params);
         stage.record_number("input_vertices", file.vertex_count());
         stage.record_number("input_faces", file.face_count());

@@ -145,10 +145,18 @@ void report_end(const Bisection& bisection, double target, const TriangleMesh& i
         thinnest, thinness(input, thinnest), vertices, bisection.longest_left, target);
 }
 
+/// Holes are filled on request alone.
+bool any_unasked(RepairCounts counts, const PreprocessParams& params) {
+    counts.filled_holes = 0;
+    counts.cut_handles -= asked_cuts(counts, params);
+    return !in_words(counts).empty();
+}
+
 /// A repair may leave out parts that the user wants: it is said loudly.
-void report(const RepairCounts& counts) {
+void report(const RepairCounts& counts, const PreprocessParams& params) {
     if (!in_words(counts).empty())
-        warn("repaired: {}; varimap help meshes says how to do without", in_words(counts));
+        warn("repaired: {}{}", in_words(counts),
+             any_unasked(counts, params) ? "; varimap help meshes says how to do without" : "");
     constexpr double much = 0.01;
     if (counts.dropped_area > much)
         warn(
@@ -159,6 +167,10 @@ void report(const RepairCounts& counts) {
 }
 
 }  // namespace
+
+int asked_cuts(const RepairCounts& counts, const PreprocessParams& params) {
+    return params.cut_handles == "auto" ? 0 : counts.cut_handles;
+}
 
 double target_edge_length(const PreprocessParams& params, int used_vertices) {
     if (params.target_edge_length > 0) return params.target_edge_length;
@@ -198,7 +210,7 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
 }
 
 Surface preprocess(RepairedMesh input, const PreprocessParams& params) {
-    report(input.counts);
+    report(input.counts, params);
     Surface surface = preprocess(input.mesh, params);
     surface.link = std::move(input.link);
     return surface;

@@ -23,6 +23,9 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params);
 /// Warns of what was repaired.
 Surface preprocess(RepairedMesh input, const PreprocessParams& params);
 
+/// How many of the handles that were cut are those of a length that the parameters give: not by default.
+int asked_cuts(const RepairCounts& counts, const PreprocessParams& params);
+
 /// The target edge length in units of sqrt(area): the parameter, or the automatic choice
 /// h = 2 * 1.0746 / sqrt(max(vertices, 2500)). 1.0746 / sqrt(n) is the edge of an even triangulation of unit
 /// area with n vertices.

@@ -22,6 +22,12 @@ Vec3 middle_position(const std::vector<Vec3>& positions) {
     return result;
 }
 
+double mean_probability(const std::vector<Answer>& answers) {
+    double sum = 0;
+    for (const Answer& answer : answers) sum += answer.probability;
+    return sum / double(answers.size());
+}
+
 }  // namespace
 
 Points corresponding_points(const std::vector<Answer>& answers) {
@@ -76,7 +82,7 @@ TransferredLandmarks transfer_landmarks(const std::vector<Answer>& answers,
                                      unit);
         }
     }
-    const double unit = std::sqrt(surface_area(specimen));
+    const double unit = std::sqrt(surface_area(specimen)), probability = mean_probability(answers);
     for (Eigen::Index i = 0; i < count; ++i) {
         const auto& places = found[std::size_t(i)];
         if (places.empty()) continue;
@@ -89,7 +95,7 @@ TransferredLandmarks transfer_landmarks(const std::vector<Answer>& answers,
         if (returns[std::size_t(i)].empty()) continue;
         result.round_trip[i] = mean_median(returns[std::size_t(i)]);
         const double deviation = std::hypot(result.round_trip[i], result.spread[i]) / far_from_surface;
-        result.confidence[i] = 1 / (1 + deviation * deviation);
+        result.confidence[i] = probability / (1 + deviation * deviation);
     }
     return result;
 }

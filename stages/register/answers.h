@@ -12,6 +12,7 @@ namespace varimap {
 struct Answer {
     Correspondence map;
     PointMap from_first;
+    double probability = 1;  ///< that the map is right, where it was chosen among several
 };
 
 /// Where the vertices of the first template lie on a specimen: per coordinate the median of the answers of
@@ -25,8 +26,8 @@ struct TransferredLandmarks {
     Eigen::VectorXd
         round_trip;  ///< from a landmark to its image's image on the template, median of the templates
     Eigen::VectorXd spread;  ///< root mean square distance of the answers from `positions`; 0 of a single one
-    /// 1 / (1 + (round_trip^2 + spread^2) / 0.02^2), lengths in units of sqrt(area): near 1 where all agree.
-    /// 0 where there is no image.
+    /// 1 / (1 + (round_trip^2 + spread^2) / 0.02^2), lengths in units of sqrt(area), times the mean of the
+    /// answers' probabilities: near 1 where all agree and are likely right. 0 where there is no image.
     Eigen::VectorXd confidence;
 };
 /// `landmarks`: per template, where they are on its surface; face -1 where a template does not have one.

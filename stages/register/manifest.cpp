@@ -38,7 +38,8 @@ Answer read_answer(const Json& entry, const std::string& specimen, const Triangl
     Answer answer{read_correspondence(
                       {text_of(entry, "template"), specimen, text_of(entry, "there"), text_of(entry, "back")},
                       false, UnplacedFaces::collapse),
-                  {}};
+                  {},
+                  entry.value("probability", 1.)};
     const std::string from_first = text_of(entry, "from_first");
     if (!from_first.empty()) {
         answer.from_first = read_csv_map(from_first);

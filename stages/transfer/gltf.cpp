@@ -60,7 +60,7 @@ class Glb {
 /// The materials of a file and their images.
 class MaterialList {
   public:
-    explicit MaterialList(Glb& glb) : glb_(glb) {}
+    MaterialList(Glb& glb, const GltfImageSource& image_of) : glb_(glb), image_of_(image_of) {}
 
     void add(const std::string& name, const Material* material) {
         Json surface{{"metallicFactor", 0}, {"roughnessFactor", .8}};
@@ -101,19 +101,20 @@ class MaterialList {
         return known->second;
     }
     Texture add_texture(const std::string& path) {
-        const std::string image = read_file(path);
-        const std::string type = media_type(image);
+        const GltfImage image = image_of_(path);
+        const std::string type = media_type(image.bytes);
         if (type.empty()) {
             warn("{}: glTF takes PNG and JPEG images only; the .glb has the material's colour instead", path);
             return {};
         }
-        const int view = glb_.add_view(image);
+        const int view = glb_.add_view(image.bytes);
         glb_.json()["images"].push_back({{"bufferView", view}, {"mimeType", type}});
         glb_.json()["textures"].push_back({{"source", glb_.json()["images"].size() - 1}});
-        return {int(glb_.json()["textures"].size()) - 1, has_transparent_pixels(image)};
+        return {int(glb_.json()["textures"].size()) - 1, image.transparent};
     }
 
     Glb& glb_;
+    const GltfImageSource& image_of_;
     std::map<std::string, Texture> textures_;  ///< by the images' paths
 };
 
@@ -154,12 +155,19 @@ Json primitive_json(Glb& glb, const Primitive& primitive, int material) {
 
 }  // namespace
 
-std::string to_glb(const TexturedMesh& textured, const Materials& materials) {
+GltfImage read_gltf_image(const std::string& path) {
+    std::string bytes = read_file(path);
+    const bool transparent = has_transparent_pixels(bytes);
+    return {std::move(bytes), transparent};
+}
+
+std::string to_glb(const TexturedMesh& textured, const Materials& materials,
+                   const GltfImageSource& image_of) {
     Glb glb;
     glb.json()["scene"] = 0;
     glb.json()["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
     glb.json()["nodes"] = Json::array({Json{{"mesh", 0}}});
-    MaterialList list_of_materials(glb);
+    MaterialList list_of_materials(glb, image_of);
     for (const std::string& name : textured.model.materials)
         list_of_materials.add(name, materials.find(name));
     std::map<int, Primitive> primitives;

@@ -31,18 +31,6 @@ class LineSplitter {
     LineSplitter(std::string_view line, int number, const std::string& path)
         : rest_(line), number_(number), path_(path) {}
 
-    /// That which the line holds outside of quotes; none: a blank.
-    char separator() const {
-        const std::string_view text = rest_.substr(0, rest_.find_last_not_of(blanks) + 1);
-        for (const char c : separators) {
-            bool quoted = false;
-            for (const char at : text) {
-                if (at == '"') quoted = !quoted;
-                if (at == c && !quoted) return c;
-            }
-        }
-        return ' ';
-    }
     std::vector<std::string> words(char separator, Content content) {
         std::vector<std::string> words;
         const bool comments = separator == ' ' && content == Content::numbers;
@@ -101,7 +89,7 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
         const std::string_view start = trimmed(line, ' ');
         if (start.empty() || start.starts_with('#')) continue;
         LineSplitter splitter(line, number, path);
-        if (text.rows.empty()) text.separator = splitter.separator();
+        if (text.rows.empty()) text.separator = separator_of(line);
         if (text.separator == ' ' && blanks_belong) text.separator = ',';
         text.rows.push_back({number, splitter.words(text.separator, content)});
     }

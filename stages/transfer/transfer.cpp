@@ -89,6 +89,12 @@ void warn_of_unknown_materials(const ObjModel& model, const Materials& materials
     if (!names.empty()) warn("{}: no library (mtllib) describes the materials {}", path, names);
 }
 
+bool any_transparent(const Materials& materials) {
+    return std::any_of(materials.list.begin(), materials.list.end(), [](const Material& material) {
+        return !material.texture.empty() && read_gltf_image(material.texture).transparent;
+    });
+}
+
 /// One run: what is asked for, between what, and what came of it so far.
 class Transfer {
   public:
@@ -126,7 +132,7 @@ class Transfer {
     void add_texture(const std::string& path);
     void add_cut(const Texture& texture, const std::string& name);
     void add_baked(const Texture& texture, const std::string& name);
-    void add_materials(const Materials& materials, const std::string& name);
+    std::string add_materials(const Materials& materials, const std::string& name);
     TextureImage baked(const Texture& texture, const ObjModel& target, const std::string& target_file) const;
 
     const TransferRequest& request_;
@@ -191,14 +197,10 @@ void Transfer::add_mesh(const std::string& path) {
                       map_.from_file, map_.from);
     const std::string name = reverse_ ? "target_on_source" : "source_on_target";
     const ObjModel model = parse_obj_model(bytes, path);
-    const bool painted = !model.libraries.empty();
-    if (painted) {
-        const Materials materials = read_materials_of(model, path);
-        add_materials(materials, name);
-    }
+    std::string library;
+    if (!model.libraries.empty()) library = add_materials(read_materials_of(model, path), name);
     warn_of_followers(map_.there, path);
-    const std::string carried =
-        with_vertices(bytes, carried_vertices(map_), map_.to.space, painted ? name + ".mtl" : "", path);
+    const std::string carried = with_vertices(bytes, carried_vertices(map_), map_.to.space, library, path);
     add(name + ".obj", reverses_orientation(map_) ? with_turned_polygons(carried) : carried);
 }
 
@@ -217,10 +219,13 @@ void Transfer::add_texture(const std::string& path) {
         add_cut({model, materials}, name);
 }
 
-void Transfer::add_materials(const Materials& materials, const std::string& name) {
+/// Returns what the OBJ names as its library: nothing where no material is described.
+std::string Transfer::add_materials(const Materials& materials, const std::string& name) {
+    if (materials.text.empty()) return "";
     add(name + ".mtl", materials.text);
     for (const auto& [image, path] : materials.images)
         if (!names_.contains(image)) add(image, read_file(path));
+    return name + ".mtl";
 }
 
 void Transfer::add_cut(const Texture& texture, const std::string& name) {
@@ -228,9 +233,9 @@ void Transfer::add_cut(const Texture& texture, const std::string& name) {
     log("texture: {} vertices and {} faces, of {} and {}: faces are cut at seams",
         textured.mesh.vertex_count(), textured.mesh.face_count(), map_.to.vertex_count(),
         map_.to.face_count());
-    add(name + ".obj", to_obj(textured, name + ".mtl"));
+    const std::string library = add_materials(texture.materials, name);
+    add(name + ".obj", to_obj(textured, library));
     add(name + ".glb", to_glb(textured, texture.materials));
-    add_materials(texture.materials, name);
 }
 
 TextureImage Transfer::baked(const Texture& texture, const ObjModel& target,
@@ -258,12 +263,18 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
         throw InputError(onto +
                          ": has no texture coordinates to bake onto; leave out --bake to have the "
                          "source's cut onto it");
-    const TextureImage image = baked(texture, target.model, onto);
+    const std::string image = to_png(baked(texture, target.model, onto));
     target.model.materials = {"baked"};
     std::fill(target.model.material.begin(), target.model.material.end(), 0);
+    const Material material{.name = "baked", .texture = name + ".png"};
+    // The image is transparent beside the patches as well, where nothing is drawn.
+    const auto drawn = [&](const std::string&) {
+        return GltfImage{image, any_transparent(texture.materials)};
+    };
     add(name + ".obj", to_obj(target, name + ".mtl"));
     add(name + ".mtl", fmt::format("newmtl baked\nKd 1 1 1\nmap_Kd {}.png\n", name));
-    add(name + ".png", to_png(image));
+    add(name + ".glb", to_glb(target, {.list = {material}}, drawn));
+    add(name + ".png", image);
 }
 
 }  // namespace

@@ -155,11 +155,13 @@ grep -q '2 done already' log || fail "changed landmarks"
 jq -e '.landmarks | length == 2' listed/pairs/three/quality.json >/dev/null || fail "changed landmarks were not used"
 [[ $(stat -c %y listed/pairs/tips/result.json) == "$stamp" ]] || fail "other pairs ran too"
 rm meshes/broken.off
-# A small probability is not called none.
+# A small probability is not called none, nor a large one 1.
 jq -c '.sure = false | .probability = 0 | .badness = 2' listed/pairs/none/result.json >result.json && mv result.json listed/pairs/none
+jq -c '.sure = true | .probability = 1' listed/pairs/tips/result.json >result.json && mv result.json listed/pairs/tips
 "$VARIMAP_SOURCE/pipelines/batch/report" listed >out.txt 2>log || true
 grep -q '^look at  none: .*, not sure (below 0.01), ' out.txt || fail "a small probability in the summary"
 grep -q 'not sure</a> (below 0.01)' listed/index.html || fail "a small probability in the sheet"
+grep -q 'sure (above 0.99)' listed/index.html || fail "a large probability in the sheet"
 
 # A template and its specimens, with landmarks that are found by name. Then a damaged artifact.
 mkdir points
@@ -366,6 +368,7 @@ wait $session || code=$?
 # shellcheck disable=SC2009  # pgrep counts those that have ended, too
 [[ -z $(ps -o stat= -s $session | grep -v Z || true) ]] || fail "jobs go on after an interrupt"
 grep -q 'interrupted; what is finished is kept' log || fail "an interrupt is not said"
+! grep -qE '[1-9][0-9]* failed|failed \(' log || fail "an interrupted job is counted as failed: $(grep failed log)"
 [[ -z $(find stopped/pairs -name result.json -exec grep -l failed {} +) ]] || fail "an interrupted pair is called failed"
 batch --all-pairs meshes -o stopped -j 2
 same_batch all stopped

@@ -54,6 +54,9 @@ cp meshes/s1.off same/template.off
 register "${coarse[@]}" template.off same -o named -j 2
 grep -q '^register: warning: other names.* same/template.off is template-2$' log || fail "another name is not told"
 [[ -s named/specimens/template-2.csv && -s named/maps/pairs/template--template-2/quality.json ]] || fail "the second of one name"
+# Without landmarks maps are chosen among several, right with some probability.
+diff <(jq '.exploration.probability' named/maps/pairs/template--template-2/quality.json) \
+    <(jq '.specimens[].answers[].probability' named/manifest.json) >log || fail "the probability of a map: $(<log)"
 expect_exit 3 "$varimap" register "${small_picture[@]}" template.off same -o none --landmarks-from points
 grep -q 'another mesh is called template' log || fail "landmarks of two meshes"
 

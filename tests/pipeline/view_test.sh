@@ -13,13 +13,15 @@ jq '.warnings = [{stage: "diffuse a--b", message: "all is\nlost"}]' good/quality
 [[ $(jq -r -f "$VARIMAP_SOURCE/pipelines/report.jq" warned.json | jq -r .verdict) == "look here" ]] || fail "a warning is not heeded"
 expect_exit 6 "$varimap" report absent
 
-# Of many parts that are not reached the largest are named; nothing is called impossible.
+# Of many parts that are not reached the largest are named; nothing is called impossible, or certain.
 jq '.source_to_target.uncovered = [range(7) | {area_percent: (9 - .), vertex: .}] | .target_to_source.uncovered = .source_to_target.uncovered[:3]
     | .exploration = {continued: 1, candidates: [{}], probability: .004, confident: false}' good/quality.json >doubtful.json
 jq -r --arg out good -f "$VARIMAP_SOURCE/pipelines/summary.jq" doubtful.json >summary.txt
 grep -q 'not reached on the target: 9 % .* vertex 0, 8 % .* vertex 1, 7 % of the area around vertex 2 and 4 more$' summary.txt || fail "the largest of many parts"
 grep -q 'not reached on the source: .* vertex 2$' summary.txt || fail "three parts"
 grep -q 'candidate 1 of 1, right with a probability below 0.01, not sure' summary.txt || fail "a small probability"
+jq '.exploration |= (.probability = .996 | .confident = true)' doubtful.json | jq -r --arg out good -f "$VARIMAP_SOURCE/pipelines/summary.jq" >summary.txt
+grep -q 'candidate 1 of 1, right with a probability above 0.99$' summary.txt || fail "a large probability"
 expect_exit 6 "$varimap" view absent
 expect_exit 2 "$varimap" view good more
 

@@ -179,6 +179,11 @@ TEST(TransferredLandmarks, AreTrustedWhereTheWayBackLeadsHome) {
     const TransferredLandmarks found = transfer_landmarks({identity_answer()}, {landmarks});
     EXPECT_LT((found.positions.row(0).transpose() - position(body(), landmarks[0])).norm(), 1e-9);
     EXPECT_THAT(found.confidence[0], DoubleNear(1, 1e-9));
+    Answer doubtful = identity_answer();
+    doubtful.probability = .6;
+    const TransferredLandmarks doubted =
+        transfer_landmarks({identity_answer(), doubtful}, {landmarks, landmarks});
+    EXPECT_THAT(doubted.confidence[0], DoubleNear(.8, 1e-9));
     const TransferredLandmarks wrong = transfer_landmarks({wrong_answer()}, {landmarks});
     EXPECT_LT(wrong.confidence[0], .1);
     const TransferredLandmarks disputed =

@@ -973,6 +973,28 @@ TEST_F(Transfer, AGlbHoldsEveryImageOnceAndValidText) {
     EXPECT_EQ(glb.at("materials")[2].at("alphaMode"), "BLEND");
 }
 
+TEST_F(Transfer, AGlbIsBakedToo) {
+    const TriangleMesh square = shapes::square(2);
+    write("skin.mtl", "newmtl skin\nmap_Kd skin.png\n");
+    Correspondence map = identity(square);
+    map.to_file = write("square.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
+    TransferRequest request;
+    request.texture = map.to_file;
+    request.bake = {8, 0};
+    // As transparent as what is baked, whatever lies beside the patches.
+    TextureImage glass = gradient(8);
+    glass.rgba[3] = 100;
+    for (const bool transparent : {false, true}) {
+        write("skin.png", to_png(transparent ? glass : gradient(8)));
+        const auto files = carry(request, map);
+        const std::string& glb = files.at("square_textured.glb");
+        EXPECT_THAT(glb, HasSubstr(files.at("square_textured.png")));
+        const auto material = description_of(glb).at("materials")[0];
+        EXPECT_EQ(material.at("name"), "baked");
+        EXPECT_EQ(material.contains("alphaMode"), transparent);
+    }
+}
+
 TEST_F(Transfer, MaterialsStayApartWhateverTheirNames) {
     ObjModel model = of_three_materials(ball_);
     model.materials = {"Material #1", "Material #2", "Material #3"};
@@ -1072,6 +1094,17 @@ TEST_F(Transfer, WritesTexturesAndGlb) {
     const std::string& glb = files.at("b_textured.glb");
     EXPECT_TRUE(glb.starts_with("glTF"));
     EXPECT_EQ(glb.size() % 4, 0u);
+}
+
+TEST_F(Transfer, WritesNoEmptyLibrary) {
+    TransferRequest request;
+    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_)));
+    write("empty.mtl", "");
+    request.mesh = write("b.obj", obj_of(ball_, unwrapped(ball_), "empty.mtl"));
+    for (const auto& [name, bytes] : carry(request, identity(ball_))) {
+        EXPECT_FALSE(name.ends_with(".mtl"));
+        EXPECT_THAT(bytes, Not(HasSubstr("mtllib")));
+    }
 }
 
 TEST_F(Transfer, RefusesTexturesThatAreNotThere) {

@@ -5,16 +5,28 @@
 namespace varimap {
 namespace {
 
-constexpr std::string_view blanks = " \t";
-
-void skip_blanks(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+/// A tab that separates is no blank.
+std::string_view blanks_beside(char separator) {
+    return separator == '\t' ? " " : " \t";
 }
 
-std::string take_plain(std::string_view& line) {
-    const std::string_view field = line.substr(0, line.find(','));
+void skip_blanks(std::string_view& line, char separator) {
+    line.remove_prefix(std::min(line.find_first_not_of(blanks_beside(separator)), line.size()));
+}
+
+std::string take_plain(std::string_view& line, char separator) {
+    const std::string_view field = line.substr(0, line.find(separator));
     line.remove_prefix(field.size());
-    return std::string(field.substr(0, field.find_last_not_of(blanks) + 1));
+    return std::string(field.substr(0, field.find_last_not_of(blanks_beside(separator)) + 1));
+}
+
+bool holds_outside_quotes(std::string_view line, char separator) {
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (c == separator && !quoted) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -33,16 +45,24 @@ std::optional<std::string> take_quoted(std::string_view& line) {
     }
 }
 
-std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
+char separator_of(std::string_view line) {
+    line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    for (const char separator : {',', ';', '\t'})
+        if (holds_outside_quotes(line, separator)) return separator;
+    return ' ';
+}
+
+std::optional<std::vector<std::string>> csv_fields(std::string_view line, char separator) {
     std::vector<std::string> fields;
     for (;; line.remove_prefix(1)) {
-        skip_blanks(line);
-        std::optional<std::string> field = line.starts_with('"') ? take_quoted(line) : take_plain(line);
+        skip_blanks(line, separator);
+        std::optional<std::string> field =
+            line.starts_with('"') ? take_quoted(line) : take_plain(line, separator);
         if (!field) return {};
-        skip_blanks(line);
+        skip_blanks(line, separator);
         fields.push_back(std::move(*field));
         if (line.empty()) return fields;
-        if (!line.starts_with(',')) return {};
+        if (!line.starts_with(separator)) return {};
     }
 }
 

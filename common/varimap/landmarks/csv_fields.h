@@ -11,8 +11,13 @@ namespace varimap {
 /// None where the closing quote is missing.
 std::optional<std::string> take_quoted(std::string_view& line);
 
-/// What stands between the commas of a line, without blanks around it. As RFC 4180 says, a field in quotes
-/// may hold commas, and quotes as two of them. None where a quote has no end, or more than a comma behind it.
-std::optional<std::vector<std::string>> csv_fields(std::string_view line);
+/// Which of comma, semicolon and tab, the first of these, the line holds outside of quotes and before its
+/// last word; a blank where it holds none.
+char separator_of(std::string_view line);
+
+/// What stands between the separators of a line, without blanks around it. As RFC 4180 says, a field in
+/// quotes may hold them, and quotes as two of them. None where a quote has no end, or more than a separator
+/// behind it.
+std::optional<std::vector<std::string>> csv_fields(std::string_view line, char separator = ',');
 
 }  // namespace varimap

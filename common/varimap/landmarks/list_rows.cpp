@@ -22,12 +22,19 @@ bool has_commas(const TextScanner& scanner) {
     return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
 }
 
-/// What stands between the commas of a line.
-std::vector<std::string> split_at_commas(const TextScanner& scanner) {
-    const auto fields = csv_fields(fmt::format("{}", fmt::join(scanner.words(), " ")));
+/// Semicolon or tab where the first line is one of a table with these; else a blank. Numbers that tabs
+/// separate are those that blanks separate.
+char separator_of_table(const TextScanner& first_line) {
+    if (std::ranges::all_of(first_line.words(), is_number)) return ' ';
+    const char separator = separator_of(first_line.line_text());
+    return separator == ',' ? ' ' : separator;
+}
+
+std::vector<std::string> fields_of(const TextScanner& scanner, char separator) {
+    const auto fields = csv_fields(scanner.line_text(), separator);
     if (!fields)
         scanner.fail(
-            "a quote has no end before the line or, with #, its comment, or more than a comma behind it");
+            "a quote has no end before the line or, with #, its comment, or more than a separator behind it");
     return *fields;
 }
 
@@ -49,8 +56,8 @@ std::vector<double> numbers_of(std::span<const std::string> fields, const TextSc
     return numbers;
 }
 
-/// A line with commas, whose first or last field may be a name.
-ListRow row_with_commas(std::span<const std::string> fields, bool first_is_name, const TextScanner& scanner) {
+/// A line of a table, whose first or last field may be a name.
+ListRow row_of_table(std::span<const std::string> fields, bool first_is_name, const TextScanner& scanner) {
     ListRow row{scanner.line(), {}};
     if (first_is_name || !is_number(fields.front())) {
         row.name = fields.front();
@@ -70,17 +77,21 @@ std::vector<ListRow> read_list_rows(const std::string& path) {
     TextScanner scanner(without_byte_order_mark(bytes, path), path);
     std::vector<ListRow> rows;
     bool first_is_name = false;
+    char of_table = ' ';
     for (bool first = true; scanner.next_line(); first = false) {
-        if (!has_commas(scanner)) {
+        if (first) of_table = separator_of_table(scanner);
+        // Lines with commas and with blanks may stand in one file.
+        const char separator = of_table == ' ' && has_commas(scanner) ? ',' : of_table;
+        if (separator == ' ') {
             const std::vector<std::string> words(scanner.words().begin(), scanner.words().end());
             rows.push_back({scanner.line(), numbers_of(words, scanner)});
             continue;
         }
-        const std::vector<std::string> fields = split_at_commas(scanner);
+        const std::vector<std::string> fields = fields_of(scanner, separator);
         if (first && std::ranges::none_of(fields, is_number))
             first_is_name = is_heading_of_names(fields.front());
         else
-            rows.push_back(row_with_commas(fields, first_is_name, scanner));
+            rows.push_back(row_of_table(fields, first_is_name, scanner));
     }
     if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
     return rows;

@@ -11,7 +11,7 @@ namespace varimap {
 struct ListRow {
     int line = 0;  ///< of the file, from 1
     std::vector<double> numbers;
-    std::string name = {};  ///< of a line with commas, where it holds one
+    std::string name = {};  ///< of a line of a table, where it holds one
 };
 
 /// The lines of a file that hold something, without comments and the headings of a table; at least one.

@@ -12,11 +12,11 @@
 namespace varimap {
 
 /// Reads a list of vertices (.vts, .pinned, .csv, plain): a line is a vertex number, which x y z may follow;
-/// `#` starts a comment. Here as in all lists, a line may be split by commas instead of blanks; then its
-/// first or last field may be a name, and the first line may hold headings. Automatic base: where the lines
-/// carry coordinates, those of the mesh decide; else 0. Returns 0-based numbers, in the file's order. Numbers
-/// are checked against `mesh` where it is given. Throws IoError; InputError naming file and line (malformed,
-/// out of range) or an empty file.
+/// `#` starts a comment. Here as in all lists, a line may be split by commas instead of blanks, and all lines
+/// by semicolons or tabs where the first one is; then the first or last field may be a name, and the first
+/// line may hold headings. Automatic base: where the lines carry coordinates, those of the mesh decide; else
+/// 0. Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where it is given.
+/// Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
 std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
 
 /// A landmark of one surface.

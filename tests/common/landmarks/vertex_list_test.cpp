@@ -218,6 +218,25 @@ TEST_F(VertexList, ReadsCommasWhereBlanksAreRead) {
                 ElementsAre(4));
 }
 
+TEST_F(VertexList, ReadsSemicolonsAndTabsWhereTheFirstLineHasThem) {
+    const auto partners = write("b.csv", "name;x;y;z\nnose;0;0;0\n\"left; ear\"; 3;1;.7 # tip\n");
+    for (const std::string text : {"name;x;y;z\n\"left; ear\";2;0;.4\nnose;1;0;.2\n",
+                                   "name\tx\ty\tz\r\nleft; ear\t2\t0\t.4\r\nnose\t1\t0\t.2\t\r\n",
+                                   "2\t0\t.4\t\"left; ear\"\n1\t0\t.2\tnose\n"}) {
+        const auto source = write("a.csv", text);
+        EXPECT_THAT(read_landmarks({source, partners}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}})) << text;
+    }
+    // A column without a heading numbers the rows.
+    EXPECT_TRUE(holds_points(write("h.csv", "\tx\ty\tz\n1\t2\t0\t.4\n")));
+    EXPECT_THAT(read_landmarks({write("p.csv", "source;target\n4;7\n2;0\n")}, mesh_, mesh_).vertices,
+                are({{4, 7}, {2, 0}}));
+    // Tabs among numbers alone are blanks, as they ever were.
+    EXPECT_THAT(read_landmarks({write("p.txt", "4 \t7\n2 0\n")}, mesh_, mesh_).vertices,
+                are({{4, 7}, {2, 0}}));
+    EXPECT_THAT(error_of({write("c.csv", "name;x;y;z\nnose;0,5;0;0\n"), partners}),
+                HasSubstr("c.csv:2: '0,5' is not a number"));
+}
+
 TEST_F(VertexList, RefusesCommasThatDoNotSeparateNumbers) {
     const auto targets = write("b.txt", "7\n0\n");
     const std::pair<const char*, const char*> cases[] = {

@@ -99,6 +99,10 @@ bool TextScanner::next_line() {
     return !words_.empty();
 }
 
+std::string_view TextScanner::line_text() const {
+    return {uncut_.data(), std::size_t(words_.back().data() + words_.back().size() - uncut_.data())};
+}
+
 std::string_view TextScanner::rest_of_line() const {
     const std::size_t end_of_word = std::size_t(words_[0].data() + words_[0].size() - uncut_.data());
     std::string_view rest = uncut_.substr(end_of_word);

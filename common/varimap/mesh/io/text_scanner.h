@@ -21,6 +21,8 @@ class TextScanner {
     /// Goes to the next line with words; false at the end of the text.
     bool next_line();
     const std::vector<std::string_view>& words() const { return words_; }
+    /// The line up to the end of its last word, as it stands there.
+    std::string_view line_text() const;
     /// What stands behind the first word up to the end of its line, without the blanks around it, as names
     /// do: they may hold blanks and `#`.
     std::string_view rest_of_line() const;
