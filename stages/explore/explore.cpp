@@ -78,12 +78,14 @@ ByMirrorImages found_by_mirror_images(const PairContext& context, const ExploreP
                                       const std::vector<Candidate>& found) {
     // Chosen by hand. Bodies in other poses, which are their own mirror images, differ by .2, and fit by -36
     // at best; left bones and hands fit right ones by -39.
-    constexpr double better = 0.35, much_alike = -36;
+    constexpr double better = 0.35, much_alike = -36, unlike = -32;
+    const bool sure = confidence_of(found).confident;
+    if (sure && found.front().score > unlike) return {};  // too far from what could tell them apart
     const MirrorImages mirror(context, params, quick_finishing(params));
     const double score = mirror.best().score, as_they_are = found.front().score;
     log("as mirror images: score {:.2f}, as they are {:.2f}", score, as_they_are);
     const bool are_much_alike = score < much_alike;
-    if (score + better > as_they_are || (!are_much_alike && confidence_of(found).confident)) return {};
+    if (score + better > as_they_are || (!are_much_alike && sure)) return {};
     ByMirrorImages result{mirror.mirrored_back()};
     if (are_much_alike) result.score = score;
     return result;
