@@ -18,6 +18,7 @@
 #include "stages/explore/pool.h"
 #include "stages/explore/self_maps.h"
 #include "stages/explore/starts.h"
+#include "stages/explore/surface_comparison.h"
 #include "stages/explore/tips.h"
 #include "stages/generate/level_set.h"
 #include "varimap/core/warnings.h"
@@ -442,6 +443,31 @@ TEST(Explore, ComparesWhatIsTooCloseOnTheSurfacesThatWereSketched) {
         }
     }
     EXPECT_EQ(found.previews.size(), std::min(found.list.size(), size_t(3)));
+}
+
+TEST(SurfaceComparison, PrefersWhatIsBetterThereUnlessItReversesMuch) {
+    const PairContext context = figures().context();
+    const Appraisal appraisal(context);
+    FinishingOptions options;
+    FinishedPool finished(context, options, appraisal);
+    finished.add(explored(context, {}, {}));
+    const Appraised found = finished.appraised().front();
+    const int right = found.candidate.explored;
+    std::vector<Appraised> list{found, found};
+    MapPair& wrong = list[0].map.maps;  // end to end, as far as the vertices' order goes
+    std::reverse(wrong.A_to_B.begin(), wrong.A_to_B.end());
+    std::reverse(wrong.B_to_A.begin(), wrong.B_to_A.end());
+    list[0].candidate.explored = right + 1;
+    list[0].candidate.score -= .1;
+    list[1].candidate.moved_mass = 1;
+    const auto first = [&] {
+        return compared_on_surfaces(list, context, options, [&] { return figures().context(); })
+            .front()
+            .candidate.explored;
+    };
+    EXPECT_EQ(first(), right);
+    list[1].candidate.reversed_mass = .2;
+    EXPECT_NE(first(), right);
 }
 
 TEST(Explore, LeavesTheSurfacesAloneWhereSketchesDecide) {

@@ -84,6 +84,10 @@ bool fits_mirrored(const Candidate& best) {
     return plausibility_of_handedness(best.mirror_gain) < 0.5;
 }
 
+bool reverses_much(const Candidate& candidate) {
+    return plausibility_of_reversed(candidate.reversed_mass) < 0.5;
+}
+
 double plausibility(const Candidate& candidate) {
     constexpr double relief = 0.5, dirichlet = 0.2;  // at which it is even
     return 1 / (1 + std::exp(-14 * (candidate.relief - relief) + 4 * (strain(candidate) - dirichlet)));

@@ -43,6 +43,9 @@ bool is_mirrored(const Candidate& candidate);
 /// right one.
 bool fits_mirrored(const Candidate& best);
 
+/// Whether a map reverses more of the surfaces than right ones do, about a seventh.
+bool reverses_much(const Candidate& candidate);
+
 /// How probable it is that a map of that quality is right at all, if it is the best of those found.
 double plausibility(const Candidate& candidate);
 
