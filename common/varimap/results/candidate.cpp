@@ -68,7 +68,7 @@ double plausibility_of_reversed(double reversed_mass) {
 /// How probable it is that the surfaces are not a left and a right one, by how much better they fit as mirror
 /// images. Chosen by hand on a femur and a hand, which gained 1.6 and 1.4.
 double plausibility_of_handedness(double mirror_gain) {
-    constexpr double even = 0.85, scale = 0.2;
+    constexpr double even = 0.85, scale = 0.12;
     return 1 / (1 + std::exp((mirror_gain - even) / scale));
 }
 
