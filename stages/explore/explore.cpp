@@ -174,9 +174,7 @@ void warn_of_exchanged_landmarks(const Candidate& led, const PairContext& contex
             "the landmarks fit mirror images: if one of the surfaces is a left and the other a right one, "
             "{}; "
             "with landmarks {} exchanged the map would be more probable, too, but less so",
-            context.A().surface.mirrored != context.B().surface.mirrored ? "leave --mirror out"
-                                                                         : "give --mirror",
-            exchanged_in_words(exchange));
+            mirror_advice(context), exchanged_in_words(exchange));
     else
         warn(
             "landmarks {} look exchanged: with their partners exchanged the map is far more probable; are "

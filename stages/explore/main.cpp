@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "stages/explore/explore.h"
+#include "stages/explore/mirror_images.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/spectral/spectral_check.h"
 #include "varimap/stage/stage_main.h"
@@ -11,7 +12,7 @@ using namespace varimap;
 
 namespace {
 
-void report(const std::vector<Candidate>& candidates, bool has_landmarks, bool opposed) {
+void report(const std::vector<Candidate>& candidates, bool has_landmarks, const PairContext& context) {
     for (size_t k = 0; k < candidates.size(); ++k)
         log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, alignment {:.3f}, "
             "stretch "
@@ -31,7 +32,7 @@ void report(const std::vector<Candidate>& candidates, bool has_landmarks, bool o
         warn(
             "the surfaces fit better as mirror images of each other: if one is a left and the other a right "
             "one, {}; else give landmarks",
-            opposed ? "leave --mirror out" : "give --mirror");
+            mirror_advice(context));
     else if (!confidence.confident)
         warn(
             "the choice among the candidates is not sure ({}): look at candidates.png, {}or give {}landmarks",
@@ -175,8 +176,7 @@ int main(int argc, char** argv) {
         else if (landmarks_decide(found))
             log("varimap-diffuse follows the landmarks");
         else
-            report(found.list, !landmark_files.empty(),
-                   context.A().surface.mirrored != context.B().surface.mirrored);
+            report(found.list, !landmark_files.empty(), context);
         found.sketched_A = inputs.sketched("A");
         found.sketched_B = inputs.sketched("B");
         stage.record_number("candidates", double(found.list.size()));

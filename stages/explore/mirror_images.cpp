@@ -5,6 +5,7 @@
 #include "stages/explore/self_maps.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
 
@@ -18,11 +19,7 @@ SurfaceData mirror_image(SurfaceData data) {
 
 std::vector<int> vertices_of(const PointMap& map, const TriangleMesh& to) {
     std::vector<int> vertices;
-    for (const SurfacePoint& point : map) {
-        int corner = 0;
-        point.barycentric.maxCoeff(&corner);
-        vertices.push_back(to.faces(point.face, corner));
-    }
+    for (const SurfacePoint& point : map) vertices.push_back(nearest_vertex(to, point));
     return vertices;
 }
 
@@ -65,6 +62,11 @@ std::vector<VertexImages> own_mirrors(const SurfaceData& data, const ExplorePara
 
 PairContext with_mirror_image(const PairContext& context) {
     return {context.A(), mirror_image(context.B()), context.landmarks(), context.landmark_weight()};
+}
+
+std::string mirror_advice(const PairContext& context) {
+    const bool opposed = context.A().surface.mirrored != context.B().surface.mirrored;
+    return opposed ? "leave --mirror out" : "give --mirror";
 }
 
 MirrorImages::MirrorImages(const PairContext& context, const ExploreParams& params,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "stages/explore/appraised.h"
@@ -10,6 +11,9 @@ namespace varimap {
 /// The pair with the other orientation of B: a map that keeps orientation there mirrors, as a left hand's
 /// onto a right one.
 PairContext with_mirror_image(const PairContext& context);
+
+/// What to do where the surfaces are a left and a right one: "give --mirror", or leave it out.
+std::string mirror_advice(const PairContext& context);
 
 /// The best map between A and the mirror image of B. It says whether the surfaces are a left and a right
 /// one, which no map between them as they are can; and of bodies that are their own mirror images it leads,

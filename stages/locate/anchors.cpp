@@ -5,6 +5,7 @@
 
 #include "stages/locate/starts.h"
 #include "varimap/core/statistics.h"
+#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
 
@@ -63,13 +64,6 @@ std::vector<int> anchors(const Eigen::VectorXd& values, const GeodesicGraph& gra
     return chosen;
 }
 
-/// The corner of its face that is nearest.
-int nearest_corner(const SurfacePoint& point, const TriangleMesh& mesh) {
-    int corner = 0;
-    point.barycentric.maxCoeff(&corner);
-    return mesh.faces(point.face, corner);
-}
-
 }  // namespace
 
 PointMap images_by_anchors(const PointMap& placement, const Sketches& sketches, double share) {
@@ -79,7 +73,7 @@ PointMap images_by_anchors(const PointMap& placement, const Sketches& sketches, 
     for (int i = 0; i < smoothings; ++i) changes = smoothed(changes, part);
     const std::vector<int> on_part = anchors(changes, sketches.part.graph);
     std::vector<int> on_whole;
-    for (const int v : on_part) on_whole.push_back(nearest_corner(placement[std::size_t(v)], whole));
+    for (const int v : on_part) on_whole.push_back(nearest_vertex(whole, placement[std::size_t(v)]));
     return images_alike_far(root * distances_from_each(sketches.part.graph, on_part).transpose(),
                             distances_from_each(sketches.whole.graph, on_whole).transpose(), whole);
 }

@@ -11,6 +11,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
 
@@ -97,9 +98,7 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, const 
         const int v = vertex_number(row, path, map.from.vertex_count(), "vertices");
         const SurfacePoint image = there(point_at_vertex(map.from, v));
         if (image.face < 0) throw InputError(fmt::format("{}:{}: vertex {} has no image", path, row.line, v));
-        int corner;
-        image.barycentric.maxCoeff(&corner);
-        text += fmt::format("{}\n", map.to.faces(image.face, corner));
+        text += fmt::format("{}\n", nearest_vertex(map.to, image));
     }
     return text;
 }

@@ -292,10 +292,15 @@ TEST_F(FurtherTemplate, RefusesLandmarksOfOtherNames) {
     EXPECT_THAT(refusal(first, "nose,5\n"), HasSubstr("own.csv: 1 landmarks, but the first template has 2"));
 }
 
-TEST(Extents, LackWhatOneSpecimenLacks) {
+TriangleMesh two_triangles() {
     TriangleMesh square;
     square.vertices = Points{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
     square.faces = Faces{{0, 1, 2}, {0, 2, 3}};
+    return square;
+}
+
+TEST(Extents, LackWhatOneSpecimenLacks) {
+    const TriangleMesh square = two_triangles();
     Points lacking = square.vertices;
     lacking.row(1).setConstant(std::nan(""));
     const Extent common = Extents(square, {square.vertices, lacking}, {false, false}).common();
@@ -309,9 +314,7 @@ TEST(Extents, LackWhatOneSpecimenLacks) {
 }
 
 TEST(Extents, OfAPartAreNotThoseOfTheOthers) {
-    TriangleMesh square;
-    square.vertices = Points{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
-    square.faces = Faces{{0, 1, 2}, {0, 2, 3}};
+    const TriangleMesh square = two_triangles();
     Points part = square.vertices;
     part.row(1).setConstant(std::nan(""));
     const Extents extents(square, {square.vertices, part}, {false, true});
@@ -322,7 +325,7 @@ TEST(Extents, OfAPartAreNotThoseOfTheOthers) {
     EXPECT_THAT(extents.of(1).weights, Each(DoubleNear(1. / 3, 1e-12)));
 }
 
-/// The body bent in three ways, and a moved, larger copy of one of these that lacks a fifth of its vertices.
+/// The body bent in three ways, and a moved, larger copy of one of these that lacks its front.
 Registration with_a_part() {
     Registration all;
     all.first = body();
