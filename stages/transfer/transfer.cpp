@@ -273,7 +273,7 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
     };
     add(name + ".obj", to_obj(target, name + ".mtl"));
     add(name + ".mtl", fmt::format("newmtl baked\nKd 1 1 1\nmap_Kd {}.png\n", name));
-    add(name + ".glb", to_glb(target, {.list = {material}}, drawn));
+    add(name + ".glb", to_glb(target, {.list = {material}, .text = {}, .images = {}}, drawn));
     add(name + ".png", image);
 }
 
