@@ -508,9 +508,9 @@ std::vector<SourceFile> source_files() {
 bool are_sound(const std::vector<PolygonSoup>& meshes, const std::vector<PolygonSoup>& of_whole) {
     if (meshes.size() > of_whole.size()) return false;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const auto points = static_cast<long long>(meshes[m].points.size());
+        const auto count = static_cast<long long>(meshes[m].points.size());
         if (meshes[m].ends.size() > of_whole[m].ends.size() ||
-            !std::ranges::all_of(meshes[m].corners, [&](long long v) { return v >= 0 && v < points; }))
+            !std::ranges::all_of(meshes[m].corners, [&](long long v) { return v >= 0 && v < count; }))
             return false;
     }
     return true;
