@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "varimap/core/error.h"
@@ -80,7 +81,7 @@ void normalise(Domain& domain) {
     RowMatrix places = domain.mesh.vertices;
     const double in_space = centre(places, domain.mass);
     const double extent = domain.coordinates.size() > 0 ? centre(domain.coordinates, domain.mass) : in_space;
-    const double scale = 1 / (std::sqrt(4 * M_PI) * extent);
+    const double scale = 1 / (std::sqrt(4 * std::numbers::pi) * extent);
     domain.mesh.vertices = scale * places;
     domain.coordinates *= scale;
     for (DomainEdge& edge : domain.edges) {

@@ -50,17 +50,18 @@ PointMap on_repaired(const PointMap& points, const RepairedMesh& target) {
     return target.link.is_identity() ? points : from_file(points, {}, target.link);
 }
 
-/// The errors on the repaired target, at vertices.
+/// The errors on the repaired target, at vertices. `name`: of the map, for errors.
 MapErrors vertex_errors(const RepairedMesh& target, const PointMap& map,
-                        const std::vector<int>& source_points, std::vector<int> target_points) {
+                        const std::vector<int>& source_points, std::vector<int> target_points,
+                        const std::string& name) {
     if (!target.link.is_identity())
         for (int& vertex : target_points) vertex = target.link.vertex[size_t(vertex)];
-    return map_errors(on_repaired(map, target), target.mesh, source_points, target_points);
+    return map_errors(on_repaired(map, target), target.mesh, source_points, target_points, name);
 }
 
 /// The same at landmarks of any form, which the map carries as points.
 MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const TriangleMesh& source,
-                          const std::vector<std::string>& files) {
+                          const std::vector<std::string>& files, const std::string& name) {
     const Landmarks landmarks =
         read_landmarks(files, source, file_of(target), LandmarkSpace::stated, Repeats::allow);
     const PointCarrier carry(source, map, file_of(target));
@@ -70,17 +71,17 @@ MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const
     images = on_repaired(images, target), truths = on_repaired(truths, target);
     PointPairs pairs;
     for (std::size_t i = 0; i < images.size(); ++i) pairs.emplace_back(images[i], truths[i]);
-    return point_errors(pairs, target.mesh);
+    return point_errors(pairs, target.mesh, name);
 }
 
 MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const TriangleMesh* source,
-                    const std::vector<std::string>& files, IndexBase base) {
+                    const std::vector<std::string>& files, IndexBase base, const std::string& name) {
     if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
         return vertex_errors(target, map, read_vertex_list(files[0], base, source),
-                             read_vertex_list(files[1], base, &file_of(target)));
+                             read_vertex_list(files[1], base, &file_of(target)), name);
     if (source == nullptr)
         throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
-    return landmark_errors(target, map, *source, files);
+    return landmark_errors(target, map, *source, files, name);
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ int main(int argc, char** argv) {
         const PointMap map =
             read_map_file(map_path, index_base_from(map_base), file_of(target), source ? &*source : nullptr);
         const MapErrors errors =
-            errors_of(target, map, source ? &*source : nullptr, lists, index_base_from(base_text));
+            errors_of(target, map, source ? &*source : nullptr, lists, index_base_from(base_text), map_path);
         if (errors.unmapped > 0)
             warn("{} pairs left out: the map has no image for them, or the target is not mapped there",
                  errors.unmapped);

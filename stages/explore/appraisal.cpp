@@ -1,6 +1,7 @@
 #include "stages/explore/appraisal.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "stages/explore/difference.h"
 #include "varimap/core/rotation.h"
@@ -16,7 +17,7 @@ double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) 
                              mean_y = mass.transpose() * y / mass.sum();
     const Eigen::Matrix3d products =
         (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
-    return Eigen::AngleAxisd(nearest_rotation(products)).angle() * 180 / M_PI;
+    return Eigen::AngleAxisd(nearest_rotation(products)).angle() * 180 / std::numbers::pi;
 }
 
 }  // namespace

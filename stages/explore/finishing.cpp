@@ -8,6 +8,7 @@
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
@@ -197,16 +198,12 @@ PinnedPair pinned(const PairContext& context) {
     return pinned;
 }
 
-Points places(const PointMap& map, const TriangleMesh& target) {
-    Points places(map.size(), 3);
-    for (std::size_t v = 0; v < map.size(); ++v)
-        places.row(Eigen::Index(v)) = position(target, map[v]).transpose();
-    return places;
-}
-
 bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context, double distinct) {
     const Surface &A = context.A().surface, &B = context.B().surface;
     constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
+    const auto places = [](const PointMap& map, const TriangleMesh& target) {
+        return pulled_back(target.vertices, target, map);
+    };
     return share_elsewhere(places(a.A_to_B, B.mesh), places(b.A_to_B, B.mesh), A, elsewhere) +
                share_elsewhere(places(a.B_to_A, A.mesh), places(b.B_to_A, A.mesh), B, elsewhere) <
            2 * distinct;
@@ -235,7 +232,7 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
     }
     log("finished {} of {} maps", finished.size(), starts.size());
     UntanglingOptions untangling = options.untangling;
-    untangling.opposed = looks_inward(context.A().surface) != looks_inward(context.B().surface);
+    untangling.opposed = are_opposed(context.A().surface, context.B().surface);
     parallel_for_each_index(finished.size(), std::size_t(1), [&](std::size_t n) {
         untangle(finished[n].maps, context.A().surface.mesh, context.B().surface.mesh, pinned(context),
                  untangling);

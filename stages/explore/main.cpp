@@ -54,26 +54,9 @@ Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::str
     return std::move(self_maps.value);
 }
 
-/// An artifact that is recorded as an input in any case, and read where it is asked for.
-struct RecordedInput {
-    std::string path;
-    Header header;
-
-    RecordedInput(Stage& stage, const std::string& role, const std::string& file)
-        : path(file), header(read_header(file)) {
-        stage.record_input({role, header.kind, header.payload_hash});
-    }
-    void require_made_from(const char* role, const RecordedInput& parent) const {
-        Stage::require_lineage(header, path, role, parent.header, parent.path);
-    }
-    template <class T>
-    T read() const {
-        Artifact<T> artifact = read_artifact<T>(path);
-        if (artifact.header.payload_hash != header.payload_hash)
-            throw IoError("'" + path + "' changed since this stage began; run again");
-        return std::move(artifact.value);
-    }
-};
+void require_made_from(const RecordedInput& child, const char* role, const RecordedInput& parent) {
+    Stage::require_lineage(child.header(), child.path(), role, parent.header(), parent.path());
+}
 
 /// A surface that was sketched, with its basis and hierarchy.
 struct SketchedSurface {
@@ -81,9 +64,9 @@ struct SketchedSurface {
 
     /// Refuses them where they do not belong together.
     void require_lineage() const {
-        basis.require_made_from("surface", surface);
-        hierarchy.require_made_from("surface", surface);
-        hierarchy.require_made_from("basis", basis);
+        require_made_from(basis, "surface", surface);
+        require_made_from(hierarchy, "surface", surface);
+        require_made_from(hierarchy, "basis", basis);
     }
     SurfaceData read() const {
         SurfaceData data{surface.read<Surface>(), basis.read<Basis>(), hierarchy.read<Hierarchy>()};
@@ -101,13 +84,13 @@ struct SketchedSurfaces {
 SketchedSurfaces record_surfaces(Stage& stage, const std::vector<std::string>& files,
                                  const PairInputs& sketches) {
     const auto input = [&](std::size_t k) {
-        return RecordedInput(stage, std::string("surfaces.") + char('A' + k), files[k]);
+        return stage.record(std::string("surfaces.") + char('A' + k), files[k]);
     };
     const SketchedSurfaces surfaces{{input(0), input(1), input(2)}, {input(3), input(4), input(5)}};
     surfaces.A.require_lineage();
     surfaces.B.require_lineage();
-    sketches.require_sketched("A", surfaces.A.surface.header, surfaces.A.surface.path);
-    sketches.require_sketched("B", surfaces.B.surface.header, surfaces.B.surface.path);
+    sketches.require_sketched("A", surfaces.A.surface.header(), surfaces.A.surface.path());
+    sketches.require_sketched("B", surfaces.B.surface.header(), surfaces.B.surface.path());
     return surfaces;
 }
 

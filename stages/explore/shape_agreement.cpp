@@ -41,13 +41,13 @@ double stretch_between(double here, double there) {
 
 }  // namespace
 
-ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph)
+ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward)
     : mesh(data.surface.mesh),
       mass(data.surface.mass),
-      normals(outward_normals(data.surface)),
+      normals(outward_normals(mesh, inward)),
       samples(spread_vertices(data.hierarchy, sample_count)),
       patches(mesh.vertices, normals, mass) {
-    const double outward = looks_inward(data.surface) ? -1 : 1;
+    const double outward = inward ? -1 : 1;
     for (const double scale : relief_scales) relief.push_back(outward * varimap::relief(mesh, scale));
     const RowMatrix to_all = distances_from_each(graph, samples);
     distance = to_all.transpose();
@@ -61,9 +61,9 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph)
 }
 
 ShapeAgreement::ShapeAgreement(const PairContext& context)
-    : A_(context.A(), context.graph_A()),
-      B_(context.B(), context.graph_B()),
-      opposed_(looks_inward(context.A().surface) != looks_inward(context.B().surface)),
+    : A_(context.A(), context.graph_A(), looks_inward(context.A().surface, context.B().surface)),
+      B_(context.B(), context.graph_B(), looks_inward(context.B().surface, context.A().surface)),
+      opposed_(are_opposed(context.A().surface, context.B().surface)),
       sheets_(is_sheet(A_.mesh) && is_sheet(B_.mesh)) {}
 
 double ShapeAgreement::relief(const MapPair& maps) const {

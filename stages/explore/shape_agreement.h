@@ -37,7 +37,7 @@ class ShapeAgreement {
         RowMatrix distance;                   ///< vertices x samples
         PatchAlignment patches;
 
-        Side(const SurfaceData& data, const GeodesicGraph& graph);
+        Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward);
     };
     double relief(const PointMap& map, const Side& source, const Side& target) const;
     double alignment(const PointMap& map, const Side& source, const Side& target) const;

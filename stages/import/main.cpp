@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "stages/import/isolated.h"
-#include "stages/import/scene.h"
+#include "stages/import/scene_files.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "varimap/mesh/io/polygon_soup.h"
@@ -42,13 +40,6 @@ struct ImportedScene {
 /// that mirror turn polygons, so that outside stays outside. Skins of glTF stand as their joints do, since
 /// that format says so; else bones and animations are not looked at. Throws InputError that names `path`.
 ImportedScene read_scene(const std::string& path);
-
-/// A scene as files beside each other, of which the first is the OBJ.
-using SceneFiles = std::vector<std::pair<std::string, std::string>>;  ///< name, bytes
-
-/// NAME.obj with `v`, `vt` and `f`, whose coordinates read back exactly; and, where the scene has materials,
-/// NAME.mtl and its images NAME.0.png, ...
-SceneFiles to_files(const ImportedScene& scene, const std::string& name);
 
 /// Whether assimp reads files of that name's ending.
 bool is_importable(const std::string& path);

@@ -1,6 +1,5 @@
 #include "stages/locate/placement.h"
 
-#include <array>
 #include <numeric>
 #include <vector>
 
@@ -8,17 +7,12 @@
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/rounds.h"
 
 namespace varimap {
 
 namespace {
 
-/// As in untangling.cpp.
-struct Round {
-    double regularisation, robustness_factor, fold_visits;
-};
-constexpr std::array<Round, 2> rounds{{{0.3, 3, 8}, {0.1, 1, 20}}};
-constexpr int fold_sweeps = 120;
 /// Share of the energy that a step must win to be followed by another.
 constexpr double least_gain = 1e-4;
 
@@ -41,7 +35,7 @@ void relax(SlidingMap& map, const VertexData<bool>& pinned, const ReliefAgreemen
         local.sweep(free, energy.energy);
         if (gain < least_gain && step > 3) break;
     }
-    FoldRemoval{fold_sweeps, round.fold_visits}(map, pinned);
+    FoldRemoval{usual_fold_sweeps, round.fold_visits}(map, pinned);
 }
 
 }  // namespace
@@ -55,9 +49,9 @@ Placement placed(const PointMap& images, const TriangleMesh& part, const Triangl
     std::iota(faces.begin(), faces.end(), 0);
     map.scale_rest(faces, share);
     const ReliefAgreement relief(map, options.relief_weight * share, reliefs);
-    for (const Round& round : rounds)
+    for (const Round& round : relaxation_rounds)
         relax(map, pinned, options.relief_weight > 0 ? &relief : nullptr, round, options);
-    const RobustEnergy energy({1, rounds.back().regularisation}, options.robustness);
+    const RobustEnergy energy({1, relaxation_rounds.back().regularisation}, options.robustness);
     return {map.points(), mean_energy(map, energy), relief.correlation()};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "stages/locate/rigid_body.h"
 #include "varimap/core/log.h"
@@ -97,7 +98,8 @@ class RigidSearch {
             const Eigen::Matrix3d from = frame(body_.normals().row(base).transpose(), 0);
             for (const int place : where)
                 for (int k = 0; k < turns; ++k) {
-                    Eigen::Matrix3d to = frame(normals.row(place).transpose(), 2 * M_PI * k / turns);
+                    Eigen::Matrix3d to =
+                        frame(normals.row(place).transpose(), 2 * std::numbers::pi * k / turns);
                     to.col(2) *= body_.handedness();
                     const Eigen::Matrix3d turn = to * from.transpose();
                     poses.push_back({turn, whole_.vertex(place) - turn * point(base)});

@@ -8,6 +8,7 @@
 #include "varimap/core/enum_names.h"
 #include "varimap/mesh/vertex_index.h"
 #include "varimap/quality/image_mesh.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -33,7 +34,7 @@ struct Sides {
     /// Whether landmarks say where the part is.
     bool landmarks_tell() const { return landmarks_part.size() >= 3; }
     PartSize size() const { return part_size(part, landmarks_part, whole, landmarks_whole); }
-    bool are_opposed() const { return part.mirrored != whole.mirrored; }
+    bool are_opposed() const { return varimap::are_opposed(part, whole); }
     /// What the placements between these sides have in common.
     std::vector<ReliefPair> reliefs() const {
         return relief_pairs(unit_area(part.mesh), unit_area(whole.mesh), are_opposed());

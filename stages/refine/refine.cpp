@@ -103,7 +103,7 @@ Plan refine(const PairContext& context, const Diffusion& diffusion, const Refine
     plan.centre_A = space_part(centres.row);
     plan.centre_B = space_part(centres.column);
     if (!plan.centre_A.allFinite() || !plan.centre_B.allFinite())
-        throw ConvergenceError("centres are not finite; rerun varimap-refine with a larger gamma");
+        throw ConvergenceError("centres are not finite; lower refine.gamma_divisor");
     plan.trace = descent.take_trace();
     plan.record = diffusion.record;
     return plan;

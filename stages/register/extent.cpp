@@ -1,5 +1,9 @@
 #include "stages/register/extent.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
 #include "varimap/core/error.h"
 #include "varimap/core/indexed.h"
 
@@ -10,8 +14,19 @@ void leave_out_missing(const Points& points, VertexData<bool>& present) {
     for (int v = 0; v < present.size(); ++v) present[v] = present[v] && points.row(v).allFinite();
 }
 
-/// The faces all of whose corners are present. `what`: is not mapped to whom, if these are too few.
-Extent extent_of(const TriangleMesh& first, const VertexData<bool>& present, const char* what) {
+/// The one of those that are no parts that has the fewest of the template's vertices.
+std::size_t scarcest(const std::vector<Points>& specimens, const std::vector<bool>& is_part) {
+    std::size_t scarcest = 0;
+    Eigen::Index least = std::numeric_limits<Eigen::Index>::max();
+    for (std::size_t i = 0; i < specimens.size(); ++i) {
+        const Eigen::Index present = specimens[i].rowwise().sum().array().isFinite().count();
+        if (!is_part[i] && present < least) least = present, scarcest = i;
+    }
+    return scarcest;
+}
+
+/// The faces all of whose corners are present. `what`: to say if these are too few.
+Extent extent_of(const TriangleMesh& first, const VertexData<bool>& present, const std::string& what) {
     Eigen::VectorXd area = Eigen::VectorXd::Zero(first.vertex_count());
     std::vector<int> faces;
     for (int f = 0; f < first.face_count(); ++f) {
@@ -32,18 +47,24 @@ Extent extent_of(const TriangleMesh& first, const VertexData<bool>& present, con
 }  // namespace
 
 Extents::Extents(const TriangleMesh& first, const std::vector<Points>& specimens,
-                 const std::vector<bool>& is_part) {
+                 const std::vector<bool>& is_part, const std::vector<std::string>& names) {
     VertexData<bool> everywhere(first.vertex_count(), true);
     leave_out_missing(first.vertices, everywhere);
     for (std::size_t i = 0; i < specimens.size(); ++i)
         if (!is_part[i]) leave_out_missing(specimens[i], everywhere);
-    common_ = extent_of(first, everywhere, "no part of the template is mapped to every specimen");
+    common_ = extent_of(
+        first, everywhere,
+        fmt::format(
+            "no part of the template is mapped to every specimen; {} has the least of it: leave it out",
+            names[scarcest(specimens, is_part)]));
     for (std::size_t i = 0; i < specimens.size(); ++i) {
         if (!is_part[i]) continue;
         VertexData<bool> present = everywhere;
         leave_out_missing(specimens[i], present);
         parts_.emplace(
-            i, extent_of(first, present, "a part has nothing of what all the specimens that are whole have"));
+            i,
+            extent_of(first, present,
+                      names[i] + " has nothing of what all the specimens that are whole have; leave it out"));
     }
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "varimap/mesh/triangle_mesh.h"
@@ -22,9 +23,9 @@ struct Extent {
 /// Of points of the template's vertices on specimens, NaN where they have no image. Keeps no references.
 class Extents {
   public:
-    /// `is_part`: per specimen. Throws InputError where an extent has fewer than three vertices.
-    Extents(const TriangleMesh& first, const std::vector<Points>& specimens,
-            const std::vector<bool>& is_part);
+    /// `is_part`: per specimen. Throws InputError naming one where an extent has fewer than three vertices.
+    Extents(const TriangleMesh& first, const std::vector<Points>& specimens, const std::vector<bool>& is_part,
+            const std::vector<std::string>& names);
 
     /// The faces of which all corners are finite, on the template and on all specimens that are no parts, and
     /// their vertices.

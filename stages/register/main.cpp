@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
         if (check) return check_landmarks(manifest, params.landmark_space);
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
         const Registration all = read_registration(manifest, params.landmark_space);
-        const Extents extents(all.first, all.points, all.is_part);
+        const Extents extents(all.first, all.points, all.is_part, all.names);
         const ResultFolder folder(stage, out);
         write_points(folder, all, extents);
         if (all.landmarks) write_landmarks(folder, all);

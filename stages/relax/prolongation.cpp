@@ -9,6 +9,7 @@
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/rounds.h"
 
 namespace varimap {
 
@@ -18,8 +19,7 @@ namespace {
 /// of a half, twice as many triangles of the input are reversed at first.
 constexpr double last_level = 0.5;
 constexpr int sweeps = 1;
-constexpr double regularisation = 0.1;  ///< of the fold energy, as in untangling.cpp
-constexpr FoldRemoval fold_removal{120, 15};
+constexpr FoldRemoval fold_removal{usual_fold_sweeps, 15};
 
 /// On coarser levels discs of the target take long, and on a finer one those of the source. Measured on a
 /// pair of 320,000 vertices: nowhere, on the last level but one, there and on the one before, on all leave
@@ -39,7 +39,8 @@ Prolongation::Prolongation(const PointMap& images, const Surface& source, const 
       normals_{vertex_normals(target_), target_.faces},
       level_(source.mesh),
       images_(images.size()),
-      places_(source.on_mesh) {
+      places_(source.on_mesh),
+      input_vertices_(count_used_vertices(source.input)) {
     parallel_for_each_index(int(images.size()), 64,
                             [&](int v) { images_[std::size_t(v)] = locate_(images[std::size_t(v)]); });
 }
@@ -67,7 +68,7 @@ void Prolongation::relax_between(const VertexData<bool>& pinned, std::vector<Sur
 }
 
 bool Prolongation::is_as_fine_as(double share_of_input) const {
-    return level_.vertex_count() >= share_of_input * double(places_.size());
+    return level_.vertex_count() >= share_of_input * input_vertices_;
 }
 
 void Prolongation::refine() {
@@ -91,7 +92,7 @@ void Prolongation::relax(const VertexData<bool>& pinned, const std::vector<Surfa
     for (int v = 0; v < held.size(); ++v)
         if (!held[v] && map.has_image(v)) free.push_back(v);
     LocalRelaxation local(map, 99);
-    for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, regularisation});
+    for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, relaxation_rounds.back().regularisation});
     fold_removal(map, held);
     if (folds_anew) map_folds_anew(map, held);
     images_ = map.points();

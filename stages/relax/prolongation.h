@@ -39,6 +39,7 @@ class Prolongation {
     TriangleMesh level_;             ///< the source's mesh, subdivided
     PointMap images_;                ///< of its vertices
     PointMap places_;                ///< of the source's input vertices, on it
+    int input_vertices_;             ///< of which faces use so many
 };
 
 }  // namespace varimap

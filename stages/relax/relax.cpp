@@ -28,7 +28,7 @@ constexpr double fine_fold_visits = 3;
 /// Whether mesh and input differ in resolution, so that the map is untangled on the meshes first.
 bool is_apart(const Surface& surface) {
     return surface.input_face.empty() ||
-           double(surface.input.vertex_count()) < coarse_input * double(surface.mesh.vertex_count());
+           count_used_vertices(surface.input) < coarse_input * surface.mesh.vertex_count();
 }
 
 /// Whether what is wrong on the mesh becomes a tangle on the input. Where the input has up to 5 times the
@@ -36,7 +36,7 @@ bool is_apart(const Surface& surface) {
 /// where it has 50 times, with 70% more.
 bool is_far_apart(const Surface& surface) {
     constexpr int far = 10;
-    return surface.input.vertex_count() > far * surface.mesh.vertex_count();
+    return count_used_vertices(surface.input) > far * surface.mesh.vertex_count();
 }
 
 PinnedPair none_pinned(const TriangleMesh& A, const TriangleMesh& B) {
@@ -56,23 +56,20 @@ PinnedPair pinned_on_meshes(const PairRecord& record, const Surface& A, const Su
     return pinned;
 }
 
-/// Pins both vertices of a landmark on the inputs to each other.
-void pin(int a, int b, const Surface& A, const Surface& B, MapPair& maps, PinnedPair& pinned) {
-    maps.A_to_B[std::size_t(a)] = point_at_vertex(B.input, b);
-    maps.B_to_A[std::size_t(b)] = point_at_vertex(A.input, a);
-    pinned.A[a] = pinned.B[b] = true;
-}
-
 /// Landmarks on the inputs: vertices that are pinned, with their images, and points that are drawn.
 PinnedPair pin_on_inputs(const PairRecord& record, const Surface& A, const Surface& B, MapPair& maps) {
     PinnedPair pinned = none_pinned(A.input, B.input);
     if (!record.pins_landmarks()) return pinned;
+    const PointMap at_A = points_at_vertices(A.input), at_B = points_at_vertices(B.input);
     for (const auto& [from, to] : landmarks_on_inputs(record, A, B)) {
         const int a = vertex_of(A.input, from), b = vertex_of(B.input, to);
-        if (a >= 0 && b >= 0)
-            pin(a, b, A, B, maps, pinned);
-        else
+        if (a < 0 || b < 0) {
             pinned.points.emplace_back(from, to);
+            continue;
+        }
+        maps.A_to_B[std::size_t(a)] = at_B[std::size_t(b)];
+        maps.B_to_A[std::size_t(b)] = at_A[std::size_t(a)];
+        pinned.A[a] = pinned.B[b] = true;
     }
     return pinned;
 }
@@ -136,7 +133,7 @@ UntanglingReport joined(const UntanglingReport& meshes, UntanglingReport inputs)
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, MapPair maps,
                  double area_bound, const RelaxParams& params) {
     UntanglingOptions options = params.untangling;
-    options.opposed = looks_inward(A) != looks_inward(B);
+    options.opposed = are_opposed(A, B);
     if (params.keep_area_bound) options.area_bound = area_bound;
     const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <memory>
-#include <sstream>
+#include <string_view>
 
 #include "stages/render/distortion.h"
 #include "stages/render/figure.h"
@@ -16,6 +15,7 @@
 #include "varimap/core/log.h"
 #include "varimap/image/png_file.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {
@@ -152,21 +152,18 @@ std::string to_png(const Image& image) {
 }
 
 Eigen::VectorXd read_csv_masses(const std::string& path, int vertices) {
-    std::istringstream lines(read_file(path));
-    std::string line;
-    std::getline(lines, line);
-    if (line != "vertex,ratio") throw InputError(fmt::format("'{}' line 1: expected vertex,ratio", path));
+    const std::string bytes = read_file(path);
+    std::string_view lines = bytes;
+    if (split_off_line(lines) != "vertex,ratio") fail_at(path, 1, "expected vertex,ratio");
     Eigen::VectorXd masses = Eigen::VectorXd::Constant(vertices, std::nan(""));
-    for (int number = 2; std::getline(lines, line); ++number) {
-        int vertex = -1;
+    for (int number = 2; !lines.empty(); ++number) {
+        const std::string_view line = split_off_line(lines);
+        const std::size_t comma = line.find(',');
+        long long vertex = -1;
         double ratio = 0;
-        const char* end = line.data() + line.size();
-        const auto first = std::from_chars(line.data(), end, vertex);
-        const bool comma = first.ec == std::errc() && first.ptr < end && *first.ptr == ',';
-        if (!comma || std::from_chars(first.ptr + 1, end, ratio).ptr != end || vertex < 0 ||
-            vertex >= vertices)
-            throw InputError(fmt::format("'{}' line {}: expected a vertex below {} and its ratio", path,
-                                         number, vertices));
+        if (comma == line.npos || !to_integer(line.substr(0, comma), vertex) || vertex < 0 ||
+            vertex >= vertices || !to_number(line.substr(comma + 1), ratio))
+            fail_at(path, number, fmt::format("expected a vertex below {} and its ratio", vertices));
         masses[vertex] = ratio;
     }
     return masses;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "varimap/core/parallel.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/verification/verification.h"
 
@@ -14,17 +15,6 @@ namespace {
 TriangleMesh of_unit_area(TriangleMesh mesh) {
     mesh.vertices /= std::sqrt(surface_area(mesh));
     return mesh;
-}
-
-Points images_of(const PointMap& map, const TriangleMesh& target) {
-    Points images(map.size(), 3);
-    for (std::size_t v = 0; v < map.size(); ++v)
-        images.row(Eigen::Index(v)) = position(target, map[v]).transpose();
-    return images;
-}
-
-Vec3 image_of(const SurfacePoint& point, const TriangleMesh& mesh, const Points& images) {
-    return position({images, mesh.faces}, point);
 }
 
 /// Per vertex: whether an end of a torn edge is nearer than `distance`.
@@ -52,7 +42,7 @@ double area_percent(const TriangleMesh& mesh, const std::vector<char>& marked) {
 TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target_mesh, const PointMap& there,
                      const PointMap& back, const TearOptions& options) {
     const TriangleMesh source = of_unit_area(source_mesh), target = of_unit_area(target_mesh);
-    const Points images = images_of(there, target);
+    const Points images = pulled_back(target.vertices, target, there);
     TearReport report;
     const auto edges = find_edges(source).vertices;
     const auto stretch_of = [&](int a, int b) {
@@ -77,13 +67,13 @@ TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target
     for (const int f : verify_map(there, source, target).reversed_faces)
         report.reversed_elsewhere +=
             !is_near(source.faces(f, 0)) && !is_near(source.faces(f, 1)) && !is_near(source.faces(f, 2));
+    const Points there_again = pulled_back(images, source, back);
     int elsewhere = 0, returned = 0;
     for (int v = 0; v < target.vertex_count(); ++v) {
-        const SurfacePoint& at = back[std::size_t(v)];
-        const auto corners = source.faces.row(at.face);
+        const auto corners = source.faces.row(back[std::size_t(v)].face);
         if (is_near(corners[0]) || is_near(corners[1]) || is_near(corners[2])) continue;
         ++elsewhere;
-        returned += (image_of(at, source, images) - target.vertex(v)).norm() < options.distance;
+        returned += (there_again.row(v) - target.vertices.row(v)).norm() < options.distance;
     }
     report.returned_percent = elsewhere > 0 ? 100.0 * returned / elsewhere : 0;
     return report;

@@ -43,7 +43,9 @@ std::vector<std::optional<Vec3>> carried(const std::vector<Vec3>& positions, con
 std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images, const std::string& path) {
     std::vector<Vec3> positions;
     for (std::size_t i = 0; i < images.size(); ++i) {
-        if (!images[i]) throw InputError(fmt::format("{}: point {} (from 1) has no image", path, i + 1));
+        if (!images[i])
+            throw InputError(fmt::format("{}: point {} (from 1) has no image on the other mesh; leave it out",
+                                         path, i + 1));
         positions.push_back(*images[i]);
     }
     return positions;
@@ -92,12 +94,15 @@ int vertex_number(const TextRow& row, const std::string& path, int count, const 
 
 std::string carry_vertices(const TextRows& rows, const std::string& path, const Correspondence& map,
                            const PointCarrier& there) {
+    const PointMap at_vertex = points_at_vertices(map.from);
     std::string text = name_line(rows);
     for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
         const TextRow& row = rows.rows[i];
         const int v = vertex_number(row, path, map.from.vertex_count(), "vertices");
-        const SurfacePoint image = there(point_at_vertex(map.from, v));
-        if (image.face < 0) throw InputError(fmt::format("{}:{}: vertex {} has no image", path, row.line, v));
+        const SurfacePoint image = there(at_vertex[std::size_t(v)]);
+        if (image.face < 0)
+            throw InputError(fmt::format("{}:{}: vertex {} has no image on the other mesh; leave it out",
+                                         path, row.line, v));
         text += fmt::format("{}\n", nearest_vertex(map.to, image));
     }
     return text;

@@ -7,6 +7,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/lower_case.h"
+#include "varimap/core/trimmed.h"
 #include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -18,11 +19,8 @@ constexpr std::string_view blanks = " \t\r";
 constexpr std::string_view separators = ",;\t";  ///< besides blanks
 
 /// A tab that separates is no blank.
-std::string_view trimmed(std::string_view text, char separator) {
-    const std::string_view around = separator == '\t' ? " \r" : blanks;
-    const std::size_t begin = text.find_first_not_of(around);
-    if (begin == text.npos) return {};
-    return text.substr(begin, text.find_last_not_of(around) - begin + 1);
+std::string_view blanks_beside(char separator) {
+    return separator == '\t' ? " \r" : blanks;
 }
 
 /// Splits one line.
@@ -35,7 +33,7 @@ class LineSplitter {
         std::vector<std::string> words;
         const bool comments = separator == ' ' && content == Content::numbers;
         while (true) {
-            rest_ = trimmed(rest_, separator);
+            rest_ = trimmed(rest_, blanks_beside(separator));
             if (comments && rest_.starts_with('#')) return words;
             words.push_back(take_word(separator));
             if (rest_.empty()) return words;
@@ -51,7 +49,7 @@ class LineSplitter {
         if (!word) fail("a quote is not closed");
         const std::string_view ends = separator == ' ' ? blanks : std::string_view(&separator, 1);
         const std::size_t end = std::min(rest_.find_first_of(ends), rest_.size());
-        const std::string_view plain = trimmed(rest_.substr(0, end), separator);
+        const std::string_view plain = trimmed(rest_.substr(0, end), blanks_beside(separator));
         if (is_quoted && !plain.empty()) fail("text stands behind a quote");
         rest_.remove_prefix(end);
         return is_quoted ? *word : std::string(plain);
@@ -68,7 +66,7 @@ class LineSplitter {
 /// Whether the word alone would be read as something else.
 bool needs_quotes(std::string_view word, char separator) {
     return word.starts_with('#') || word.find('"') != word.npos ||
-           word.find_first_of(separators) != word.npos || trimmed(word, ' ') != word ||
+           word.find_first_of(separators) != word.npos || trimmed(word) != word ||
            (separator == ' ' && (word.empty() || word.find(' ') != word.npos));
 }
 
@@ -86,7 +84,7 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
     TextRows text;
     for (int number = 1; !bytes.empty(); ++number) {
         const std::string_view line = split_off_line(bytes);
-        const std::string_view start = trimmed(line, ' ');
+        const std::string_view start = trimmed(line);
         if (start.empty() || start.starts_with('#')) continue;
         LineSplitter splitter(line, number, path);
         if (text.rows.empty()) text.separator = separator_of(line);

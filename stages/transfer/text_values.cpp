@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -9,6 +8,7 @@
 #include "stages/transfer/values.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
+#include "varimap/core/shortest_text.h"
 #include "varimap/mesh/io/text_scanner.h"
 
 namespace varimap {
@@ -79,11 +79,6 @@ void require_number(const TextRow& row, std::size_t number, const std::string& n
             path, row.line, excerpt(row.words[0]), number, excerpt(name)));
 }
 
-std::string shortest(double value) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 /// What a file looks like besides its values.
 struct Layout {
     std::string names;  ///< the first line, if it names columns
@@ -99,7 +94,8 @@ std::string to_text(const Eigen::MatrixXd& values, const Layout& layout) {
         std::vector<std::string> words;
         if (layout.numbered) words.push_back(std::to_string(row));
         for (const double value : values.row(row))
-            words.push_back(layout.kind == ValueKind::label ? layout.words.word_of(value) : shortest(value));
+            words.push_back(layout.kind == ValueKind::label ? layout.words.word_of(value)
+                                                            : shortest_text(value));
         text += join(words, layout.separator) + '\n';
     }
     return text;

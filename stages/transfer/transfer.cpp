@@ -243,9 +243,8 @@ TextureImage Transfer::baked(const Texture& texture, const ObjModel& target,
     try {
         return bake(map_, back_, texture, target, target_file, request_.bake);
     } catch (const std::bad_alloc&) {
-        throw Error(ExitCode::internal,
-                    fmt::format("out of memory; use a smaller --bake than {}, or a machine with more",
-                                request_.bake.pixels));
+        throw IoError(fmt::format("out of memory; use a smaller --bake than {}, or a machine with more",
+                                  request_.bake.pixels));
     }
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the documentation names is there: linked files, functions in the files said to hold them, parameters of stages; and the
-# commands that are to make the map by hand make it.
+# What the documentation names is there: linked files, functions in the files said to hold them, parameters of stages, with the
+# defaults that it tells; and the commands that are to make the map by hand make it.
 # shellcheck disable=SC2016  # backquotes are those of Markdown
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
@@ -52,6 +52,22 @@ parameters_exist() {
     return $missing
 }
 
+# Rows of the table `| parameter | default | meaning |`: one default for all parameters of the row, or one for each.
+defaults_are_those_of_the_stages() {
+    local names said name i default wrong=0
+    while IFS='|' read -r _ names said _; do
+        said=$(sed 's/(.*//; s/[` ]//g; s/^[.]/0./; s/,[.]/,0./g' <<<"$said") i=0
+        while read -r name; do
+            ((++i))
+            [[ -x $VARIMAP_BIN/varimap-${name%.*} ]] || continue
+            default=$("$VARIMAP_BIN/varimap-${name%.*}" --help | sed -n "/^  --${name#*.} VALUE/{/(default/!N; s/.*(default \([^;]*\);.*/\1/p}")
+            [[ $default == "$(cut -d, -f$i <<<"$said")" ]] ||
+                { echo "pipelines/help/parameters.md: the default of $name is $default" >&2; wrong=1; }
+        done < <(grep -o '[a-z]*[.][a-z_]*' <<<"$names")
+    done < <(sed -n '/^| parameter | default/,/^$/p' pipelines/help/parameters.md | grep '`[a-z]*[.]')
+    return $wrong
+}
+
 every_stage_has_a_page() {
     local main
     for main in stages/*/main.cpp; do
@@ -82,6 +98,7 @@ commands_of_stages_make_the_map() {
 links_lead_somewhere
 names_are_in_their_files
 parameters_exist
+defaults_are_those_of_the_stages
 every_stage_has_a_page
 commands_of_stages_make_the_map
 (($(wc -l <README.md) <= 250)) || { echo "README.md has more than 250 lines" >&2; exit 1; }

@@ -14,6 +14,7 @@
 #include "stages/import/isolated.h"
 #include "stages/import/model_parts.h"
 #include "stages/import/scene.h"
+#include "stages/import/scene_files.h"
 #include "stages/import/source_meshes.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"

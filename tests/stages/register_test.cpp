@@ -303,21 +303,29 @@ TEST(Extents, LackWhatOneSpecimenLacks) {
     const TriangleMesh square = two_triangles();
     Points lacking = square.vertices;
     lacking.row(1).setConstant(std::nan(""));
-    const Extent common = Extents(square, {square.vertices, lacking}, {false, false}).common();
+    const Extent common = Extents(square, {square.vertices, lacking}, {false, false}, {"a", "b"}).common();
     EXPECT_THAT(common.vertices, ElementsAre(0, 2, 3));
     EXPECT_EQ(common.faces, (Faces{{0, 2, 3}}));
     EXPECT_THAT(common.weights, Each(DoubleNear(1. / 3, 1e-12)));
     EXPECT_EQ(common.of(lacking).row(2), square.vertices.row(3));
     lacking.row(3).setConstant(std::nan(""));
-    EXPECT_THROW(Extents(square, {lacking}, {false}), InputError);
-    EXPECT_THROW(Extents(square, {square.vertices, lacking}, {false, true}), InputError);
+    const auto refusal = [&](const std::vector<Points>& specimens, const std::vector<bool>& is_part) {
+        try {
+            Extents(square, specimens, is_part, {"a", "b"});
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refusal({square.vertices, lacking}, {false, false}), HasSubstr("; b has the least"));
+    EXPECT_THAT(refusal({square.vertices, lacking}, {false, true}), testing::StartsWith("b has nothing of"));
 }
 
 TEST(Extents, OfAPartAreNotThoseOfTheOthers) {
     const TriangleMesh square = two_triangles();
     Points part = square.vertices;
     part.row(1).setConstant(std::nan(""));
-    const Extents extents(square, {square.vertices, part}, {false, true});
+    const Extents extents(square, {square.vertices, part}, {false, true}, {"whole", "part"});
     EXPECT_THAT(extents.common().vertices, ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(extents.of(0).vertices, ElementsAre(0, 1, 2, 3));
     EXPECT_THAT(extents.of(1).vertices, ElementsAre(0, 2, 3));
@@ -340,7 +348,7 @@ Registration with_a_part() {
 
 TEST(Comparison, LaysAPartOverTheMeanByWhatItHas) {
     const Registration all = with_a_part();
-    const Extents extents(all.first, all.points, all.is_part);
+    const Extents extents(all.first, all.points, all.is_part, all.names);
     const ShapeComparison shapes = compare_shapes(all, extents, 5, true);
     EXPECT_EQ(shapes.components.scores.rows(), 3);
     EXPECT_NEAR(shapes.sizes[1] / shapes.sizes[3], 3, .02);
@@ -354,7 +362,7 @@ TEST(Comparison, LaysAPartOverTheMeanByWhatItHas) {
 TEST(Comparison, OfPartsAloneIsWithTheTemplate) {
     Registration all = with_a_part();
     all.is_part = {true, true, true, true};
-    const Extents extents(all.first, all.points, all.is_part);
+    const Extents extents(all.first, all.points, all.is_part, all.names);
     const ShapeComparison shapes = compare_shapes(all, extents, 5, true);
     EXPECT_EQ(shapes.components.variance.size(), 0);
     EXPECT_LT(largest_distance(shapes.mean, extents.common().of(body().vertices)), 1e-12);

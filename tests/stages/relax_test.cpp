@@ -94,6 +94,26 @@ TEST(Relax, CarriesAMapOfCoarseMeshesOverToTheInputs) {
     EXPECT_EQ(vertex_of(surface.input, map.A_to_B[77]), 77) << "a landmark at a vertex of the input";
 }
 
+/// A part may be exported with the vertices of all that it was cut from.
+TEST(Relax, DoesNotCountVerticesThatNoFaceUses) {
+    CoarsenParams coarse;
+    coarse.vertices = 900;
+    const TriangleMesh plain = shapes::figure(.12);
+    TriangleMesh exported = plain;
+    exported.vertices.conservativeResize(6 * plain.vertex_count(), 3);
+    exported.vertices.bottomRows(5 * plain.vertex_count()).setConstant(1);
+    const auto mapped = [&](const TriangleMesh& file) {
+        const Surface surface = coarsened(preprocess(file, {}), coarse);
+        const PointMap noisy = shapes::noisy_identity(surface.mesh, 1);
+        return relax(surface, surface, {}, {noisy, noisy}, 2).A_to_B;
+    };
+    const PointMap map = mapped(plain), of_exported = mapped(exported);
+    for (std::size_t v = 0; v < map.size(); ++v) {
+        ASSERT_EQ(of_exported[v].face, map[v].face);
+        ASSERT_EQ(of_exported[v].barycentric, map[v].barycentric);
+    }
+}
+
 /// Images of a coarse mesh's vertices up to an edge away from themselves.
 TEST(Prolongation, MapsFoldsAnewBeforeTheyAreManyFaces) {
     CoarsenParams coarse;

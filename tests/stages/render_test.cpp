@@ -279,8 +279,10 @@ TEST_F(Render, ReadsMassesAndRefusesOthers) {
     EXPECT_EQ(masses[0], 1.25);
     EXPECT_TRUE(std::isnan(masses[1]));
     EXPECT_EQ(masses[2], .5);
-    for (const char* bad : {"vertex,face\n", "vertex,ratio\n3,1\n", "vertex,ratio\n-1,1\n",
-                            "vertex,ratio\n1\n", "vertex,ratio\n1,x\n", "vertex,ratio\n1,2,3\n"})
+    EXPECT_EQ(read("vertex,ratio\r\n1,2\r\n")[1], 2);
+    for (const char* bad :
+         {"vertex,face\n", "vertex,ratio\n3,1\n", "vertex,ratio\n-1,1\n", "vertex,ratio\n1\n",
+          "vertex,ratio\n1,\n", "vertex,ratio\n1,x\n", "vertex,ratio\n1,2,3\n"})
         EXPECT_THROW(read(bad), InputError) << bad;
 }
 

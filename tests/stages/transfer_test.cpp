@@ -892,6 +892,23 @@ TEST_F(Transfer, NamesTheFileThatCannotBeBakedOnto) {
 }
 
 /// A square whose second half lies where its first does, and in one point: what is said of baking onto these.
+TEST_F(Transfer, SaysWhereMemoryDoesNotSufficeToBake) {
+    const TriangleMesh square = shapes::square(8);
+    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
+    Correspondence map = identity(square);
+    map.to_file = write("a.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
+    TransferRequest request;
+    request.texture = map.to_file;
+    request.bake = {10'000'000, 0};
+    try {
+        carry(request, map);
+        FAIL() << "petabytes";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::input_output);
+        EXPECT_THAT(error.what(), HasSubstr("use a smaller --bake than 10000000"));
+    }
+}
+
 TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
     const TriangleMesh square = shapes::square(8);
     ObjModel model = in_its_own_plane(square);

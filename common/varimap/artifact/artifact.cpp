@@ -1,11 +1,8 @@
 #include "varimap/artifact/artifact.h"
 
-#include <sys/stat.h>
-
-#include <cerrno>
 #include <fstream>
-#include <system_error>
 
+#include "varimap/artifact/file_status.h"
 #include "varimap/artifact/header.h"
 #include "varimap/core/error.h"
 
@@ -27,21 +24,13 @@ ArtifactError damaged(const std::string& path, const std::string& what) {
                          "; delete it and rerun the stage that wrote it");
 }
 
-std::uint64_t regular_file_size(const std::string& path) {
-    struct stat status;
-    if (::stat(path.c_str(), &status) != 0)
-        throw IoError("cannot open '" + path + "': " + std::generic_category().message(errno));
-    if (!S_ISREG(status.st_mode)) throw IoError("cannot read '" + path + "': not a regular file");
-    return std::uint64_t(status.st_size);
-}
-
 void read_exactly(std::ifstream& stream, std::string& bytes, const std::string& path) {
     stream.read(bytes.data(), std::streamsize(bytes.size()));
     if (std::size_t(stream.gcount()) != bytes.size()) throw IoError("cannot read '" + path + "' to its end");
 }
 
 OpenArtifact open_artifact(const std::string& path) {
-    const std::uint64_t size = regular_file_size(path);
+    const auto size = std::uint64_t(regular_file_status(path).st_size);
     OpenArtifact artifact{{}, std::ifstream(path, std::ios::binary), 0};
     if (!artifact.stream) throw IoError("cannot open '" + path + "' for reading");
     std::string front(std::min<std::uint64_t>(size, longest_header), '\0');

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/artifact/file_status.h"
 #include "varimap/artifact/hash.h"
 #include "varimap/artifact/temporaries.h"
 #include "varimap/core/error.h"
@@ -66,16 +67,11 @@ std::string temporary_name(const std::string& path, int number) {
 }
 constexpr int most_temporaries = 16;  // that are looked for; one for each writer at a time
 
-/// Whether the name still stands for the open file: its writer may have renamed it, and another begun.
-bool is_named(const File& file, const std::string& path) {
-    struct stat held, named;
-    return ::fstat(file.descriptor, &held) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-           held.st_ino == named.st_ino && held.st_dev == named.st_dev;
-}
-
+/// Its writer may have renamed it, and another begun one of the same name.
 void remove_if_dead(const std::string& path) {
     const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-    if (file.descriptor >= 0 && ::flock(file.descriptor, LOCK_EX | LOCK_NB) == 0 && is_named(file, path))
+    if (file.descriptor >= 0 && ::flock(file.descriptor, LOCK_EX | LOCK_NB) == 0 &&
+        is_named(file.descriptor, path))
         ::unlink(path.c_str());
 }
 

@@ -12,7 +12,7 @@ enum class ExitCode : int {
     bad_input = 3,      ///< a mesh or landmarks the method cannot serve
     bad_artifact = 4,   ///< incompatible, corrupt, or of the wrong lineage
     not_converged = 5,  ///< nothing was written
-    input_output = 6,   ///< a file cannot be opened, read or written
+    input_output = 6,   ///< a file cannot be opened, read or written, or memory does not suffice
     internal = 70,      ///< a defect of varimap itself
 };
 

@@ -12,6 +12,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
+#include "varimap/core/trimmed.h"
 #include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
@@ -90,11 +91,6 @@ std::vector<PickedPoint> read_mrk_json(const std::string& path, std::string_view
                          ": is not a 3D Slicer markups file with markups, controlPoints and positions");
     }
     return points;
-}
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t\r");
-    return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
 /// `# CoordinateSystem = LPS`

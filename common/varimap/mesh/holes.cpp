@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "varimap/core/error.h"
@@ -58,9 +60,7 @@ class HoleFilling {
     std::vector<Triangle> fill(Loop loop) {
         faces_.clear();
         if (loop.size() == 3 && is_face(loop)) return {};
-        while (loop.size() > at_once)
-            if (!cut_ear(loop)) return {};
-        if (!triangulate(loop)) return {};
+        if (!cut_ears(loop) || !triangulate(loop)) return {};
         return faces_;
     }
 
@@ -74,11 +74,11 @@ class HoleFilling {
                neighbours_[loop[2]].size() == 2;
     }
     double cost(int a, int b, int c) const {
-        const TriangleMesh face{mesh_.vertices(std::array{a, b, c}, Eigen::all), Faces{{0, 1, 2}}};
-        const double t = thinness(face, 0);
-        return face_normal(face, 0).norm() / 2 + (t < thin ? price_ * (2 - t) : 0);
+        const Vec3 p = mesh_.vertex(a), q = mesh_.vertex(b), r = mesh_.vertex(c);
+        const double t = thinness(p, q, r);
+        return (q - p).cross(r - p).norm() / 2 + (t < thin ? price_ * (2 - t) : 0);
     }
-    bool cut_ear(Loop& loop);
+    bool cut_ears(Loop& loop);
     bool triangulate(const Loop& loop);
     void collect(const Loop& loop, const std::vector<int>& apex, std::size_t i, std::size_t j);
 
@@ -88,20 +88,40 @@ class HoleFilling {
     std::vector<Triangle> faces_;
 };
 
-/// The cheapest ear; false where each would need an edge that is there already.
-bool HoleFilling::cut_ear(Loop& loop) {
+/// The cheapest ears, until what is left is triangulated at once; false where each would need an edge that is
+/// there already.
+bool HoleFilling::cut_ears(Loop& loop) {
     const std::size_t n = loop.size();
-    double least = never;
-    std::size_t ear = 0;
+    std::vector<std::size_t> before, behind;  // of what is left
     for (std::size_t i = 0; i < n; ++i) {
-        const int a = loop[(i + n - 1) % n], c = loop[(i + 1) % n];
-        if (is_edge(a, c)) continue;
-        const double now = cost(a, loop[i], c);
-        if (now < least) least = now, ear = i;
+        before.push_back((i + n - 1) % n);
+        behind.push_back((i + 1) % n);
     }
-    if (least == never) return false;
-    faces_.push_back({loop[(ear + n - 1) % n], loop[ear], loop[(ear + 1) % n]});
-    loop.erase(loop.begin() + std::ptrdiff_t(ear));
+    std::vector<double> costs(n, never);
+    std::set<std::pair<double, std::size_t>> ears;  // the first of equals comes first
+    const auto update = [&](std::size_t i) {
+        ears.erase({costs[i], i});
+        const int a = loop[before[i]], c = loop[behind[i]];
+        costs[i] = is_edge(a, c) ? never : cost(a, loop[i], c);
+        if (costs[i] < never) ears.emplace(costs[i], i);
+    };
+    std::vector<char> is_cut(n, 0);
+    if (n > at_once)
+        for (std::size_t i = 0; i < n; ++i) update(i);
+    for (std::size_t left = n; left > at_once; --left) {
+        if (ears.empty()) return false;
+        const std::size_t ear = ears.extract(ears.begin()).value().second, a = before[ear], c = behind[ear];
+        faces_.push_back({loop[a], loop[ear], loop[c]});
+        is_cut[ear] = 1;
+        behind[a] = c;
+        before[c] = a;
+        update(a);
+        update(c);
+    }
+    Loop rest;
+    for (std::size_t i = 0; i < n; ++i)
+        if (!is_cut[i]) rest.push_back(loop[i]);
+    loop = std::move(rest);
     return true;
 }
 

@@ -15,8 +15,8 @@ int longest_hole(const std::string& words);
 /// area (Barequet and Sharir 1995) that has no edge the mesh has already and, where that can be, no thin
 /// faces. Of loops of more than 200 edges the best ears are cut off first. Vertices stay as they are; the
 /// faces are added ones of the link, so that no row of the file changes its meaning. A loop that cannot be
-/// closed so stays open. Returns the mesh, with the numbers in `counts`. O(200^2 n + m^2) for loops of n and
-/// m edges.
+/// closed so stays open. Returns the mesh, with the numbers in `counts`. O(200^2 n + n log n) for loops of n
+/// edges.
 RepairedMesh holes_filled(RepairedMesh mesh, int edges);
 
 /// Closes in the same way the loops that are slits: those which faces of hardly any area close. Such are left

@@ -47,6 +47,12 @@ std::vector<int> fan(const TriangleMesh& mesh, const Edges& edges, int vertex, i
     return faces;
 }
 
+/// The vertex that a point is up to rounding, or -1.
+int vertex_near(const TriangleMesh& mesh, const SurfacePoint& point) {
+    int k = 0;
+    return point.face >= 0 && point.barycentric.maxCoeff(&k) > 1 - 1e-9 ? mesh.faces(point.face, k) : -1;
+}
+
 bool touches(const Edges& edges, int edge, int vertex) {
     const auto [a, b] = edges.vertices[std::size_t(edge)];
     return a == vertex || b == vertex;
@@ -59,11 +65,6 @@ TriangleStrip reversed(TriangleStrip strip) {
 }
 
 }  // namespace
-
-int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point) {
-    int k = 0;
-    return point.face >= 0 && point.barycentric.maxCoeff(&k) > 1 - 1e-9 ? mesh.faces(point.face, k) : -1;
-}
 
 LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3& to,
                                       double length) const {
@@ -100,6 +101,13 @@ LogMap::Vec2 LogMap::in_plane_of(int face, const Vec3& away) const {
             away.dot(normal.stableNormalized().cross(edge.stableNormalized()))};
 }
 
+Vec3 LogMap::in_space(int face, const Vec2& seen) const {
+    const Vec3 p = mesh_.vertex(mesh_.faces(face, 0));
+    const Vec3 edge = (mesh_.vertex(mesh_.faces(face, 1)) - p).stableNormalized();
+    const Vec3 normal = edge.cross(mesh_.vertex(mesh_.faces(face, 2)) - p).stableNormalized();
+    return seen[0] * edge + seen[1] * normal.cross(edge);
+}
+
 std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b,
                                                          int farthest) const {
     TriangleStrip strip = straight_strip(mesh_, *edges_, a, b);
@@ -107,7 +115,7 @@ std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, 
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};
     const Vec3 start = position(mesh_, a), goal = position(mesh_, b);
     const StraightPath path = straighten(mesh_, *edges_, strip, start, goal);
-    const int at_a = vertex_at(mesh_, a), at_b = vertex_at(mesh_, b);
+    const int at_a = vertex_near(mesh_, a), at_b = vertex_near(mesh_, b);
     return {at_a < 0 ? in_plane_of(a.face, path.goal_from_start)
                      : seen_from_vertex(at_a, strip, goal, path.length),
             at_b < 0 ? in_plane_of(b.face, path.start_from_goal)

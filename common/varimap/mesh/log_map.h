@@ -23,6 +23,8 @@ class LogMap {
     /// components, too far, or a detour of more than 6 times their distance), both are 0.
     std::pair<Vec2, Vec2> operator()(const SurfacePoint& a, const SurfacePoint& b,
                                      int farthest = usual_farthest) const;
+    /// What is seen from a point within a face, in space.
+    Vec3 in_space(int face, const Vec2& seen) const;
 
   private:
     Vec2 in_plane_of(int face, const Vec3& away) const;
@@ -32,8 +34,5 @@ class LogMap {
     const TriangleMesh& mesh_;
     SharedEdges edges_;
 };
-
-/// The vertex a surface point coincides with; -1: none.
-int vertex_at(const TriangleMesh& mesh, const SurfacePoint& point);
 
 }  // namespace varimap

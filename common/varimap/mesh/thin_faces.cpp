@@ -12,11 +12,6 @@ namespace {
 using OpenMesh::SmartFaceHandle;
 using OpenMesh::SmartHalfedgeHandle;
 
-double thinness(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
-}
-
 class Repairer {
   public:
     Repairer(const TriangleMesh& mesh, double thinnest);
@@ -140,6 +135,11 @@ ThinFaceRemoval Repairer::result(const TriangleMesh& before) const {
 }
 
 }  // namespace
+
+double thinness(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
+}
 
 double thinness(const TriangleMesh& mesh, int f) {
     return thinness(mesh.vertex(mesh.faces(f, 0)), mesh.vertex(mesh.faces(f, 1)),

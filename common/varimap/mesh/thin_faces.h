@@ -16,6 +16,7 @@ struct ThinFaceRemoval {
 };
 
 /// Height of a face over its longest side, relative to that side; 0 where it has no area.
+double thinness(const Vec3& a, const Vec3& b, const Vec3& c);
 double thinness(const TriangleMesh& mesh, int f);
 
 /// Removes the faces of thinness below `thinnest`, on which neither the Laplacian nor areas can be trusted:

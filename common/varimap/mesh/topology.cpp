@@ -73,6 +73,12 @@ UsedVertices used_vertices(const Faces& faces, int vertex_count) {
     return used;
 }
 
+int count_used_vertices(const TriangleMesh& mesh) {
+    std::vector<char> used(std::size_t(mesh.vertex_count()), 0);
+    for (const int v : mesh.faces.reshaped()) used[std::size_t(v)] = 1;
+    return int(std::count(used.begin(), used.end(), 1));
+}
+
 bool repeats_vertex(const Faces& faces, int f) {
     const int a = faces(f, 0), b = faces(f, 1), c = faces(f, 2);
     return a == b || b == c || c == a;

@@ -37,6 +37,8 @@ struct UsedVertices {
 };
 /// `vertex_count`: of all, used or not.
 UsedVertices used_vertices(const Faces& faces, int vertex_count);
+/// How many there are. A part may come with the vertices of all that it was cut from.
+int count_used_vertices(const TriangleMesh& mesh);
 
 /// Whether a face names a vertex twice.
 bool repeats_vertex(const Faces& faces, int f);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "varimap/mesh/topology.h"
@@ -13,6 +12,13 @@ namespace varimap {
 struct TriangleStrip {
     std::vector<int> faces, edges;
 };
+
+/// The face beyond an edge of a face; -1 on a boundary, and where the edge has more than two.
+inline int face_beyond(const Edges& edges, int edge, int face) {
+    const auto sides = edges.sides[edge];
+    if (sides.size() != 2) return -1;
+    return sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3;
+}
 
 /// A path along a surface, by its ends: where each lies as seen from the other, as the direction in which the
 /// path leaves, in the plane of the end's face, times the path's length.
@@ -47,17 +53,5 @@ TriangleStrip straight_strip(const TriangleMesh& mesh, const Edges& edges, const
 /// it.
 TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most,
                          double detour = std::numeric_limits<double>::infinity());
-
-/// A segment of the plane, its ends to the left and to the right of the way that crosses it.
-using Portal = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
-
-struct FunnelPath {
-    double length = 0;
-    std::vector<std::pair<int, bool>> bends;  ///< portals at whose left (true) or right end the path bends
-};
-/// Shortest path through the portals in their order, which bound a strip of triangles (Lee and Preparata
-/// 1984).
-FunnelPath funnel(const Eigen::Vector2d& start, const std::vector<Portal>& portals,
-                  const Eigen::Vector2d& goal);
 
 }  // namespace varimap

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 
 namespace varimap {
@@ -65,8 +66,9 @@ Colours colours_by_place(const Domain& domain) {
     };
     Colours colours(places.rows(), 3);
     for (int k = 0; k < 3; ++k)
-        colours.col(k) = is_line ? Eigen::ArrayXd(.5 + .45 * (2 * M_PI * (.85 * unit(0) - k / 3.0)).cos())
-                                 : Eigen::ArrayXd(.08 + .84 * unit(k));
+        colours.col(k) =
+            is_line ? Eigen::ArrayXd(.5 + .45 * (2 * std::numbers::pi * (.85 * unit(0) - k / 3.0)).cos())
+                    : Eigen::ArrayXd(.08 + .84 * unit(k));
     return colours;
 }
 

@@ -180,12 +180,20 @@ std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& la
     std::vector<double> residuals;
     for (const auto& [from, to] : landmarks) {
         Vec3 image = Vec3::Zero();
+        double known = 0;
+        bool is_whole = true;
         for (int k = 0; k < 3; ++k) {
             const SurfacePoint& corner = map[source.faces(from.face, k)];
-            if (from.barycentric[k] > 0 && corner.face >= 0)
-                image += from.barycentric[k] * position(target, corner);
+            if (!(from.barycentric[k] > 0)) continue;
+            if (corner.face < 0) {
+                is_whole = false;
+                continue;
+            }
+            image += from.barycentric[k] * position(target, corner);
+            known += from.barycentric[k];
         }
-        residuals.push_back((image - position(target, to)).norm() / length);
+        if (!is_whole && known > 0) image /= known;
+        residuals.push_back(known > 0 ? (image - position(target, to)).norm() / length : 0);
     }
     return residuals;
 }

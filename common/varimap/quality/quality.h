@@ -62,7 +62,9 @@ double share_within_area_bound(const FaceData<TriangleDistortion>& triangles, co
 /// Part of the target that a map does not hit: what has no partner on the source, or what the map passes by.
 struct UncoveredPart {
     double share = 0;  ///< of the target's area
-    int vertex = -1;   ///< of the target: the one of its faces' corners that is nearest to their centroid
+    /// Of the target: a corner of its faces that no other part has, if there is one, and of such corners the
+    /// nearest to the faces' centroid.
+    int vertex = -1;
 };
 
 struct Coverage {
@@ -87,8 +89,9 @@ struct RoundTrip {
 RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, const TriangleMesh& A,
                              const TriangleMesh& B);
 
-/// Distance in R^3 between the image of the first point of each pair (linear on the source's faces) and the
-/// second point, in units of sqrt(area of the target).
+/// Distance in R^3 between the image of the first point of each pair (linear on the source's faces, by those
+/// of the corners that have an image; 0 where none has) and the second point, in units of sqrt(area of the
+/// target).
 std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& landmarks,
                                        const TriangleMesh& source, const TriangleMesh& target);
 

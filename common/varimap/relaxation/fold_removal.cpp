@@ -145,7 +145,7 @@ class Removal {
           fixed_(fixed),
           options_(options),
           relax_(map, 2654435761u),
-          visits_(options.most_visits * double(map.source().vertex_count())),
+          visits_(options.most_visits * count_used_vertices(map.source())),
           strikes_(map.source().vertex_count(), none),
           awake_(map.source().vertex_count()) {}
 

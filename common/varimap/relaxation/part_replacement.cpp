@@ -70,7 +70,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
 }
 
 void PartReplacement::replace_parts(const Proposals& proposals) {
-    const double most_visits = options_.most_visits * map_.source().vertex_count();
+    const double most_visits = options_.most_visits * count_used_vertices(map_.source());
     visits_ = 0;
     for (int round = 0; round < options_.rounds; ++round) {
         bool changed = false;

@@ -70,14 +70,6 @@ SurfacePoint within_its_face(SurfacePoint point) {
     return point;
 }
 
-/// In the plane of a face, what LogMap sees from a point in it.
-Vec3 in_space(const Vec2& seen, const TriangleMesh& mesh, int face) {
-    const Vec3 p = mesh.vertex(mesh.faces(face, 0));
-    const Vec3 edge = (mesh.vertex(mesh.faces(face, 1)) - p).stableNormalized();
-    const Vec3 normal = edge.cross(mesh.vertex(mesh.faces(face, 2)) - p).stableNormalized();
-    return seen[0] * edge + seen[1] * normal.cross(edge);
-}
-
 }  // namespace
 
 double StarKernels::wrong(int f) {
@@ -113,7 +105,7 @@ bool StarKernels::move_to_centre(int v, Aim aim) {
     const std::optional<Vec2> centre = deepest(planes);
     if (!centre) return false;
     const int branch_points = along_target_.faults_around(v).branch_points;
-    const Vec3 step = in_space(*centre, map_.target(), start.face);
+    const Vec3 step = log_map_.in_space(start.face, *centre);
     for (const double share : {1.0, 0.5, 0.25, 0.125}) {
         map_.place(v, map_.walk(start, share * step));
         const double after = wrong_around(v);

@@ -6,6 +6,7 @@
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/relaxation/mirrored_parts.h"
 #include "varimap/relaxation/part_replacement.h"
+#include "varimap/relaxation/rounds.h"
 #include "varimap/results/map_pair.h"
 #include "varimap/results/untangling_report.h"
 
@@ -39,8 +40,8 @@ struct UntanglingOptions {
     int local_sweeps = 0;
     /// Of relaxation in the end, with more weight of the other direction's inverse, and the area bound.
     int settling_steps = 15;
-    double area_bound = 0;  ///< that areas around vertices are to keep (area_bound.h); 0: none
-    int fold_sweeps = 120;  ///< sweeps per patch size that remove folds
+    double area_bound = 0;                ///< that areas around vertices are to keep (area_bound.h); 0: none
+    int fold_sweeps = usual_fold_sweeps;  ///< sweeps per patch size that remove folds
     /// Visits per vertex that each removal of folds may take, if fewer than otherwise.
     double most_fold_visits = std::numeric_limits<double>::infinity();
     MirrorGate gate;
@@ -71,8 +72,8 @@ struct PinnedPair {
 ///  5. what is reversed along the target mapped anew in charts (chart_repair.h), and faces that cut through
 ///     thin features turned the target's way (normal_agreement.h); where few faults are left, once more.
 /// Parts that are mirrored in the end stay so: a map that is made flip-free there would be wrong all the
-/// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic: the
-/// two directions run side by side, each serial.
+/// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic,
+/// though the two directions run side by side, and repair looks at several faces at a time.
 UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
                            const PinnedPair& pinned, const UntanglingOptions& options);
 

@@ -8,6 +8,7 @@
 
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/error.h"
+#include "varimap/core/shortest_text.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/results/checks.h"
 
@@ -17,14 +18,6 @@ namespace {
 
 constexpr std::string_view csv_header = "vertex,face,b0,b1,b2";
 constexpr double barycentric_tolerance = 1e-3;  ///< files of other programs may carry few digits
-
-/// The shortest text that reads back to the same number, in every locale.
-template <class Number>
-void append(std::string& text, Number number) {
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
-    text.append(buffer, end);
-}
 
 /// Reads one number and the comma behind it (or the end of the line) off the front of `line`.
 template <class Number>
@@ -142,12 +135,12 @@ std::string to_csv(const PointMap& map) {
     std::string text(csv_header);
     text += '\n';
     for (std::size_t vertex = 0; vertex < map.size(); ++vertex) {
-        append(text, vertex);
+        text += shortest_text(vertex);
         text += ',';
-        append(text, map[vertex].face);
+        text += shortest_text(map[vertex].face);
         for (int k = 0; k < 3; ++k) {
             text += ',';
-            append(text, map[vertex].barycentric[k]);
+            text += shortest_text(map[vertex].barycentric[k]);
         }
         text += '\n';
     }

@@ -73,7 +73,7 @@ EigenPairs smallest_pairs(ShiftInvert& op, int count, const EigenSolverOptions& 
     if (solver.info() != Spectra::CompInfo::Successful || converged < count)
         throw ConvergenceError(
             "only " + std::to_string(converged) + " of " + std::to_string(count) +
-            " eigenpairs converged; lower --count or check the mesh for degenerate triangles");
+            " eigenpairs converged; lower eigen.count, or check the mesh for degenerate triangles");
     return {solver.eigenvalues(), solver.eigenvectors()};
 }
 

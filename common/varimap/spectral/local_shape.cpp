@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
@@ -33,7 +34,7 @@ std::array<Vec3, 4> inward_cone(const Vec3& inward) {
     const Vec3 u = inward.unitOrthogonal(), v = inward.cross(u);
     std::array<Vec3, 4> rays{inward};
     for (int k = 0; k < 3; ++k) {
-        const double angle = 2 * M_PI * k / 3;
+        const double angle = 2 * std::numbers::pi * k / 3;
         rays[k + 1] = (inward + spread * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
     }
     return rays;
@@ -60,27 +61,32 @@ bool looks_inward(const Domain& surface) {
     return signed_volume(surface.mesh) < 0;
 }
 
-Points outward_normals(const Domain& surface) {
-    const Points normals = vertex_normals(surface.mesh);
-    return looks_inward(surface) ? Points(-normals) : normals;
+bool looks_inward(const Domain& surface, const Domain& other) {
+    const bool as_other =
+        surface.mirrored == other.mirrored && !is_closed(surface.mesh) && is_closed(other.mesh);
+    return looks_inward(as_other ? other : surface);
 }
 
-Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time) {
+Points outward_normals(const TriangleMesh& mesh, bool inward) {
+    const Points normals = vertex_normals(mesh);
+    return inward ? Points(-normals) : normals;
+}
+
+Eigen::VectorXd bending(const Domain& surface, const Points& normals, const Basis& basis, double time) {
     const RowMatrix phi = diffusion_embedding(basis, time);  // exp(-lambda t / 2) phi
     const RowMatrix smoothed = phi * (phi.transpose() * (surface.mass.asDiagonal() * surface.mesh.vertices));
-    return (surface.mesh.vertices - smoothed).cwiseProduct(outward_normals(surface)).rowwise().sum();
+    return (surface.mesh.vertices - smoothed).cwiseProduct(normals).rowwise().sum();
 }
 
-Eigen::VectorXd shape_diameter(const Domain& surface) {
+Eigen::VectorXd shape_diameter(const TriangleMesh& mesh, const Points& normals) {
     constexpr double lift = 1e-4;    // units of sqrt(area): past the faces around the vertex itself
     constexpr double longest = 0.6;  // units of sqrt(area): a little more than through a sphere, .564
-    const RayMesh rays(surface.mesh);
-    const Points normals = outward_normals(surface);
+    const RayMesh rays(mesh);
     Eigen::VectorXd result(normals.rows());
     parallel_for_each_index(normals.rows(), Eigen::Index(64), [&](Eigen::Index v) {
         const Vec3 inward = -normals.row(v).transpose();
-        const Vec3 origin = surface.mesh.vertex(int(v)) + lift * inward;
-        result[v] = lift + depth(rays, surface.mesh, origin, inward, longest);
+        const Vec3 origin = mesh.vertex(int(v)) + lift * inward;
+        result[v] = lift + depth(rays, mesh, origin, inward, longest);
     });
     return result;
 }
@@ -92,10 +98,11 @@ LocalShape local_shape(const Domain& surface, const Basis& basis) {
         return {RowMatrix::Zero(surface.mass.size(), 3), Eigen::VectorXd::Zero(surface.mass.size())};
     const double t0 = coarsest_time(basis);
     const Eigen::VectorXd& mass = surface.mass;
-    LocalShape shape{RowMatrix(mass.size(), 3), bending(surface, basis, tenth)};
-    shape.descriptors.col(0) = standardised(compressed(bending(surface, basis, t0 / 8)), mass);
-    shape.descriptors.col(1) = standardised(compressed(bending(surface, basis, t0 / 32)), mass);
-    shape.descriptors.col(2) = standardised(shape_diameter(surface).array().log(), mass);
+    const Points normals = outward_normals(surface.mesh, looks_inward(surface));
+    LocalShape shape{RowMatrix(mass.size(), 3), bending(surface, normals, basis, tenth)};
+    shape.descriptors.col(0) = standardised(compressed(bending(surface, normals, basis, t0 / 8)), mass);
+    shape.descriptors.col(1) = standardised(compressed(bending(surface, normals, basis, t0 / 32)), mass);
+    shape.descriptors.col(2) = standardised(shape_diameter(surface.mesh, normals).array().log(), mass);
     shape.descriptors /= std::sqrt(3.0);
     return shape;
 }

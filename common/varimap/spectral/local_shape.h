@@ -11,19 +11,26 @@ namespace varimap {
 /// Whether faces look inward: of a closed surface, whether they enclose a negative volume; of others, whether
 /// it is mirrored.
 bool looks_inward(const Domain& surface);
-/// Unit normals at vertices (vertex_normals) that point outward by looks_inward.
-Points outward_normals(const Domain& surface);
+/// The same of one of two surfaces that are mapped onto each other. The faces of an open one do not tell:
+/// they are taken to look as those of the other do, if that is closed and not the mirrored one of the two.
+bool looks_inward(const Domain& surface, const Domain& other);
+/// Whether the faces of one of two surfaces look inward, those of the other outward.
+inline bool are_opposed(const Domain& A, const Domain& B) {
+    return looks_inward(A, B) != looks_inward(B, A);
+}
+/// Unit normals at vertices (vertex_normals), turned where faces look inward.
+Points outward_normals(const TriangleMesh& mesh, bool inward);
 
-/// How far each vertex stands out of the smoothed surface, along the outward normal, units of sqrt(area): the
+/// How far each vertex stands out of the smoothed surface, along its outward normal, units of sqrt(area): the
 /// surface less its heat flow (by the eigenbasis) at a time in units of area. Positive on ridges, negative in
 /// hollows. Isometries do not keep it, so it tells a toe from a heel where distances on the surface hardly
 /// do.
-Eigen::VectorXd bending(const Domain& surface, const Basis& basis, double time);
+Eigen::VectorXd bending(const Domain& surface, const Points& normals, const Basis& basis, double time);
 
 /// Shape diameter (Shapira, Shamir, Cohen-Or 2008): how far it is through the shape from each vertex, along
 /// the inward normal and around it, units of sqrt(area). Rays that leave through a hole count as long ones,
 /// as do those of vertices without a normal.
-Eigen::VectorXd shape_diameter(const Domain& surface);
+Eigen::VectorXd shape_diameter(const TriangleMesh& mesh, const Points& normals);
 
 /// Descriptors are cut off there, in standard deviations, so that outliers do not outweigh all else. Chosen
 /// by hand, not swept.

@@ -6,10 +6,12 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
+#include "varimap/core/trimmed.h"
 #include "varimap/stage/known_hashes.h"
 #include "varimap/stage/nearest_name.h"
 #include "varimap/stage/parameter_text.h"
@@ -17,66 +19,60 @@
 namespace varimap {
 namespace {
 
-constexpr const char* blanks = " \t\r";
-
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(blanks);
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 /// Nothing but blanks and a comment.
-bool is_empty(const std::string& text) {
-    const std::string rest = trimmed(text);
+bool is_empty(std::string_view text) {
+    const std::string_view rest = trimmed(text);
     return rest.empty() || rest.front() == '#';
 }
 
-bool is_name(const std::string& text) {
+bool is_name(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
         return std::string_view("-_").find(char(c)) != std::string_view::npos || (c < 128 && std::isalnum(c));
     });
 }
 
-std::string unquoted(const std::string& text) {
+std::string_view unquoted(std::string_view text) {
     const bool quoted =
         text.size() >= 2 && text.front() == text.back() && (text.front() == '"' || text.front() == '\'');
     return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
 /// The value at the start of `text`, before a comment; nothing where there is none, or more than one.
-std::optional<std::string> parse_value(const std::string& text) {
+std::optional<std::string> parse_value(std::string_view text) {
     const char quote = text.empty() ? ' ' : text.front();
     if (quote == '"' || quote == '\'') {
         const auto end = text.find(quote, 1);
-        if (end == std::string::npos || !is_empty(text.substr(end + 1))) return {};
-        return text.substr(1, end - 1);
+        if (end == text.npos || !is_empty(text.substr(end + 1))) return {};
+        return std::string(text.substr(1, end - 1));
     }
-    const std::string value = trimmed(text.substr(0, text.find('#')));
-    if (value.empty() || value.find_first_of(" \t\"'[]{},=") != std::string::npos) return {};
-    return value;
+    const std::string_view value = trimmed(text.substr(0, text.find('#')));
+    if (value.empty() || value.find_first_of(" \t\"'[]{},=") != value.npos) return {};
+    return std::string(value);
 }
 
 /// The section that a line `[SECTION]` begins.
-std::optional<std::string> parse_section(const std::string& text) {
+std::optional<std::string> parse_section(std::string_view text) {
     const auto end = text.find(']');
-    if (end == std::string::npos || !is_empty(text.substr(end + 1))) return {};
-    const std::string name = unquoted(trimmed(text.substr(1, end - 1)));
-    return is_name(name) ? std::optional(name) : std::nullopt;
+    if (end == text.npos || !is_empty(text.substr(end + 1))) return {};
+    const std::string_view name = unquoted(trimmed(text.substr(1, end - 1)));
+    return is_name(name) ? std::optional<std::string>(name) : std::nullopt;
 }
 
 /// An entry `NAME = VALUE` or `SECTION.NAME = VALUE`.
-std::optional<ConfigLine> parse_entry(const std::string& text, const std::string& section) {
+std::optional<ConfigLine> parse_entry(std::string_view text, std::string_view section) {
     const auto equals = text.find('=');
-    if (equals == std::string::npos) return {};
+    if (equals == text.npos) return {};
     const auto value = parse_value(trimmed(text.substr(equals + 1)));
-    std::string name = trimmed(text.substr(0, equals)), within = section;
-    if (const auto dot = name.find('.'); dot != std::string::npos && section.empty()) {
+    std::string_view name = trimmed(text.substr(0, equals)), within = section;
+    if (const auto dot = name.find('.'); dot != name.npos && section.empty()) {
         within = unquoted(trimmed(name.substr(0, dot)));
         name = trimmed(name.substr(dot + 1));
     }
     name = unquoted(name);
     if (!value || !is_name(name) || (!within.empty() && !is_name(within))) return {};
-    std::replace(name.begin(), name.end(), '-', '_');
-    return ConfigLine{0, within, name, *value};
+    ConfigLine line{0, std::string(within), std::string(name), *value};
+    std::replace(line.name.begin(), line.name.end(), '-', '_');
+    return line;
 }
 
 [[noreturn]] void refuse(const std::string& path, int line, const std::string& reason) {
@@ -127,7 +123,7 @@ std::vector<ConfigLine> parse_config(const std::string& text, const std::string&
     std::string line, section;
     for (int number = 1; std::getline(stream, line); ++number) {
         if (is_empty(line)) continue;
-        const std::string content = trimmed(line);
+        const std::string_view content = trimmed(line);
         std::optional<ConfigLine> parsed;
         if (content.front() != '[')
             parsed = parse_entry(content, section);

@@ -2,12 +2,12 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
 
+#include "varimap/artifact/file_status.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 
@@ -21,13 +21,6 @@ void wait_for_lock(int descriptor, const std::string& name) {
     }
 }
 
-/// Whether the open file is still the one of that name: the holder before may have removed it.
-bool is_named(int descriptor, const std::string& name) {
-    struct stat open, named;
-    return ::fstat(descriptor, &open) == 0 && ::stat(name.c_str(), &named) == 0 &&
-           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
-}
-
 }  // namespace
 
 FileLock::FileLock(const std::string& path) : name_(path + ".lock") {
@@ -36,7 +29,7 @@ FileLock::FileLock(const std::string& path) : name_(path + ".lock") {
         if (descriptor_ < 0)
             throw IoError("cannot write '" + name_ + "': " + std::generic_category().message(errno));
         wait_for_lock(descriptor_, name_);
-        if (is_named(descriptor_, name_)) return;
+        if (is_named(descriptor_, name_)) return;  // else the holder before has removed it
         ::close(descriptor_);
     }
 }

@@ -2,19 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 
+#include "varimap/artifact/file_status.h"
 #include "varimap/artifact/header.h"
-#include "varimap/core/error.h"
 #include "varimap/core/lower_case.h"
 
 namespace varimap {
@@ -22,14 +19,6 @@ namespace {
 
 /// Longer than the steps of any file system's clock (FAT: 2 s).
 constexpr std::int64_t seconds_at_rest = 3;
-
-struct stat status_of(const std::string& path) {
-    struct stat status;
-    if (::stat(path.c_str(), &status) != 0)
-        throw IoError("cannot open '" + path + "': " + std::generic_category().message(errno));
-    if (!S_ISREG(status.st_mode)) throw IoError("cannot read '" + path + "': not a regular file");
-    return status;
-}
 
 FileState state_of(const struct stat& status) {
     return {fmt::format("{} {} {}.{:09} {}.{:09}", status.st_size, status.st_ino, status.st_mtim.tv_sec,
@@ -90,7 +79,7 @@ void remember(const std::string& file, const std::string& line) {
 }  // namespace
 
 FileState file_state(const std::string& path) {
-    return state_of(status_of(path));
+    return state_of(regular_file_status(path));
 }
 
 std::string kind_of_file(const std::string& path) {
@@ -104,7 +93,7 @@ std::string kind_of_file(const std::string& path) {
 }
 
 InputRecord KnownHashes::identify(const std::string& role, const std::string& path) const {
-    const struct stat status = status_of(path);
+    const struct stat status = regular_file_status(path);
     const FileState state = state_of(status);
     InputRecord record;
     if (folder_.empty()) {

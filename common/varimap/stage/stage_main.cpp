@@ -262,6 +262,13 @@ void Stage::run(const std::function<void()>& body) {
         used.peak_megabytes);
 }
 
+RecordedInput Stage::record(const std::string& role, const std::string& path) {
+    Header header = read_header(path);
+    record_input({role, header.kind, header.payload_hash});
+    require_same_origin(role, header, path);
+    return {path, std::move(header)};
+}
+
 void Stage::record_file(const std::string& role, const std::string& path) {
     record_input({role, kind_of_file(path), file_hash(path)});
     const auto start = state_->states_at_start.find(path);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
@@ -11,6 +12,26 @@
 #include "varimap/stage/parameters.h"
 
 namespace varimap {
+
+/// An artifact that a stage has recorded as its input, and reads only where it comes to need it.
+class RecordedInput {
+  public:
+    RecordedInput(std::string path, Header header) : path_(std::move(path)), header_(std::move(header)) {}
+    const std::string& path() const { return path_; }
+    const Header& header() const { return header_; }
+    /// Throws as read_artifact, and IoError where the file is no longer the one that was recorded.
+    template <class T>
+    T read() const {
+        Artifact<T> artifact = read_artifact<T>(path_);
+        if (artifact.header.payload_hash != header_.payload_hash)
+            throw IoError("'" + path_ + "' changed since this stage began; run again");
+        return std::move(artifact.value);
+    }
+
+  private:
+    std::string path_;
+    Header header_;
+};
 
 /// One run of one stage: its command line, the artifacts it reads and writes, and what it recorded.
 ///
@@ -69,10 +90,11 @@ class Stage {
         require_same_origin(role, artifact.header, path);
         return artifact;
     }
+    /// The same of one that may not be needed: it is an input in any case.
+    RecordedInput record(const std::string& role, const std::string& path);
     /// Records a foreign file (a mesh, a landmark list) as a direct input, by its content. Call it after
     /// reading: throws IoError where the file has changed since the stage began.
     void record_file(const std::string& role, const std::string& path);
-    void record_input(InputRecord record);
     /// Refuses (ArtifactError) unless `child` was made from the artifact `parent` in that role.
     static void require_lineage(const Header& child, const std::string& child_path, const std::string& role,
                                 const Header& parent, const std::string& parent_path);
@@ -94,6 +116,7 @@ class Stage {
     Usage usage() const;
 
   private:
+    void record_input(InputRecord record);
     void write_encoded(const std::string& path, const std::string& kind, int schema,
                        const std::string& payload);
     void require_same_origin(const std::string& role, const Header& header, const std::string& path);

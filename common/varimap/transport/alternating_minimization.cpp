@@ -85,9 +85,14 @@ SinkhornReport tighten(TransportProblem problem, double largest, const Alternati
     return report;
 }
 
-/// The averaging operator of a side whose samples are damped.
+/// The averaging operator of a side whose samples are damped. A neighbourhood of which nothing would be left
+/// keeps its weights.
 SparseMatrix damped_averaging(const Side& side, const Eigen::VectorXd& damping) {
-    return averaging_operator(side.weights * damping.asDiagonal(), side.mass);
+    SparseMatrix damped = side.weights * damping.asDiagonal();
+    const Eigen::VectorXd left = damped * side.mass;
+    for (Eigen::Index k = 0; k < left.size(); ++k)
+        if (left[k] == 0) damped.row(k) = side.weights.row(k);
+    return averaging_operator(damped, side.mass);
 }
 
 }  // namespace
@@ -123,10 +128,16 @@ void AlternatingMinimization::renew_support() {
 /// The half-step over the plan, with the rest fixed. Returns the gamma that it ends with, too.
 SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
     if (solution_.plan.support.entries() == 0)
-        throw ConvergenceError("nothing is left of the transport plan; rerun varimap-hierarchy");
+        throw ConvergenceError(
+            "nothing is left of the transport plan: samples of the hierarchies are their own neighbours no "
+            "more; delete the hierarchies and rerun varimap-hierarchy");
     const Eigen::VectorXd cost =
         CostFactors(averaged_X(), averaged_Y(), solution_.step.centres, solution_.relaxed)
             .on(solution_.plan.support);
+    if (!cost.allFinite())
+        throw ConvergenceError(
+            "costs of the transport plan are no numbers: coordinates are too large to be squared; scale both "
+            "surfaces down");
     const double largest = std::max(cost.maxCoeff(), 1e-300);
     gamma = largest / options_.gamma_divisor;
     const PlanBounds bounds = plan_bounds(X_, Y_, solution_.relaxed, options_);
@@ -173,7 +184,9 @@ void AlternatingMinimization::keep_bounds() {
                                    bounds.column.excess(column_sums(solution_.plan)));
     if (excess > tolerated)
         throw ConvergenceError(
-            fmt::format("transported masses leave the area bound by {:.2g}%", 100 * excess));
+            fmt::format("transported masses leave the area bound by {:.2g}%; raise area_bound or "
+                        "sinkhorn_iterations",
+                        100 * excess));
 }
 
 void AlternatingMinimization::run(const Observer& observe) {

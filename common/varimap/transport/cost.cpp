@@ -147,8 +147,10 @@ CostFactors::CostFactors(const AveragedSide& averaged_X, const AveragedSide& ave
 Eigen::VectorXd CostFactors::on(const Support& support) const {
     Eigen::VectorXd cost(support.entries());
     parallel_for_each_index(0 + support.rows(), 32, [&](int i) {
-        for (int e = support.row_begin[i]; e < support.row_begin[i + 1]; ++e)
-            cost[e] = std::max(0.0, entry(i, support.column[e]));
+        for (int e = support.row_begin[i]; e < support.row_begin[i + 1]; ++e) {
+            const double c = entry(i, support.column[e]);
+            cost[e] = c <= 0 ? 0 : c;  // what is no number stays so, that it be noticed
+        }
     });
     return cost;
 }

@@ -17,7 +17,7 @@ namespace varimap {
 namespace {
 
 PointPairs pairs_of(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
-                    const std::vector<int>& target_points) {
+                    const std::vector<int>& target_points, const std::string& name) {
     if (source_points.size() != target_points.size())
         throw InputError(fmt::format("{} points on the source but {} on the target; they match row by row",
                                      source_points.size(), target_points.size()));
@@ -26,15 +26,15 @@ PointPairs pairs_of(const PointMap& map, const TriangleMesh& target, const std::
     for (size_t i = 0; i < source_points.size(); ++i) {
         const int s = source_points[i], t = target_points[i];
         if (s < 0 || size_t(s) >= map.size())
-            throw InputError(fmt::format("row {} of the source's points: vertex {}, but the map has {} rows",
-                                         i + 1, s, map.size()));
+            throw InputError(fmt::format("row {} of the source's points: vertex {}, but {} has {} rows",
+                                         i + 1, s, name, map.size()));
         if (t < -1 || t >= target.vertex_count())
             throw InputError(fmt::format("row {} of the target's points: vertex {}, but the mesh has {}",
                                          i + 1, t, target.vertex_count()));
         const SurfacePoint image = map[size_t(s)];
         if (image.face >= target.face_count())
-            throw InputError(fmt::format("the map sends vertex {} to face {}, but the target has {} faces", s,
-                                         image.face, target.face_count()));
+            throw InputError(fmt::format("{} sends vertex {} to face {}, but the target has {} faces", name,
+                                         s, image.face, target.face_count()));
         if (t >= 0 && at_vertex[size_t(t)].face < 0 && image.face >= 0)
             throw InputError(
                 fmt::format("row {} of the target's points: vertex {} belongs to no face", i + 1, t));
@@ -46,15 +46,20 @@ PointPairs pairs_of(const PointMap& map, const TriangleMesh& target, const std::
 }  // namespace
 
 MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
-                     const std::vector<int>& target_points) {
-    return point_errors(pairs_of(map, target, source_points, target_points), target);
+                     const std::vector<int>& target_points, const std::string& name) {
+    return point_errors(pairs_of(map, target, source_points, target_points, name), target, name);
 }
 
-MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& target) {
+MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& target,
+                       const std::string& name) {
     PointPairs pairs;
     for (const auto& pair : images_and_truths)
         if (pair.first.face >= 0 && pair.second.face >= 0) pairs.push_back(pair);
-    if (pairs.empty()) throw InputError("the map gives an image to none of the source's points");
+    if (pairs.empty())
+        throw InputError(
+            name +
+            " gives an image to none of the source's points that have a place on the target; are "
+            "both of the meshes it was made from?");
     const double unit = std::sqrt(surface_area(target));
     if (!(unit > 0)) throw InputError("the target mesh has no area");
     const Geodesic distance(target);

@@ -25,13 +25,14 @@ struct MapErrors {
 
 /// map: per source vertex, on faces of `target`. Pair i says that vertex source_points[i] belongs on
 /// target_points[i]. Throws InputError: lists of different lengths, vertices or faces that do not exist,
-/// vertices that no face uses, no pair with an image.
+/// vertices that no face uses, no pair with an image. `name`: of the map, for them.
 MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
-                     const std::vector<int>& target_points);
+                     const std::vector<int>& target_points, const std::string& name = "the map");
 
 /// The same for points that are given as such: pair by pair, where a map takes a point, and where it belongs.
 /// Pairs that are nowhere count as unmapped.
-MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& target);
+MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& target,
+                       const std::string& name = "the map");
 
 /// The cumulative curve of Fig. 18 as CSV: `error,share` from 0 to 0.25 in steps of 0.0025.
 std::string curve_csv(const MapErrors& errors);

@@ -115,6 +115,13 @@ TEST(Holes, LongLoopsAreClosedToo) {
     EXPECT_EQ(summarise_topology(result.mesh).genus, 0);
 }
 
+/// Ears of a rim that were all compared for each that is cut off would take minutes.
+TEST(Holes, RimsOfFineScansAreClosedToo) {
+    const RepairedMesh result = filled(shapes::tube(2, 50'000, false), all);
+    EXPECT_TRUE(is_closed(result.mesh));
+    EXPECT_EQ(result.counts.filled_holes, 2);
+}
+
 /// Of a strip of three quads, the diagonals that would close it are edges already: those that are not are
 /// taken, and a single triangle is left as it is.
 TEST(Holes, NoEdgeIsThereTwice) {

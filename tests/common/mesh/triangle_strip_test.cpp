@@ -8,6 +8,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/funnel.h"
 
 namespace varimap {
 namespace {

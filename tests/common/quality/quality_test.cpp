@@ -256,6 +256,20 @@ TEST(LandmarkResiduals, AreDistancesBySquareRootOfArea) {
     EXPECT_NEAR(residuals[1], 1, 1e-12);
 }
 
+TEST(LandmarkResiduals, AreByTheCornersThatHaveAnImage) {
+    const TriangleMesh mesh = rectangle(2, 3, 3);
+    PointMap map = at_vertices(mesh);
+    const SurfacePoint middle{0, Vec3::Constant(1. / 3)};
+    const auto residual = [&] { return landmark_residuals(map, {{middle, middle}}, mesh, mesh)[0]; };
+    EXPECT_NEAR(residual(), 0, 1e-12);
+    map[std::size_t(mesh.faces(0, 0))] = {};
+    const Vec3 others = (mesh.vertex(mesh.faces(0, 1)) + mesh.vertex(mesh.faces(0, 2))) / 2;
+    EXPECT_NEAR(residual(), (others - position(mesh, middle)).norm() / 3, 1e-12)
+        << "by the side of the square";
+    map[std::size_t(mesh.faces(0, 1))] = map[std::size_t(mesh.faces(0, 2))] = {};
+    EXPECT_EQ(residual(), 0);
+}
+
 TEST(LandmarkSurroundings, TellWhereTheMapIsElsewhereAllAroundALandmark) {
     const TriangleMesh mesh = rectangle(2, 3, 3);
     const int v = 4;  // in the middle

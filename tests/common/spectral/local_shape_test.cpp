@@ -17,19 +17,58 @@ SurfaceData figure() {
     return shapes::figure_pair(1, false).A;
 }
 
+Points outward_normals(const Surface& surface) {
+    return varimap::outward_normals(surface.mesh, looks_inward(surface));
+}
+
+Eigen::VectorXd bending(const SurfaceData& data) {
+    return varimap::bending(data.surface, outward_normals(data.surface), data.basis, 4e-3);
+}
+
+Eigen::VectorXd shape_diameter(const Surface& surface) {
+    return varimap::shape_diameter(surface.mesh, outward_normals(surface));
+}
+
 RowMatrix descriptors(const SurfaceData& data) {
     return local_shape(data.surface, data.basis).descriptors;
 }
 
+/// As scanners leave it, watertight or not.
+Surface inside_out(const TriangleMesh& mesh) {
+    Surface surface = with_reversed_orientation(shapes::unit_surface(mesh));
+    surface.mirrored = false;
+    return surface;
+}
+
+TEST(LooksInward, IsAskedOfBothSurfacesOfAPair) {
+    const Surface closed = shapes::unit_surface(shapes::tube(12, 8, true)),
+                  open = shapes::unit_surface(shapes::tube(12, 8, false));
+    const Surface closed_inside = inside_out(closed.mesh), open_inside = inside_out(open.mesh);
+    EXPECT_FALSE(are_opposed(closed, closed));
+    EXPECT_FALSE(are_opposed(closed_inside, closed_inside));
+    EXPECT_TRUE(are_opposed(closed_inside, closed));
+    EXPECT_FALSE(are_opposed(closed, open));
+    EXPECT_FALSE(are_opposed(closed_inside, open_inside)) << "of the same scanner";
+    EXPECT_FALSE(are_opposed(open_inside, closed_inside));
+    EXPECT_TRUE(looks_inward(open_inside, closed_inside));
+    const Surface closed_image = with_reversed_orientation(closed),
+                  open_image = with_reversed_orientation(open);
+    for (const Surface& other : {closed, open}) {
+        EXPECT_TRUE(are_opposed(closed_image, other)) << "a mirror image is asked for";
+        EXPECT_TRUE(are_opposed(other, open_image));
+    }
+    EXPECT_FALSE(are_opposed(with_reversed_orientation(closed_inside), open)) << "set right by --mirror";
+}
+
 TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
     SurfaceData data = figure();
-    const Eigen::VectorXd plain = bending(data.surface, data.basis, 4e-3);
+    const Eigen::VectorXd plain = bending(data);
     const TriangleMesh& mesh = data.surface.mesh;
     int tip;  // of the tail, the hindmost vertex
     mesh.vertices.col(0).minCoeff(&tip);
     EXPECT_GT(plain[tip], 2 * plain.cwiseAbs().mean());
     data.surface = with_reversed_orientation(std::move(data.surface));
-    EXPECT_LT((bending(data.surface, data.basis, 4e-3) - plain).norm(), 1e-9 * plain.norm());
+    EXPECT_LT((bending(data) - plain).norm(), 1e-9 * plain.norm());
 }
 
 TEST(ShapeDiameter, IsTheLengthOfChordsOfASphere) {

@@ -595,6 +595,26 @@ TEST_F(StageRun, ARanFileTellsWhetherThereWasSomethingToDo) {
     EXPECT_EQ(read_file(ran), "sample\nsample\n");
 }
 
+TEST_F(StageRun, AnArtifactIsAnInputBeforeItIsRead) {
+    const std::string part = folder / "part.sample";
+    ASSERT_EQ(run_sample({in, part}).code, 0);
+    std::string text;
+    ASSERT_EQ(run_sample({in, out},
+                         [&](Stage& stage) { text = stage.record("part", part).read<TestArtifact>().text; })
+                  .code,
+              0);
+    EXPECT_EQ(text, "none");
+    ASSERT_EQ(run_sample({in, out}, [&](Stage& stage) { stage.record("part", part); }).code, 0);
+    EXPECT_EQ(read_header(out).input_hash("part"), read_header(part).payload_hash);
+    const Outcome changed = run_sample({in, out}, [&](Stage& stage) {
+        const RecordedInput input = stage.record("part", part);
+        write_payload(part, input.header(), "other");
+        input.read<TestArtifact>();
+    });
+    EXPECT_EQ(changed.code, 6);
+    EXPECT_THAT(changed.err, HasSubstr("changed since this stage began"));
+}
+
 TEST_F(StageRun, RefusesInputsOfDifferentOrigin) {
     const auto write_made_from = [&](const std::string& path, const std::vector<InputRecord>& inputs) {
         Header header;
@@ -623,7 +643,12 @@ TEST_F(StageRun, RefusesInputsOfDifferentOrigin) {
         stage.read<TestArtifact>("first", folder / "first");
     });
     EXPECT_EQ(other_way.code, 4);
-    // A file that is read, too.
+    // One that is recorded and not read, and a file that is read, too.
+    const Outcome recorded = run_sample({in, out}, [&](Stage& stage) {
+        stage.record("A.second", folder / "second");
+        stage.record("first", folder / "first");
+    });
+    EXPECT_EQ(recorded.code, 4);
     write_made_from(folder / "first", {{"source", "mesh", content_hash("another input")}});
     EXPECT_EQ(read_both("first", "second").code, 4);
 }

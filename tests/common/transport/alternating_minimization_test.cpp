@@ -249,6 +249,27 @@ TEST(AlternatingMinimization, DampsSamplesAsLongAsItIsTold) {
     EXPECT_EQ(energies(Damping{full_X, full_Y}, {}), plain);
 }
 
+TEST(AlternatingMinimization, LeavesNeighbourhoodsOfWhichAllIsDampedAway) {
+    const LevelPair pair = tube_level();
+    Damping damping{Eigen::VectorXd::Ones(pair.A.side.mass.size()),
+                    Eigen::VectorXd::Ones(pair.B.side.mass.size())};
+    const SparseMatrix& weights = pair.A.side.weights;
+    for (SparseMatrix::InnerIterator it(weights, 0); it; ++it) damping.row[it.col()] = 0;
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
+    minimization.start(zero_start(pair).centres, {});
+    minimization.set_damping(damping);
+    for (int i = 0; i < 2; ++i) EXPECT_GT(minimization.step().energy, 0);
+    EXPECT_TRUE(minimization.solution().step.centres.row.allFinite());
+}
+
+TEST(AlternatingMinimization, RefusesCostsThatAreNoNumbers) {
+    LevelPair pair = tube_level();
+    pair.A.side.points *= 1e200;
+    AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
+    minimization.start(zero_centres(pair), {});
+    EXPECT_THROW(minimization.step(), ConvergenceError);
+}
+
 TEST(AlternatingMinimization, KeepsTheIdentity) {
     const shapes::KnownPair tube = tubes();
     const LevelPair pair = PairContext(tube.A, tube.A, {}).diffusion_level(6);

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "varimap/core/error.h"
+#include "varimap/core/log.h"
+#include "varimap/core/printable.h"
+#include "varimap/landmarks/private/named.h"
+
+namespace varimap {
+
+namespace {
+
+bool have_distinct_names(const std::vector<Named>& list) {
+    std::set<std::string> names;
+    for (const Named& named : list)
+        if (named.name.empty() || !names.insert(named.name).second) return false;
+    return true;
+}
+
+/// Names that one of two lists lacks, the first few of them.
+std::string names_in_one(const std::vector<Named> (&lists)[2]) {
+    constexpr size_t most = 12;
+    std::map<std::string, int> count;
+    for (const auto& list : lists)
+        for (const Named& named : list) ++count[named.name];
+    std::vector<std::string> names;
+    for (const auto& [name, times] : count)
+        if (times == 1) names.push_back(fmt::format("'{}'", excerpt(name)));
+    const size_t shown = std::min(names.size(), most);
+    const std::string list =
+        fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), ", "));
+    return names.size() > shown ? fmt::format("{} and {} more", list, names.size() - shown) : list;
+}
+
+/// A name that stands twice must not shift the others' partners in silence.
+void warn_of_other_names(const std::vector<std::pair<Named, Named>>& rows,
+                         const std::vector<std::string>& files) {
+    const auto other = std::find_if(rows.begin(), rows.end(), [](const std::pair<Named, Named>& row) {
+        return !row.first.name.empty() && !row.second.name.empty() && row.first.name != row.second.name;
+    });
+    if (other != rows.end())
+        warn(
+            "{} and {} are matched row by row, since a name is missing or stands twice, but row {} is '{}' "
+            "and '{}'",
+            files[0], files[1], other - rows.begin() + 1, excerpt(other->first.name),
+            excerpt(other->second.name));
+}
+
+}  // namespace
+
+std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
+                                             const std::vector<std::string>& files) {
+    std::vector<std::pair<Named, Named>> pairs;
+    if (have_distinct_names(lists[0]) && have_distinct_names(lists[1])) {
+        std::map<std::string, Named> target;
+        for (const Named& named : lists[1]) target[named.name] = named;
+        for (const Named& named : lists[0])
+            if (const auto found = target.find(named.name); found != target.end())
+                pairs.emplace_back(named, found->second);
+        if (pairs.empty())
+            throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
+        if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
+            warn("{} landmarks are in both {} and {}; left out are {}", pairs.size(), files[0], files[1],
+                 names_in_one(lists));
+        return pairs;
+    }
+    if (lists[0].size() != lists[1].size())
+        throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
+                                     files[0], lists[0].size(), files[1], lists[1].size()));
+    for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
+    warn_of_other_names(pairs, files);
+    return pairs;
+}
+
+}  // namespace varimap

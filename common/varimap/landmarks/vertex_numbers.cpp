@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "varimap/core/log.h"
+#include "varimap/landmarks/private/named.h"
+#include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/io/text_scanner.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr double rounding = 1e-4;  ///< of coordinates in a list, relative to the mesh's bounding box diagonal
+
+/// What a coordinate in a list may be off by. Vertices that no face uses may lie far off: they count only in
+/// a mesh of points alone.
+double coordinate_tolerance(const TriangleMesh& mesh) {
+    if (mesh.face_count() == 0)
+        return rounding * (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm();
+    const auto [low, high] = bounding_box(mesh);
+    return rounding * (high - low).norm();
+}
+
+/// Which first number makes more rows' coordinates those of the mesh's vertices; nothing if neither makes
+/// half of them.
+std::optional<int> base_from_coordinates(const std::vector<ListRow>& rows, const TriangleMesh& mesh) {
+    const double tolerance = coordinate_tolerance(mesh);
+    size_t matches[2] = {0, 0};
+    for (const ListRow& row : rows) {
+        if (row.numbers.size() < 4) continue;
+        const Vec3 point(row.numbers[1], row.numbers[2], row.numbers[3]);
+        for (int base : {0, 1}) {
+            const double v = row.numbers[0] - base;
+            if (v < 0 || v >= mesh.vertex_count()) continue;
+            const double distance = (mesh.vertex(int(v)) - point).norm();
+            matches[base] += distance <= tolerance;
+        }
+    }
+    if (2 * std::max(matches[0], matches[1]) < rows.size()) return {};
+    return matches[1] > matches[0] ? 1 : 0;
+}
+
+/// Coordinates that are all the same (some programs write zeros) say nothing.
+bool carries_coordinates(const std::vector<ListRow>& rows) {
+    for (const ListRow& row : rows)
+        if (row.numbers.size() == 4 && rows[0].numbers.size() == 4 &&
+            !std::equal(row.numbers.begin() + 1, row.numbers.end(), rows[0].numbers.begin() + 1))
+            return true;
+    return false;
+}
+
+int first_number(const std::vector<ListRow>& rows, IndexBase base, const TriangleMesh* mesh,
+                 const std::string& path) {
+    if (base != IndexBase::automatic) return base == IndexBase::one ? 1 : 0;
+    const auto found = mesh ? base_from_coordinates(rows, *mesh) : std::nullopt;
+    if (found) return *found;
+    if (carries_coordinates(rows))
+        warn("{}: {}; taking its vertex numbers to start at 0", path,
+             mesh ? "the coordinates are not those of the mesh's vertices"
+                  : "there is no mesh to compare its coordinates with");
+    return 0;
+}
+
+}  // namespace
+
+int to_vertex(const ListRow& row, size_t column, int first, const std::string& path,
+              const TriangleMesh* mesh) {
+    const double number = row.numbers[column];
+    if (number != std::floor(number) || std::abs(number) > 2e9)
+        fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
+    const int vertex = int(number) - first;
+    if (vertex < 0)
+        fail_at(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));
+    if (mesh && vertex >= mesh->vertex_count())
+        fail_at(
+            path, row.line,
+            fmt::format("vertex {} is out of range: the mesh has {} vertices, numbered from {} to {}{}",
+                        number, mesh->vertex_count(), first, mesh->vertex_count() - 1 + first,
+                        first == 0 && vertex == mesh->vertex_count() ? "; do the numbers start at 1?" : ""));
+    return vertex;
+}
+
+std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std::string& path, IndexBase base,
+                                    const TriangleMesh* mesh) {
+    require_count(rows, path, {1, 4}, "a vertex number, alone or followed by x y z");
+    const int first = first_number(rows, base, mesh, path);
+    std::vector<Named> list;
+    for (const ListRow& row : rows)
+        list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name});
+    return list;
+}
+
+std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
+    std::vector<int> vertices;
+    for (const Named& named : vertices_of_list(read_list_rows(path), path, base, mesh))
+        vertices.push_back(named.vertex);
+    return vertices;
+}
+
+}  // namespace varimap

@@ -1,0 +1,109 @@
+#include "varimap/relaxation/fault_repair.h"
+
+#include <algorithm>
+
+#include "varimap/core/index_set.h"
+#include "varimap/core/log.h"
+#include "varimap/relaxation/chart_repair.h"
+#include "varimap/relaxation/fold_removal.h"
+#include "varimap/relaxation/missed_parts.h"
+#include "varimap/relaxation/movable_vertices.h"
+#include "varimap/relaxation/rounds.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr double last_fold_visits = 8;  ///< as in the first round
+/// Faces that may be faulty in the end where faults are mapped anew once more: a torn map has hundreds, for
+/// which that would take long.
+constexpr int few_faults = 100;
+
+void log_repair(const ChartRepair::Report& report) {
+    const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
+    using enum ChartRepair::Outcome;
+    if (std::all_of(report.outcomes.begin(), report.outcomes.end(), [](int n) { return n == 0; })) return;
+    log("repair: {} parts taken from the other direction, {} mapped anew in charts; in vain: {} for want "
+        "of a disc, {} of a simple rim, {} folded, {} not better",
+        count(inverted), count(repaired), count(no_disc), count(no_simple_rim), count(folded),
+        count(no_gain));
+}
+
+}  // namespace
+
+void FaultRepair::operator()(const PointMap& back) {
+    if (!options_.align_normals) return;
+    AlongTarget along_target(map_);
+    NormalAgreement agreement(map_, along_target);
+    std::vector<int> left = agreement.disagreeing_faces();
+    report_.disagreeing_before = int(left.size());
+    left = repair(back, along_target, agreement, std::move(left));
+    report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
+}
+
+bool FaultRepair::is_done_again() const {
+    return faults_ > 0 && faults_ <= few_faults;
+}
+
+void FaultRepair::again(const PointMap& back) {
+    if (!is_done_again()) return;
+    const PointMap kept = map_.points();
+    const int faults = faults_;
+    AlongTarget along_target(map_);
+    NormalAgreement agreement(map_, along_target);
+    repair(back, along_target, agreement, {});
+    if (faults_ > faults) {
+        place(kept);
+        faults_ = faults;
+    }
+    report_.disagreeing_after = int(agreement.disagreeing_faces().size());
+}
+
+void FaultRepair::recover(const PointMap& back) {
+    if (!options_.replace_parts || !options_.align_normals) return;
+    const PointMap kept = map_.points();
+    const int faults = faults_;
+    if (!recover_missed_parts(map_, back, held(), landmarks_, options_.inverse_weight)) return;
+    (*this)(back);
+    if (faults_ <= faults) return;
+    log("{} faulty faces more come of them: they are left", faults_ - faults);
+    place(kept);
+    faults_ = faults;
+}
+
+VertexData<bool> FaultRepair::held() const {
+    return held_vertices(map_, fixed_, landmarks_);
+}
+
+bool FaultRepair::may_be_done_again() const {
+    return options_.repair_again && count_used_vertices(map_.source()) <= large_surface;
+}
+
+void FaultRepair::place(const PointMap& points) {
+    for (int v = 0; v < int(points.size()); ++v)
+        if (map_.has_image(v)) map_.place(v, points[std::size_t(v)]);
+}
+
+std::vector<int> FaultRepair::repair(const PointMap& back, AlongTarget& along_target,
+                                     NormalAgreement& agreement, std::vector<int> left) {
+    const VertexData<bool> stays = held();
+    ChartRepair charts(map_, along_target, agreement, back, relief_);
+    const auto leave = [&](const std::vector<int>& touched) {
+        left.insert(left.end(), touched.begin(), touched.end());
+    };
+    leave(charts(stays));
+    make_set(left);
+    left = agreement.improve(agreement.disagreeing_among(left), stays);
+    // What is upright along the target may still be reversed by the normals at its corners.
+    report_.sweeps +=
+        FoldRemoval{options_.fold_sweeps, std::min(last_fold_visits, options_.most_fold_visits)}(map_, stays);
+    // What was no disc, or had no simple rim, may be one now.
+    leave(charts(stays));
+    if (options_.centre_stars) leave(charts.centre_stars(stays));
+    make_set(left);
+    log_repair(charts.report());
+    if (may_be_done_again()) faults_ = charts.faulty_faces();
+    return left;
+}
+
+}  // namespace varimap

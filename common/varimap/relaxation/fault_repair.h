@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "varimap/relaxation/along_target.h"
+#include "varimap/relaxation/normal_agreement.h"
+#include "varimap/relaxation/relief_agreement.h"
+#include "varimap/relaxation/soft_constraints.h"
+#include "varimap/relaxation/untangling.h"
+
+namespace varimap {
+
+/// What is left of a relaxed map's faults: what cannot be slid away (chart_repair.h), and faces that cut
+/// through features (normal_agreement.h). `back`: the other direction.
+class FaultRepair {
+  public:
+    /// Keeps references; tells `report` what was done. Vertices with fixed[v] stay.
+    FaultRepair(SlidingMap& map, const VertexData<bool>& fixed, const std::vector<SoftConstraint>& landmarks,
+                const ReliefAgreement* relief, const UntanglingOptions& options, UntanglingReport& report)
+        : map_(map),
+          fixed_(fixed),
+          landmarks_(landmarks),
+          relief_(relief),
+          options_(options),
+          report_(report) {}
+
+    void operator()(const PointMap& back);
+    bool is_done_again() const;
+    /// Once more around the faults that are left; as it was where more come of it.
+    void again(const PointMap& back);
+    /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where more faults
+    /// come of it.
+    void recover(const PointMap& back);
+
+  private:
+    VertexData<bool> held() const;
+    /// On a large surface to look at all of it again takes longer than what is won.
+    bool may_be_done_again() const;
+    void place(const PointMap& points);
+    /// `left`: the faces that disagree with the target's normals, ascending. Returns those that may in the
+    /// end.
+    std::vector<int> repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
+                            std::vector<int> left);
+
+    SlidingMap& map_;
+    const VertexData<bool>& fixed_;
+    const std::vector<SoftConstraint>& landmarks_;
+    const ReliefAgreement* relief_;
+    const UntanglingOptions& options_;
+    UntanglingReport& report_;
+    int faults_ = 0;  ///< faulty faces after repair; not counted where none follows
+};
+
+}  // namespace varimap
