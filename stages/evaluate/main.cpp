@@ -21,6 +21,7 @@ std::string as_json(const MapErrors& errors) {
     json["pairs"] = errors.errors.size();
     json["unmapped"] = errors.unmapped;
     json["mean"] = errors.mean();
+    if (errors.smoothed_mean) json["smoothed_mean"] = *errors.smoothed_mean;
     json["median"] = errors.median();
     json["maximum"] = errors.maximum();
     json["share_0025"] = errors.share_within(.025);
@@ -37,6 +38,7 @@ std::string as_text(const MapErrors& errors) {
     row("pairs", fmt::format("{}", errors.errors.size()));
     if (errors.unmapped > 0) row("unmapped", fmt::format("{}", errors.unmapped));
     row("mean", fmt::format("{:.5f}", errors.mean()));
+    if (errors.smoothed_mean) row("smoothed mean", fmt::format("{:.5f}", *errors.smoothed_mean));
     row("median", fmt::format("{:.5f}", errors.median()));
     row("maximum", fmt::format("{:.5f}", errors.maximum()));
     for (double bound : {.025, .05, .1})

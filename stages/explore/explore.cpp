@@ -7,6 +7,7 @@
 #include "stages/explore/candidate_maps.h"
 #include "stages/explore/mirror_images.h"
 #include "stages/explore/surface_comparison.h"
+#include "stages/explore/turns.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/boundary.h"
@@ -65,6 +66,13 @@ std::vector<Appraised> quickly_found(const PairContext& context, const ExplorePa
     return finished.appraised();
 }
 
+/// What is found, and what the best of it becomes, turned about axes on which it looks nearly the same.
+std::vector<Appraised> with_turns(FinishedPool& finished, const PairContext& context,
+                                  const Appraisal& appraisal) {
+    finished.add(turned_about_axes(finished.appraised().front(), context, appraisal));
+    return finished.appraised();
+}
+
 /// Whether the surfaces fit better as mirror images of each other.
 struct ByMirrorImages {
     std::vector<PooledMap> maps;  ///< mirrored back
@@ -116,7 +124,7 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
     self_maps.add_compositions(pool, 2 * params.composed);
     FinishedPool finished(context, options, appraisal);
     finished.add_new_of(pool);
-    return finished.appraised();
+    return self_maps.exist() ? with_turns(finished, context, appraisal) : finished.appraised();
 }
 
 /// Whether another map scores better than the first, to which landmarks lead: then both are shown.
@@ -233,7 +241,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     if (self_maps.exist()) {
         mirrored = found_by_mirror_images(context, params, ratings(list));
         finished.add(mirrored.maps);
-        list = finished.appraised();
+        list = with_turns(finished, context, appraisal);
     }
     if (!is_good(list.front().candidate, if_needed)) {
         log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "

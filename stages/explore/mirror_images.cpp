@@ -5,7 +5,6 @@
 #include "stages/explore/self_maps.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
-#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
 
@@ -15,17 +14,6 @@ namespace {
 SurfaceData mirror_image(SurfaceData data) {
     data.surface = with_reversed_orientation(std::move(data.surface));
     return data;
-}
-
-std::vector<int> vertices_of(const PointMap& map, const TriangleMesh& to) {
-    std::vector<int> vertices;
-    for (const SurfacePoint& point : map) vertices.push_back(nearest_vertex(to, point));
-    return vertices;
-}
-
-VertexImages vertex_images(const MapPair& maps, const PairContext& context) {
-    return {vertices_of(maps.A_to_B, context.B().surface.mesh),
-            vertices_of(maps.B_to_A, context.A().surface.mesh)};
 }
 
 /// Of one exploration, finished: the best of `most` maps first.

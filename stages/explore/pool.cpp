@@ -3,8 +3,24 @@
 #include "stages/explore/difference.h"
 #include "stages/explore/exploration.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
+
+namespace {
+
+std::vector<int> nearest_vertices(const PointMap& map, const TriangleMesh& to) {
+    std::vector<int> vertices;
+    for (const SurfacePoint& point : map) vertices.push_back(nearest_vertex(to, point));
+    return vertices;
+}
+
+}  // namespace
+
+VertexImages vertex_images(const MapPair& maps, const PairContext& context) {
+    return {nearest_vertices(maps.A_to_B, context.B().surface.mesh),
+            nearest_vertices(maps.B_to_A, context.A().surface.mesh)};
+}
 
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationOptions& options,
                                 const ExploreParams& params) {

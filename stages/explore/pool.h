@@ -5,6 +5,7 @@
 #include "stages/explore/params.h"
 #include "varimap/multilevel/matching.h"
 #include "varimap/results/candidate.h"
+#include "varimap/results/map_pair.h"
 
 namespace varimap {
 
@@ -24,6 +25,9 @@ std::vector<PooledMap> led_by_landmarks(const PairContext& context, const Explor
 /// `led`, if there is such a map, and those that explorations find, numbered through.
 std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
                               const ExploreParams& params, const std::vector<PooledMap>& led);
+
+/// The vertices nearest to the images.
+VertexImages vertex_images(const MapPair& maps, const PairContext& context);
 
 /// Adds a map, but not one close to another that is there.
 void add_if_new(std::vector<PooledMap>& pool, PooledMap map, const PairContext& context);

@@ -1,8 +1,9 @@
 #include "stages/explore/starts.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+
+#include "stages/explore/principal_axes.h"
 
 namespace varimap {
 
@@ -28,20 +29,6 @@ std::vector<int> random_permutation(int count, std::mt19937& random) {
         order[j] = i;
     }
     return order;
-}
-
-/// Principal axes of a surface, right-handed, and how far it reaches along them. Its centroid is the origin.
-struct PrincipalAxes {
-    Eigen::Matrix3d axes;  ///< columns
-    Eigen::Vector3d deviation;
-};
-PrincipalAxes principal_axes(const Surface& surface) {
-    const Points& x = surface.mesh.vertices;
-    const Eigen::Matrix3d covariance = x.transpose() * surface.mass.asDiagonal() * x;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    PrincipalAxes principal{solver.eigenvectors(), solver.eigenvalues().cwiseMax(1e-12).cwiseSqrt()};
-    if (principal.axes.determinant() < 0) principal.axes.col(0) *= -1;
-    return principal;
 }
 
 /// Samples x 6: places along the principal axes, in deviations, and normals in the same frame.

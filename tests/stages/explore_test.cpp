@@ -20,9 +20,11 @@
 #include "stages/explore/starts.h"
 #include "stages/explore/surface_comparison.h"
 #include "stages/explore/tips.h"
+#include "stages/explore/turns.h"
 #include "stages/generate/level_set.h"
 #include "varimap/core/warnings.h"
 #include "varimap/mesh/boundary.h"
+#include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {
@@ -294,6 +296,61 @@ VertexImages true_images(const KnownPair& pair) {
     for (int v = 0; v < B.vertex_count(); ++v)
         images.B_to_A.push_back(shapes::nearest_vertex(A, pair.B_on_A.row(v).transpose()));
     return images;
+}
+
+/// A shaft with a hexagonal head, of which one side is cut off further in.
+KnownPair bolt() {
+    const auto f = [](const Vec3& p) {
+        double head = std::max(p.x() - .75, std::abs(p.z()) - .4);
+        for (int k = 0; k < 6; ++k) {
+            const double angle = k * M_PI / 3;
+            head = std::max(head, std::cos(angle) * p.x() + std::sin(angle) * p.y() - 1);
+        }
+        const double shaft = std::max(std::hypot(p.x(), p.y()) - .5, std::abs(p.z() - 1.5) - 1.5);
+        return std::min(head, shaft);
+    };
+    const TriangleMesh mesh = shapes::level_set(f, {-1.217, -1.243, -.631}, {1.2, 1.2, 3.2}, .131),
+                       other = shapes::level_set(f, {-1.253, -1.229, -.617}, {1.2, 1.2, 3.2}, .137);
+    return shapes::known_pair(mesh, other, {}, 60, {}, 1000);
+}
+
+Appraised with_images(const KnownPair& pair, const Points& A_on_B, const Points& B_on_A) {
+    Appraised result;
+    const ClosestPoint on_A(pair.A.surface.mesh), on_B(pair.B.surface.mesh);
+    for (Eigen::Index v = 0; v < A_on_B.rows(); ++v)
+        result.map.maps.A_to_B.push_back(on_B(A_on_B.row(v).transpose()).point);
+    for (Eigen::Index v = 0; v < B_on_A.rows(); ++v)
+        result.map.maps.B_to_A.push_back(on_A(B_on_A.row(v).transpose()).point);
+    return result;
+}
+
+double least_error(const std::vector<PooledMap>& pool, const KnownPair& pair) {
+    double least = 1;
+    for (const PooledMap& map : pool)
+        least = std::min(least, shapes::mean_error({images_at(map.images.A_to_B, pair.B.surface.mesh),
+                                                    images_at(map.images.B_to_A, pair.A.surface.mesh)},
+                                                   pair));
+    return least;
+}
+
+TEST(TurnsAboutAxes, LeadFromATurnedBoltToTheRightOne) {
+    const KnownPair pair = bolt();
+    const PairContext context = pair.context();
+    const Eigen::Matrix3d turn(Eigen::AngleAxisd(2 * M_PI / 3, Vec3::UnitZ()));
+    const Appraised turned = with_images(pair, pair.A_on_B * turn.transpose(), pair.B_on_A * turn);
+    ASSERT_GT(shapes::mean_error(turned.map.maps, pair), .1);
+    const std::vector<PooledMap> pool = turned_about_axes(turned, context, Appraisal(context));
+    ASSERT_FALSE(pool.empty());
+    EXPECT_TRUE(pool.front().origin.turned_about_axis);
+    EXPECT_LT(least_error({pool.front()}, pair), .05);
+    EXPECT_GT(least_error({pool.begin() + 1, pool.end()}, pair), least_error({pool.front()}, pair));
+}
+
+TEST(TurnsAboutAxes, AreNotTriedWhereNoneBringsASurfaceNearToItself) {
+    const KnownPair pair = person();
+    const PairContext context(pair.A, pair.B, {});
+    const Appraised right = with_images(pair, pair.A_on_B, pair.B_on_A);
+    EXPECT_TRUE(turned_about_axes(right, context, Appraisal(context)).empty());
 }
 
 /// Every image is another vertex.
@@ -597,6 +654,9 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     close.score = -29;
     EXPECT_LT(confidence_of({best, close}).probability, sure.probability);
     EXPECT_THAT(doubt({best, close}), testing::HasSubstr("another is 37% as probable"));
+    Candidate turned = rival;
+    turned.turned_about_axis = true;  // both look nearly the same
+    EXPECT_LT(confidence_of({best, turned}).probability, sure.probability - .01);
     close.moved_mass = .03;  // the same map, but for an ear
     EXPECT_EQ(confidence_of({best, close}).margin, 10);
     close.moved_mass = .8;

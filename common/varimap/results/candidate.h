@@ -22,6 +22,7 @@ struct Candidate {
     /// Found between A and the mirror image of B, and mirrored back by a map of one of them onto its own
     /// mirror image, which the number of its self-map counts.
     bool mirrored_back = false;
+    bool turned_about_axis = false;  ///< and then turned about an axis of one of the surfaces
     /// Of the first: its score, less that of the best map between A and the mirror image of B, if that is
     /// better; 0 where it was not looked for.
     double mirror_gain = 0;

@@ -29,7 +29,7 @@ template <>
 struct ArtifactType<Candidates> {
     static constexpr const char* kind = "candidates";
     static constexpr const char* stage = "varimap-explore";
-    static constexpr int schema = 6;
+    static constexpr int schema = 7;
 };
 std::string encode(const Candidates& candidates);
 /// Throws ArtifactError unless sizes fit each other, numbers are finite, and points are points.

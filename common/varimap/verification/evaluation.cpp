@@ -43,6 +43,34 @@ PointPairs pairs_of(const PointMap& map, const TriangleMesh& target, const std::
     return pairs;
 }
 
+/// See MapErrors::smoothed_mean; of at most 2'000 of the pairs, evenly spread over their list.
+std::optional<double> smoothed_mean(const PointPairs& pairs, const TriangleMesh& target, double unit) {
+    constexpr std::size_t dense = 500, looked_at = 2000;
+    constexpr int neighbours = 12;
+    const auto count = Eigen::Index(pairs.size());
+    if (pairs.size() < dense) return {};
+    Points truth(count, 3), displacement(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const auto& [image, belongs] = pairs[std::size_t(i)];
+        truth.row(i) = position(target, belongs).transpose();
+        displacement.row(i) = position(target, image).transpose() - truth.row(i);
+    }
+    std::vector<double> lengths(std::min(pairs.size(), looked_at));
+    parallel_for_each_index(lengths.size(), std::size_t(16), [&](std::size_t k) {
+        const auto at = Eigen::Index(k * pairs.size() / lengths.size());
+        const Eigen::VectorXd far = (truth.rowwise() - truth.row(at)).rowwise().squaredNorm();
+        std::vector<Eigen::Index> nearest(pairs.size());
+        std::iota(nearest.begin(), nearest.end(), Eigen::Index(0));
+        std::partial_sort(
+            nearest.begin(), nearest.begin() + neighbours, nearest.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return std::pair(far[a], a) < std::pair(far[b], b); });
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (int n = 0; n < neighbours; ++n) sum += displacement.row(nearest[std::size_t(n)]);
+        lengths[k] = sum.norm() / neighbours / unit;
+    });
+    return std::accumulate(lengths.begin(), lengths.end(), 0.) / double(lengths.size());
+}
+
 }  // namespace
 
 MapErrors map_errors(const PointMap& map, const TriangleMesh& target, const std::vector<int>& source_points,
@@ -63,7 +91,8 @@ MapErrors point_errors(const PointPairs& images_and_truths, const TriangleMesh& 
     const double unit = std::sqrt(surface_area(target));
     if (!(unit > 0)) throw InputError("the target mesh has no area");
     const Geodesic distance(target);
-    MapErrors result{std::vector<double>(pairs.size()), int(images_and_truths.size() - pairs.size()), 0};
+    MapErrors result{std::vector<double>(pairs.size()), int(images_and_truths.size() - pairs.size()), 0,
+                     smoothed_mean(pairs, target, unit)};
     parallel_for_each_index(pairs.size(), size_t(16), [&](size_t i) {
         result.errors[i] = distance(pairs[i].first, pairs[i].second) / unit;
     });

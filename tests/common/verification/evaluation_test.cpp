@@ -44,6 +44,31 @@ TEST(Evaluation, OfTheTrueMapIsZero) {
     EXPECT_EQ(errors.share_within(0), 1);
 }
 
+/// Images one step along x from where they belong; true images a step off at random besides.
+TEST(Evaluation, RoundingOfTheTruthAveragesOut) {
+    const int n = 40;
+    const TriangleMesh mesh = square(n);
+    std::vector<int> sources, truths, images;
+    unsigned random = 1;
+    const auto step = [&] { return int((random = random * 1103515245u + 12345u) >> 16) % 3 - 1; };
+    for (int y = 2; y < n - 2; ++y)
+        for (int x = 2; x < n - 2; ++x) {
+            sources.push_back(int(sources.size()));
+            images.push_back(y * n + x + 1);
+            truths.push_back((y + step()) * n + x + step());
+        }
+    const MapErrors errors = map_errors(to_vertices(mesh, images), mesh, sources, truths);
+    ASSERT_TRUE(errors.smoothed_mean);
+    EXPECT_GT(errors.mean(), 1.2 / (n - 1));
+    EXPECT_NEAR(*errors.smoothed_mean, 1. / (n - 1), .15 / (n - 1));
+}
+
+TEST(Evaluation, SparseTruthIsNotSmoothed) {
+    const TriangleMesh mesh = square(4);
+    const std::vector<int> rows{0, 5, 10, 15};
+    EXPECT_FALSE(map_errors(to_vertices(mesh, rows), mesh, {0, 1, 2, 3}, rows).smoothed_mean);
+}
+
 TEST(Evaluation, MeasuresInUnitsOfTheRootOfTheTargetsArea) {
     for (double scale : {1., 1000.}) {
         TriangleMesh mesh = square(5);  // side 4, so one step is an error of 1/4

@@ -1,0 +1,136 @@
+#include "stages/explore/turns.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "stages/explore/principal_axes.h"
+#include "varimap/core/log.h"
+#include "varimap/core/timing.h"
+#include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/pulled_back.h"
+
+namespace varimap {
+
+namespace {
+
+using Turn = Eigen::Matrix3d;
+
+Points turned(const Points& points, const Turn& turn) {
+    return points * turn.transpose();
+}
+
+PointMap closest_points(const ClosestPoint& closest, const Points& places) {
+    PointMap map;
+    for (Eigen::Index i = 0; i < places.rows(); ++i) map.push_back(closest(places.row(i).transpose()).point);
+    return map;
+}
+
+/// Mean distance of some two hundred turned vertices from the surface. Units of sqrt(area).
+double distance_from_itself(const Surface& surface, const ClosestPoint& closest, const Turn& turn) {
+    const int count = surface.mesh.vertex_count(), stride = std::max(1, count / 200);
+    double sum = 0, mass = 0;
+    for (int v = 0; v < count; v += stride) {
+        sum += surface.mass[v] * std::sqrt(closest(turn * surface.mesh.vertex(v)).squared_distance);
+        mass += surface.mass[v];
+    }
+    return mass > 0 ? sum / mass : 0;
+}
+
+/// Turns about the principal axes that lay a surface nearly on itself.
+std::vector<Turn> turns_onto_itself(const Surface& surface, const ClosestPoint& closest) {
+    // Of people and animals the least are .019 to .04.
+    constexpr double near = 0.015;
+    constexpr int angles = 24;
+    std::vector<Turn> turns;
+    const PrincipalAxes principal = principal_axes(surface);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = 1; k < angles; ++k) {
+            const double angle = 2 * std::numbers::pi * k / angles;
+            const Turn turn(Eigen::AngleAxisd(angle, principal.axes.col(axis).normalized()));
+            if (distance_from_itself(surface, closest, turn) < near) turns.push_back(turn);
+        }
+    return turns;
+}
+
+/// A map and its inverse, composed with turns of its surfaces.
+class TurnedMaps {
+  public:
+    TurnedMaps(const MapPair& maps, const PairContext& context)
+        : maps_(maps), A_(context.A().surface), B_(context.B().surface), on_A_(A_.mesh), on_B_(B_.mesh) {}
+
+    std::vector<MapPair> all() const {
+        std::vector<MapPair> result;
+        for (const Turn& turn : turns_onto_itself(A_, on_A_)) result.push_back(after_turn_of_A(turn));
+        for (const Turn& turn : turns_onto_itself(B_, on_B_)) result.push_back(before_turn_of_B(turn));
+        return result;
+    }
+
+  private:
+    MapPair after_turn_of_A(const Turn& turn) const {
+        return {carried(A_, on_A_, turn, B_, on_B_, maps_.A_to_B),
+                turned_images(maps_.B_to_A, A_, on_A_, turn.transpose())};
+    }
+    MapPair before_turn_of_B(const Turn& turn) const {
+        return {turned_images(maps_.A_to_B, B_, on_B_, turn),
+                carried(B_, on_B_, turn.transpose(), A_, on_A_, maps_.B_to_A)};
+    }
+    /// Where the map takes the turned vertices.
+    static PointMap carried(const Surface& from, const ClosestPoint& on_from, const Turn& turn,
+                            const Surface& to, const ClosestPoint& on_to, const PointMap& map) {
+        const Points images = pulled_back(to.mesh.vertices, to.mesh, map);
+        const PointMap places = closest_points(on_from, turned(from.mesh.vertices, turn));
+        return closest_points(on_to, pulled_back(images, from.mesh, places));
+    }
+    static PointMap turned_images(const PointMap& map, const Surface& to, const ClosestPoint& on_to,
+                                  const Turn& turn) {
+        return closest_points(on_to, turned(pulled_back(to.mesh.vertices, to.mesh, map), turn));
+    }
+
+    const MapPair& maps_;
+    const Surface &A_, &B_;
+    ClosestPoint on_A_, on_B_;
+};
+
+/// Mean distance between the images of two maps, of both directions.
+double apart(const MapPair& a, const MapPair& b, const PairContext& context) {
+    const auto mean = [](const PointMap& one, const PointMap& other, const Surface& from, const Surface& to) {
+        const Points& x = to.mesh.vertices;
+        return from.mass.dot(
+                   (pulled_back(x, to.mesh, one) - pulled_back(x, to.mesh, other)).rowwise().norm()) /
+               from.mass.sum();
+    };
+    const Surface &A = context.A().surface, &B = context.B().surface;
+    return (mean(a.A_to_B, b.A_to_B, A, B) + mean(a.B_to_A, b.B_to_A, B, A)) / 2;
+}
+
+}  // namespace
+
+std::vector<PooledMap> turned_about_axes(const Appraised& map, const PairContext& context,
+                                         const Appraisal& appraisal) {
+    constexpr double another = 0.04;  // mean distance of images, units of sqrt(area)
+    constexpr int most = 3;
+    const Timer timer("turns about axes");
+    std::vector<std::pair<double, MapPair>> turned;
+    for (MapPair& maps : TurnedMaps(map.map.maps, context).all()) {
+        const double score = rough_score(appraisal.cues(maps));
+        turned.emplace_back(score, std::move(maps));
+    }
+    std::stable_sort(turned.begin(), turned.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<const MapPair*> kept{&map.map.maps};
+    std::vector<PooledMap> pool;
+    for (const auto& [score, maps] : turned) {
+        const auto is_another = [&](const MapPair* other) { return apart(maps, *other, context) > another; };
+        if (int(pool.size()) == most || !std::all_of(kept.begin(), kept.end(), is_another)) continue;
+        log("turned about an axis: score {:.2f}, as it was {:.2f}", score,
+            rough_score(appraisal.cues(map.map.maps)));
+        kept.push_back(&maps);
+        pool.push_back({vertex_images(maps, context), map.candidate});
+        pool.back().origin.turned_about_axis = true;
+    }
+    return pool;
+}
+
+}  // namespace varimap
