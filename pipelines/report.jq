@@ -21,9 +21,11 @@ def direction($words):
 # Of what preprocess recorded: a few faces, edges or vertices were repaired, or a few components joined, and nothing changed the
 # surface's form but what was asked for: holes are never filled without.
 def little_repaired:
-    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, .turned_faces, .cut_edges, .split_vertices, .closed_slits] | add // 0) as $elements
-    | any($elements, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
+    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, .cut_edges, .split_vertices, .closed_slits] | add // 0) as $elements
+    | any($elements, .turned_faces, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
         and $elements <= ([10, .001 * (.input_faces // 0)] | max) and (.bridges // 0) <= 10
+        # Turning faces changes no form.
+        and (.turned_faces // 0) <= ([10, .01 * (.input_faces // 0)] | max)
         and .cut_handles == .asked_cuts and all(.opened_edges, .unfilled_holes, .dropped_components; . == null);
 
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),

@@ -109,6 +109,7 @@ void PartReplacement::continue_surroundings(const PointMap& back) {
 void PartReplacement::adopt_inverse(const PointMap& back, bool whole) {
     const Timer timer("parts, in all");
     judge_by(back, options_.inverse_weight);
+    context_.rules.untwist = false;
     InverseMap inverse_of_back(map_, back);
     const auto invert = [&](const VertexData<bool>& open) { inverse_of_back.place(map_, open); };
     const Proposals inverse = [&](const VertexData<bool>&) { return std::vector<Proposal>{invert}; };

@@ -16,6 +16,10 @@ namespace varimap {
 struct TrialRules {
     double robustness = 3;  ///< of the energy by which maps are compared; lower ones think little of spikes
     double gain = 0.15;     ///< share of the energy that an alternative must save
+    /// Whether it suffices that an alternative is far less strained and enters the same cells of the target
+    /// (a limb turned about its axis): where both directions are twisted alike, what is right for one is not
+    /// the other's inverse.
+    bool untwist = true;
 };
 
 /// A part of the source that is to be mapped anew.
@@ -58,7 +62,10 @@ class PartTrial {
   private:
     void relax();
     void remove_folds();
+    double strain() const;
     double energy() const;
+    bool untwists();
+    bool enters_the_same() const;
     double tolerated_loss() const;
     bool covers_as_much() const;
     void restore();
@@ -68,7 +75,7 @@ class PartTrial {
     PointMap before_;
     std::vector<SoftConstraint> constraints_;  ///< of the part's faces
     std::unique_ptr<GlobalRelaxation> global_;
-    double energy_to_beat_ = 0, nearest_ = std::numeric_limits<double>::infinity();
+    double strain_before_ = 0, energy_to_beat_ = 0, nearest_ = std::numeric_limits<double>::infinity();
     std::vector<char> occupied_before_;  ///< cells of the target
 };
 

@@ -17,8 +17,8 @@ struct LegTrial {
     const PointMap nothing_known = PointMap(rest.vertex_count());  ///< of the other direction
     PartReplacement replacement;
 
-    explicit LegTrial(PointMap (*damaged)(const TriangleMesh&))
-        : map(damaged(rest), rest, posed), replacement(map, fixed, {}) {}
+    explicit LegTrial(PointMap (*damaged)(const TriangleMesh&), const PartReplacementOptions& options = {})
+        : map(damaged(rest), rest, posed), replacement(map, fixed, options) {}
     double error() const { return shapes::mean_error(map.points(), posed, leg); }
     /// Faces of the leg; elsewhere the figure itself has a few.
     int reversed() const {
@@ -52,6 +52,15 @@ TEST(PartReplacement, UntwistsALimb) {
 TEST(PartReplacement, UntwistsALimbByAWholeTurn) {
     LegTrial trial(whole_turn);
     trial.replacement.continue_surroundings(trial.nothing_known);
+    trial.expect_undone();
+}
+
+/// Both directions are twisted alike, so that the other one speaks for the twist, however much it counts.
+TEST(PartReplacement, UntwistsALimbThatTheOtherDirectionTwistsBack) {
+    PartReplacementOptions options;
+    options.inverse_weight = 1e5;
+    LegTrial trial(half_a_turn, options);
+    trial.replacement.continue_surroundings(shapes::twisted_leg(trial.rest, -0.5));
     trial.expect_undone();
 }
 
