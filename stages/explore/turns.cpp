@@ -117,18 +117,22 @@ std::vector<PooledMap> turned_about_axes(const Appraised& map, const PairContext
         const double score = rough_score(appraisal.cues(maps));
         turned.emplace_back(score, std::move(maps));
     }
+    if (turned.empty()) return {};
     std::stable_sort(turned.begin(), turned.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
+    const double as_it_was = rough_score(appraisal.cues(map.map.maps));
     std::vector<const MapPair*> kept{&map.map.maps};
     std::vector<PooledMap> pool;
     for (const auto& [score, maps] : turned) {
-        const auto is_another = [&](const MapPair* other) { return apart(maps, *other, context) > another; };
-        if (int(pool.size()) == most || !std::all_of(kept.begin(), kept.end(), is_another)) continue;
-        log("turned about an axis: score {:.2f}, as it was {:.2f}", score,
-            rough_score(appraisal.cues(map.map.maps)));
+        const auto is_another = [&, &now = maps](const MapPair* other) {
+            return apart(now, *other, context) > another;
+        };
+        if (!std::all_of(kept.begin(), kept.end(), is_another)) continue;
+        log("turned about an axis: score {:.2f}, as it was {:.2f}", score, as_it_was);
         kept.push_back(&maps);
         pool.push_back({vertex_images(maps, context), map.candidate});
         pool.back().origin.turned_about_axis = true;
+        if (int(pool.size()) == most) break;
     }
     return pool;
 }
