@@ -27,7 +27,8 @@ struct PartReplacementReport {
 /// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained
 /// where such a part meets its surroundings. Each strained part (strained_parts.h), widened by some of its
 /// surroundings and by what it cuts off, is mapped anew in several ways, each relaxed; the first whose energy
-/// is lower is kept (part_trial.h), unless it leaves a part of the target (target_cells.h).
+/// is lower is kept (part_trial.h), unless it leaves a part of the target (target_cells.h), or the first
+/// continuation that enters the same with far less strain.
 class PartReplacement {
   public:
     /// fixed[v]: landmarks, which keep their images; landmarks: those that are points. Keeps references to
