@@ -69,7 +69,10 @@ std::vector<Appraised> quickly_found(const PairContext& context, const ExplorePa
 /// What is found, and what the best of it becomes, turned about axes on which it looks nearly the same.
 std::vector<Appraised> with_turns(FinishedPool& finished, const PairContext& context,
                                   const Appraisal& appraisal) {
-    finished.add(turned_about_axes(finished.appraised().front(), context, appraisal));
+    std::vector<Appraised> list = finished.appraised();
+    const std::vector<PooledMap> turned = turned_about_axes(list.front(), context, appraisal);
+    if (turned.empty()) return list;
+    finished.add(turned);
     return finished.appraised();
 }
 

@@ -58,7 +58,12 @@ std::vector<Turn> turns_onto_itself(const Surface& surface, const ClosestPoint& 
 class TurnedMaps {
   public:
     TurnedMaps(const MapPair& maps, const PairContext& context)
-        : maps_(maps), A_(context.A().surface), B_(context.B().surface), on_A_(A_.mesh), on_B_(B_.mesh) {}
+        : A_(context.A().surface),
+          B_(context.B().surface),
+          A_on_B_(pulled_back(B_.mesh.vertices, B_.mesh, maps.A_to_B)),
+          B_on_A_(pulled_back(A_.mesh.vertices, A_.mesh, maps.B_to_A)),
+          on_A_(A_.mesh),
+          on_B_(B_.mesh) {}
 
     std::vector<MapPair> all() const {
         std::vector<MapPair> result;
@@ -69,27 +74,22 @@ class TurnedMaps {
 
   private:
     MapPair after_turn_of_A(const Turn& turn) const {
-        return {carried(A_, on_A_, turn, B_, on_B_, maps_.A_to_B),
-                turned_images(maps_.B_to_A, A_, on_A_, turn.transpose())};
+        return {carried(A_, on_A_, turn, A_on_B_, on_B_),
+                closest_points(on_A_, turned(B_on_A_, turn.transpose()))};
     }
     MapPair before_turn_of_B(const Turn& turn) const {
-        return {turned_images(maps_.A_to_B, B_, on_B_, turn),
-                carried(B_, on_B_, turn.transpose(), A_, on_A_, maps_.B_to_A)};
+        return {closest_points(on_B_, turned(A_on_B_, turn)),
+                carried(B_, on_B_, turn.transpose(), B_on_A_, on_A_)};
     }
-    /// Where the map takes the turned vertices.
+    /// Where the map that has those images of the vertices takes the turned ones.
     static PointMap carried(const Surface& from, const ClosestPoint& on_from, const Turn& turn,
-                            const Surface& to, const ClosestPoint& on_to, const PointMap& map) {
-        const Points images = pulled_back(to.mesh.vertices, to.mesh, map);
+                            const Points& images, const ClosestPoint& on_to) {
         const PointMap places = closest_points(on_from, turned(from.mesh.vertices, turn));
         return closest_points(on_to, pulled_back(images, from.mesh, places));
     }
-    static PointMap turned_images(const PointMap& map, const Surface& to, const ClosestPoint& on_to,
-                                  const Turn& turn) {
-        return closest_points(on_to, turned(pulled_back(to.mesh.vertices, to.mesh, map), turn));
-    }
 
-    const MapPair& maps_;
     const Surface &A_, &B_;
+    Points A_on_B_, B_on_A_;  ///< images of the vertices
     ClosestPoint on_A_, on_B_;
 };
 

@@ -188,11 +188,14 @@ std::string relation(const Candidate& candidate) {
 std::string origin(const Candidate& candidate) {
     std::string text =
         candidate.explored == 0 ? "where the landmarks lead" : fmt::format("map {}", candidate.explored);
-    if (candidate.mirrored_back) text += " of the mirror image, mirrored back";
-    if (candidate.self_map_A > 0 && !candidate.mirrored_back)
-        text += fmt::format(" after self-map {} of the source", candidate.self_map_A);
-    if (candidate.self_map_B > 0 && !candidate.mirrored_back)
-        text += fmt::format(", then self-map {} of the target", candidate.self_map_B);
+    if (candidate.mirrored_back) {
+        text += " of the mirror image, mirrored back";
+    } else {
+        if (candidate.self_map_A > 0)
+            text += fmt::format(" after self-map {} of the source", candidate.self_map_A);
+        if (candidate.self_map_B > 0)
+            text += fmt::format(", then self-map {} of the target", candidate.self_map_B);
+    }
     if (candidate.turned_about_axis) text += ", turned about an axis";
     return text;
 }
