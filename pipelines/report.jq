@@ -9,10 +9,12 @@ def check($what; $value; $number; $good; $usable):
 
 def direction($words):
     (.verification.reversed_area_percent // .flipped_area_percent) as $reversed
+    # What a surface's own holes lack no map reaches.
+    | (.when_closed // .) as $reached
     | check("area reversed, \($words)"; "\($reversed | fixed(2)) %"; $reversed; 0.1; 1),
-      check("area covered, \($words)"; "\(100 * .coverage | fixed(1)) %"; 1 - .coverage; 0.03; 0.1),
+      check("area covered, \($words)\(if .when_closed then ", holes closed" else "" end)"; "\(100 * $reached.coverage | fixed(1)) %"; 1 - $reached.coverage; 0.03; 0.1),
       # A limb that the other surface has not, or that the map misses.
-      ((.uncovered // [])[0] // empty | check("largest part not reached, \($words)";
+      (($reached.uncovered // [])[0] // empty | check("largest part not reached, \($words)";
           "\(.area_percent | fixed(1)) %, vertex \(.vertex)"; .area_percent; 0.5; 2)),
       (.conformal_distortion | check("change of angles, \($words)"; "\(.p50 | fixed(2)) (median), \(.p95 | fixed(2)) (95 %)";
           .p95; 3; 6)),

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
@@ -65,6 +66,30 @@ FaceData<char> covered_faces(const PointMap& images, const TriangleMesh& part, c
         covered[f] = image.covers(position(whole.mesh, middle), face_normal(whole.mesh, middle.face));
     });
     return covered;
+}
+
+FaceData<char> touched_faces(const PointMap& images, const TriangleMesh& part, const Surface& whole) {
+    constexpr int samples = 4;  ///< along an edge, and its first end
+    const InputLocator on_input(whole);
+    const Edges edges = find_edges(part);
+    std::vector<int> found(std::size_t(samples * edges.size()), -1);
+    parallel_for_each_index(edges.size(), 100, [&](int e) {
+        const auto& [u, v] = edges.vertices[std::size_t(e)];
+        const SurfacePoint &from = images[std::size_t(u)], &to = images[std::size_t(v)];
+        if (from.face < 0 || to.face < 0) return;
+        const Vec3 normal =
+            face_normal(whole.mesh, from.face).normalized() + face_normal(whole.mesh, to.face).normalized();
+        const Vec3 start = position(whole.mesh, from), way = position(whole.mesh, to) - start;
+        for (int k = 0; k < samples; ++k)
+            found[std::size_t(samples * e + k)] = on_input(start + k * way / samples, normal).face;
+    });
+    std::erase(found, -1);
+    make_set(found);
+    FaceData<char> touched(whole.input.face_count());
+    const Adjacency faces_of_vertex = vertex_faces(whole.input);
+    for (const int v : vertices_of(whole.input, found))
+        for (const int f : faces_of_vertex[v]) touched[f] = 1;
+    return touched;
 }
 
 }  // namespace varimap

@@ -189,6 +189,7 @@ Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
     FaceData<char> covered = covered_faces(placement.images, surface.part.mesh, surface.whole);
     add_landmarks(surface, covered);
     const TriangleMesh& whole = surface.whole.input;
+    join_patches(whole, touched_faces(placement.images, surface.part.mesh, surface.whole), covered);
     std::vector<int> region = tidy_region(whole, std::move(covered));
     require_landmarks(surface, region, placement.strain);
     const double area = area_of(whole, region) / surface_area(whole);

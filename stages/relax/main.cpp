@@ -1,3 +1,4 @@
+#include "stages/relax/placed_part.h"
 #include "stages/relax/relax.h"
 #include "varimap/stage/stage_main.h"
 
@@ -30,6 +31,9 @@ int main(int argc, char** argv) {
     const std::string& surface_B =
         stage.input("B.surface", "artifact of varimap-coarsen or varimap-preprocess: the target");
     const std::string& plan_file = stage.input("plan", "artifact of varimap-refine or varimap-diffuse");
+    const std::string& placed_in = stage.input_option(
+        "placed",
+        "region of varimap-locate: begins where the part lies there, too, and keeps the better map");
     const std::string& out = stage.output("map", ArtifactType<SurfaceMap>::schema, "artifact to write");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);
@@ -41,6 +45,9 @@ int main(int argc, char** argv) {
                                                 ? read_start<Diffusion>(stage, plan_file, A.value, B.value)
                                                 : read_start<Plan>(stage, plan_file, A.value, B.value);
         log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
-        stage.write(out, relax(A.value, B.value, record, std::move(images), area_bound, params));
+        if (placed_in.empty())
+            return stage.write(out, relax(A.value, B.value, record, std::move(images), area_bound, params));
+        const PartRegion region = stage.read<PartRegion>("placed", placed_in).value;
+        stage.write(out, relax_part(A.value, B.value, record, images, region, area_bound, params));
     });
 }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "varimap/mesh/boundary.h"
+#include "varimap/mesh/holes.h"
 #include "varimap/mesh/thin_faces.h"
 
 namespace varimap {
@@ -13,16 +16,29 @@ double times_radius(const LandmarkSurroundings& around) {
 
 namespace {
 
-DirectionQuality measure_direction(const PointMap& map, const TriangleMesh& source,
-                                   const TriangleMesh& target, double area_bound) {
+std::optional<Coverage> coverage_when_closed(const PointMap& map, const Surface& source,
+                                             const Surface& target) {
+    const bool has_holes = find_boundary(source.input).loops > 0;
+    const bool has_lids = without_added_faces(source).face_count() < source.input.face_count();
+    if (!has_holes && !has_lids) return {};
+    RepairedMesh closed{source.input, link_to_itself(source.input), {}};
+    if (has_holes) closed = holes_filled(std::move(closed), std::numeric_limits<int>::max());
+    return measure_coverage(map, std::move(closed.mesh), without_added_faces(target));
+}
+
+DirectionQuality measure_direction(const PointMap& map, const Surface& from, const Surface& onto,
+                                   double area_bound) {
+    const TriangleMesh source = without_added_faces(from);
+    const TriangleMesh& target = onto.input;
     const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
     return {measure_distortion(triangles), share_within_area_bound(triangles, source, area_bound),
-            measure_coverage(map, source, target), verify_map(map, source, target)};
+            measure_coverage(map, source, target), coverage_when_closed(map, from, onto),
+            verify_map(map, source, target)};
 }
 
 InTheEnd of_both(const DirectionQuality& there, const DirectionQuality& back) {
     return {std::sqrt(there.distortion.dirichlet_energy * back.distortion.dirichlet_energy),
-            std::min(there.coverage.share, back.coverage.share)};
+            std::min(there.reached().share, back.reached().share)};
 }
 
 LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A, const PointPairs& from_A,
@@ -64,8 +80,8 @@ MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surfac
     const PointMap A_to_B = from_file(map.A_to_B, A, B), B_to_A = from_file(map.B_to_A, B, A);
     const double bound = pair.plan.area_bound;
     MapQuality quality;
-    quality.A_to_B = measure_direction(A_to_B, without_added_faces(A), B.input, bound);
-    quality.B_to_A = measure_direction(B_to_A, without_added_faces(B), A.input, bound);
+    quality.A_to_B = measure_direction(A_to_B, A, B, bound);
+    quality.B_to_A = measure_direction(B_to_A, B, A, bound);
     quality.in_the_end = of_both(quality.A_to_B, quality.B_to_A);
     quality.round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     const PointPairs landmarks = landmarks_on_inputs(pair.record, A, B);

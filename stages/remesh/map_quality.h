@@ -20,7 +20,13 @@ struct DirectionQuality {
     Distortion distortion;
     double within_area_bound = 0;  ///< share_within_area_bound (quality.h), of the plan's bound
     Coverage coverage;
+    /// The same with the source's holes closed (holes.h), those that were filled and those that are open; of
+    /// what the target has on its file. None where the source has no holes.
+    std::optional<Coverage> when_closed;
     Verification verification;
+
+    /// What the map can be blamed for: what the source's holes lack it cannot reach.
+    const Coverage& reached() const { return when_closed ? *when_closed : coverage; }
 };
 
 /// What becomes of landmarks (landmarks_on_inputs); lists have one entry per landmark, in order.

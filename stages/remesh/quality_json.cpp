@@ -56,17 +56,21 @@ Json to_json(const std::vector<UncoveredPart>& parts, const FileLink& link) {
 /// `onto`: the surface that the direction leads to.
 Json to_json(const DirectionQuality& quality, const UntanglingReport& untangling, const Surface& onto) {
     const Distortion& distortion = quality.distortion;
-    return {{"flipped_count", distortion.flipped_count},
-            {"flipped_area_percent", distortion.flipped_area_percent},
-            {"collapsed_count", distortion.collapsed_count},
-            {"area_ratio", to_json(distortion.area_ratio)},
-            {"within_area_bound", quality.within_area_bound},
-            {"conformal_distortion", to_json(distortion.conformal_distortion)},
-            {"dirichlet_energy", distortion.dirichlet_energy},
-            {"coverage", quality.coverage.share},
-            {"uncovered", to_json(quality.coverage.parts, onto.link)},
-            {"verification", to_json(quality.verification)},
-            {"untangling", to_json(untangling)}};
+    Json json = {{"flipped_count", distortion.flipped_count},
+                 {"flipped_area_percent", distortion.flipped_area_percent},
+                 {"collapsed_count", distortion.collapsed_count},
+                 {"area_ratio", to_json(distortion.area_ratio)},
+                 {"within_area_bound", quality.within_area_bound},
+                 {"conformal_distortion", to_json(distortion.conformal_distortion)},
+                 {"dirichlet_energy", distortion.dirichlet_energy},
+                 {"coverage", quality.coverage.share},
+                 {"uncovered", to_json(quality.coverage.parts, onto.link)},
+                 {"verification", to_json(quality.verification)},
+                 {"untangling", to_json(untangling)}};
+    if (quality.when_closed)
+        json["when_closed"] = {{"coverage", quality.when_closed->share},
+                               {"uncovered", to_json(quality.when_closed->parts, onto.link)}};
+    return json;
 }
 
 /// Extremes of the transported masses in units of the surface's own.

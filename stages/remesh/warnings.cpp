@@ -139,7 +139,7 @@ bool reverses_much(const DirectionQuality& direction) {
            direction.verification.reversed_faces.size() >= several;
 }
 bool covers_little(const DirectionQuality& direction) {
-    return direction.coverage.share < 0.8;
+    return direction.reached().share < 0.8;
 }
 bool tears(const DirectionQuality& direction) {
     return reverses_much(direction) || covers_little(direction);
@@ -157,7 +157,7 @@ void warn_of_tears(const DirectionQuality& direction, const char* which, const s
             fmt::format("{:.1f}% of the area is reversed", direction.verification.reversed_area_percent));
     if (covers_little(direction))
         signs.push_back(
-            fmt::format("only {:.1f}% of the other surface is covered", 100 * direction.coverage.share));
+            fmt::format("only {:.1f}% of the other surface is covered", 100 * direction.reached().share));
     warn("{}: the map tears: {}. {}", which, list_in_words(std::move(signs)),
          slivers.empty() ? cause : slivers);
 }

@@ -7,7 +7,9 @@
 #include "fixtures/sphere_pair.h"
 #include "stages/coarsen/coarsen.h"
 #include "stages/preprocess/preprocess.h"
+#include "stages/relax/placed_part.h"
 #include "stages/relax/prolongation.h"
+#include "varimap/core/error.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
 #include "varimap/verification/verification.h"
@@ -72,6 +74,38 @@ TEST(Relax, Untangles) {
     EXPECT_EQ(map.untangling.A_to_B.flipped_after, 0);
     EXPECT_EQ(flipped(map.A_to_B, pair.A, pair.B), 0);
     EXPECT_LT((position(pair.B.input, map.A_to_B[6]) - pair.B.input.vertex(6)).norm(), 1e-12) << "landmark";
+}
+
+/// The plan mirrors half of the sphere; the region says where each vertex belongs.
+TEST(RelaxPart, BeginsWhereThePartWasPlacedIfThePlanLeadsAstray) {
+    SpherePair pair;
+    pair.make_incomplete();
+    pair.plan.record.landmarks.clear();
+    PartRegion region;
+    region.part_is_source = true;
+    region.placed = pair.as_planned().A_to_B;
+    Plan astray = pair.plan;
+    for (Points* centres : {&astray.centre_A, &astray.centre_B})
+        for (Eigen::Index v = 0; v < centres->rows(); ++v)
+            if ((*centres)(v, 0) > 0) (*centres)(v, 1) *= -1;
+    const auto error = [&](const SurfaceMap& map) {
+        double sum = 0;
+        for (int v = 1; v < pair.A.input.vertex_count(); ++v)
+            sum += (position(pair.B.input, map.A_to_B[std::size_t(v)]) - pair.B.input.vertex(v)).norm();
+        return sum / pair.A.input.vertex_count() * pair.B.scale;
+    };
+    const auto mapped = [&](const Plan& plan) {
+        return relax_part(pair.A, pair.B, plan.record, read_out(plan, pair.A, pair.B), region,
+                          plan.plan.area_bound);
+    };
+    const SurfaceMap alone =
+        relax(pair.A, pair.B, astray.record, read_out(astray, pair.A, pair.B), astray.plan.area_bound);
+    EXPECT_GT(error(alone), .05);
+    EXPECT_LT(error(mapped(astray)), .005);
+    region.placed = alone.A_to_B;
+    EXPECT_LT(error(mapped(pair.plan)), .005) << "the plan's is no worse";
+    region.placed.pop_back();
+    EXPECT_THROW(mapped(pair.plan), ArtifactError);
 }
 
 /// Images of a coarse mesh's vertices at themselves.

@@ -115,6 +115,32 @@ TEST_F(Remesh, QualityHasTheDocumentedKeys) {
     EXPECT_EQ(numbers["source"]["vertices"], pair_.A.mesh.vertex_count());
 }
 
+/// Without the faces around a vertex of A, and the images there.
+TEST_F(Remesh, DoesNotBlameAMapForWhatAHoleLacks) {
+    SurfaceMap map = pair_.as_planned();
+    const Json whole = quality(map);
+    EXPECT_FALSE(whole["source_to_target"].contains("when_closed"));
+    Faces& faces = pair_.A.input.faces;
+    const Eigen::VectorXd height = pair_.A.input.vertices(faces.reshaped(), 2);
+    const auto top = [&](int f) {
+        const double z = pair_.A.input.vertices(faces.row(f), 2).mean();
+        return z > .15 * height.minCoeff() + .85 * height.maxCoeff();
+    };
+    std::vector<int> kept, number(std::size_t(faces.rows()), -1);
+    for (int f = 0; f < int(faces.rows()); ++f)
+        if (!top(f)) number[std::size_t(f)] = int(kept.size()), kept.push_back(f);
+    faces = Faces(faces(kept, Eigen::all));
+    for (SurfacePoint& image : map.B_to_A)
+        if (image.face >= 0) image.face = number[std::size_t(image.face)];
+    const Json cut = quality(map);
+    const Json& there = cut["source_to_target"];
+    EXPECT_LT(there["coverage"], .96);
+    EXPECT_GT(there["when_closed"]["coverage"], .99);
+    EXPECT_FALSE(there["uncovered"].empty());
+    EXPECT_TRUE(there["when_closed"]["uncovered"].empty());
+    EXPECT_FALSE(cut["target_to_source"].contains("when_closed"));
+}
+
 TEST_F(Remesh, IsLessSureOfAMapThatIsStrainedInTheEnd) {
     pair_.plan.record.candidates = {Candidate{.dirichlet = 1, .relief = .9, .score = -30}};
     pair_.plan.record.candidate = 1;

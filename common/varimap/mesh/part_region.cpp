@@ -79,6 +79,30 @@ void open_pinches(const TriangleMesh& mesh, const Edges& edges, FaceData<char>& 
 
 }  // namespace
 
+void join_patches(const TriangleMesh& mesh, const FaceData<char>& between, FaceData<char>& marked) {
+    const Edges edges = find_edges(mesh);
+    const auto patches = patches_of(1, edges, marked);
+    if (patches.size() < 2) return;
+    std::vector<int> reached =
+        *std::max_element(patches.begin(), patches.end(),
+                          [&](const auto& a, const auto& b) { return area_of(mesh, a) < area_of(mesh, b); });
+    constexpr int unknown = -2, none = -1;
+    FaceData<int> before(mesh.face_count(), unknown);
+    for (const int f : reached) before[f] = none;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        const int f = reached[i];
+        if (marked[f])
+            for (int g = before[f]; g != none && !marked[g]; g = before[g]) marked[g] = 1;
+        for (int c = 0; c < 3; ++c)
+            for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + c)]]) {
+                const int g = side / 3;
+                if (before[g] != unknown || !(marked[g] || between[g])) continue;
+                before[g] = f;
+                reached.push_back(g);
+            }
+    }
+}
+
 std::vector<int> tidy_region(const TriangleMesh& mesh, FaceData<char> marked) {
     const Edges edges = find_edges(mesh);
     fill_holes(mesh, edges, marked);

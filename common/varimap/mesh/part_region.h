@@ -27,6 +27,10 @@ struct ArtifactType<PartRegion> {
 std::string encode(const PartRegion& region);
 void decode(const std::string& payload, PartRegion& region);
 
+/// Marks the shortest strips of `between`'s faces that join marked patches to the largest of them, where there
+/// are such.
+void join_patches(const TriangleMesh& mesh, const FaceData<char>& between, FaceData<char>& marked);
+
 /// The marked faces of a manifold mesh, of which at least one is marked, as a surface with boundary: unmarked
 /// patches of less than a thousandth of the mesh's area are added, marked ones of less than a twentieth of
 /// the marked area are left out unless there is no larger one, and where marked faces meet in a vertex alone,

@@ -182,6 +182,8 @@ void require_vertices(Eigen::Index count, const TriangleMesh& mesh) {
                             "; rerun varimap-diffuse and varimap-refine");
 }
 
+}  // namespace
+
 void pin_landmarks(MapPair& maps, const PairRecord& record, const Surface& A, const Surface& B) {
     if (!record.pins_landmarks() || !record.landmark_points.empty()) return;  // points lie between vertices
     for (const auto& [a, b] : record.landmarks) {
@@ -189,8 +191,6 @@ void pin_landmarks(MapPair& maps, const PairRecord& record, const Surface& A, co
         maps.B_to_A[std::size_t(b.index)] = point_at_vertex(A.mesh, a.index);
     }
 }
-
-}  // namespace
 
 PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target) {
     const PointMap points = points_at_vertices(target);

@@ -16,6 +16,9 @@ MapPair read_out(const Plan& plan, const Surface& A, const Surface& B);
 /// The image vertices, and pinned landmarks. Throws as above.
 MapPair read_out(const Diffusion& diffusion, const Surface& A, const Surface& B);
 
+/// Maps pinned landmarks exactly, unless they are points between vertices.
+void pin_landmarks(MapPair& maps, const PairRecord& record, const Surface& A, const Surface& B);
+
 /// Vertices of a mesh as points of it.
 PointMap images_at(const std::vector<int>& vertices, const TriangleMesh& target);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "fixtures/shapes.h"
@@ -45,6 +46,38 @@ TEST(PartRegion, LosesHolesAndPiecesThatAreSmall) {
     EXPECT_EQ(topology.boundary_loops, 1);
     EXPECT_EQ(topology.genus, 0);
     for (const int f : region.faces) EXPECT_GT(middle(ball, f).z(), 0);
+}
+
+/// A cap that hangs together with the rest by a strip which covers no face's middle.
+TEST(PartRegion, KeepsASmallPieceThatAStripJoinsToTheRest) {
+    const TriangleMesh ball = shapes::ellipsoid(4);
+    const auto is_cap = [](const Vec3& p) { return (p - Vec3(0, 0, -1)).norm() < .2; };
+    auto marked = marked_where(ball, [&](const Vec3& p) { return p.z() > 0 || is_cap(p); });
+    const auto strip =
+        marked_where(ball, [](const Vec3& p) { return p.x() > 0 && p.z() < .1 && std::abs(p.y()) < .1; });
+    const auto unmarked = marked;
+    join_patches(ball, strip, marked);
+    int added = 0;
+    for (int f = 0; f < ball.face_count(); ++f) {
+        EXPECT_GE(marked[f], unmarked[f]);
+        if (marked[f] == unmarked[f]) continue;
+        ++added;
+        EXPECT_TRUE(strip[f]);
+    }
+    EXPECT_GT(added, 5);
+    EXPECT_LT(added, 60) << "one face wide";
+    const PartRegion region = tidied(ball, marked);
+    EXPECT_EQ(summarise_topology(faces_of(ball, region)).boundary_loops, 1);
+    EXPECT_TRUE(std::any_of(region.faces.begin(), region.faces.end(),
+                            [&](int f) { return is_cap(middle(ball, f)); }));
+}
+
+TEST(PartRegion, LeavesPiecesThatNothingJoins) {
+    const TriangleMesh ball = shapes::ellipsoid(4);
+    auto marked = marked_where(ball, [](const Vec3& p) { return std::abs(p.z()) > .9; });
+    const auto before = marked;
+    join_patches(ball, marked_where(ball, [](const Vec3& p) { return p.z() > .5; }), marked);
+    for (int f = 0; f < ball.face_count(); ++f) EXPECT_EQ(marked[f], before[f]);
 }
 
 /// Where the part is in small pieces only, the largest of them is kept.
