@@ -189,9 +189,9 @@ void warn_of_exchanged_landmarks(const Candidate& led, const PairContext& contex
     else
         warn(
             "landmarks {} look exchanged: with their partners exchanged the map is far more probable; are "
-            "they "
-            "left and right?",
-            exchanged_in_words(exchange));
+            "they left and right? If they are right, one of the surfaces may be a mirror image of what it "
+            "should be: {}",
+            exchanged_in_words(exchange), mirror_advice(context));
 }
 
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,

@@ -230,6 +230,7 @@ void visit(const PartRegion& region, ContentsVisitor& visitor) {
                  fmt::format("{} of {} faces of the whole", region.faces.size(), region.face_count));
     visitor.fact("the part is", region.part_is_source ? "the source" : "the target");
     visitor.fact("placed", share_mapped(region.placed));
+    visitor.fact("strain", fmt::format("{:.3f}", region.strain));
     visitor.array("faces", view(region.faces));
     visit_points("placed", region.placed, visitor);
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "stages/locate/covered.h"
+#include "stages/locate/region.h"
 #include "stages/locate/search.h"
 #include "stages/locate/sides.h"
 #include "varimap/core/error.h"
@@ -67,34 +67,6 @@ PointMap on_files(const PointMap& images, const Sides& sides) {
     return to_file(result, sides.part.link, sides.whole.link, sides.whole.input);
 }
 
-/// The faces around each landmark, and those around these: landmarks at the rim hang together with the rest.
-void add_landmarks(const Sides& sides, FaceData<char>& covered) {
-    const TriangleMesh& mesh = sides.whole.input;
-    const Adjacency faces_of_vertex = vertex_faces(mesh);
-    for (const int v : sides.landmarks_whole) {
-        std::vector<int> faces{sides.whole.on_input[std::size_t(v)].face};
-        for (int ring = 0; ring < 2; ++ring) {
-            std::vector<int> around;
-            for (const int u : vertices_of(mesh, faces))
-                around.insert(around.end(), faces_of_vertex[u].begin(), faces_of_vertex[u].end());
-            faces = std::move(around);
-        }
-        for (const int f : faces) covered[f] = 1;
-    }
-}
-
-void require_landmarks(const Sides& sides, const std::vector<int>& region, double strain) {
-    for (std::size_t i = 0; i < sides.landmarks_whole.size(); ++i) {
-        const int v = sides.landmarks_whole[i];
-        if (!std::binary_search(region.begin(), region.end(), sides.whole.on_input[std::size_t(v)].face))
-            throw InputError(fmt::format(
-                "landmark {} lies outside of where the part was put (strained by {:.2f}): is it right, and "
-                "away from the rim? If the whole has other components, map the largest alone (--components "
-                "largest)",
-                i + 1, strain));
-    }
-}
-
 /// Found on the sketches, placed on the surfaces.
 FoundPlacement find_on_surfaces(const PairContext& sketches, const Sides& surface, double share,
                                 const LocateParams& params) {
@@ -105,11 +77,8 @@ FoundPlacement find_on_surfaces(const PairContext& sketches, const Sides& surfac
     return found;
 }
 
-/// stages/locate/README.md has what right parts and wrong ones were strained by.
-constexpr double much_strain = 0.12;
-
 void warn_of_strain(double strain, PartSide part, bool has_landmarks) {
-    if (strain > much_strain)
+    if (strain > PartRegion::much_strain)
         warn(
             "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it{}? look at the "
             "picture, {}",
@@ -132,7 +101,7 @@ void warn_of_exchange(double strain, const PairContext& sketches, const Surface&
     const double otherwise =
         find_on_surfaces(other, surface, std::min(1.0, surface.size().share), params).placement.strain;
     log("landmarks {} exchanged: strain {:.4f}", exchanged_in_words(exchange), otherwise);
-    if (otherwise < std::min(strain / 2, much_strain))
+    if (otherwise < std::min(strain / 2, PartRegion::much_strain))
         warn(
             "landmarks {} look exchanged: with their partners exchanged the part is strained by {:.2f} "
             "only; are they left and right?",
@@ -186,15 +155,11 @@ Located locate(const PairContext& sketches, const Surface& A, const Surface& B,
     warn_of_strain(placement.strain, side, !landmarks.empty());
     if (surface.landmarks_tell() && placement.strain > params.enough)
         warn_of_exchange(placement.strain, sketches, A, B, landmarks, share, params);
-    FaceData<char> covered = covered_faces(placement.images, surface.part.mesh, surface.whole);
-    add_landmarks(surface, covered);
     const TriangleMesh& whole = surface.whole.input;
-    join_patches(whole, touched_faces(placement.images, surface.part.mesh, surface.whole), covered);
-    std::vector<int> region = tidy_region(whole, std::move(covered));
-    require_landmarks(surface, region, placement.strain);
+    std::vector<int> region = region_of(placement, surface);
     const double area = area_of(whole, region) / surface_area(whole);
     return {{whole.face_count(), std::move(region), side == PartSide::source,
-             on_files(placement.images, surface)},
+             on_files(placement.images, surface), placement.strain},
             area,
             size.scale,
             placement.strain,

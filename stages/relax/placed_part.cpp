@@ -81,7 +81,7 @@ SurfaceMap relax_part(const Surface& A, const Surface& B, const PairRecord& reco
     if (int(region.placed.size()) != file_of(part).vertex_count())
         throw ArtifactError("the region is one of another part; rerun varimap-locate");
     SurfaceMap map = relax(A, B, record, planned, area_bound, params);
-    if (!params.untangling.enabled) return map;
+    if (!params.untangling.enabled || region.is_strained()) return map;
     const double planned_disorder = disorder(map, region.part_is_source, A, B);
     if (planned_disorder < in_order) return map;
     log("from where the part was placed:");

@@ -38,7 +38,7 @@ DirectionQuality measure_direction(const PointMap& map, const Surface& from, con
 
 InTheEnd of_both(const DirectionQuality& there, const DirectionQuality& back) {
     return {std::sqrt(there.distortion.dirichlet_energy * back.distortion.dirichlet_energy),
-            std::min(there.reached().share, back.reached().share)};
+            std::min(there.reached().share, back.reached().share), false};
 }
 
 LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A, const PointPairs& from_A,
@@ -83,6 +83,7 @@ MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surfac
     quality.A_to_B = measure_direction(A_to_B, A, B, bound);
     quality.B_to_A = measure_direction(B_to_A, B, A, bound);
     quality.in_the_end = of_both(quality.A_to_B, quality.B_to_A);
+    quality.in_the_end.inside_out = one_is_inside_out(A, B);
     quality.round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     const PointPairs landmarks = landmarks_on_inputs(pair.record, A, B);
     quality.landmarks = measure_landmarks(A_to_B, B_to_A, landmarks, A.input, B.input);

@@ -241,7 +241,7 @@ std::vector<Target> artifact_targets() {
             artifact(diffusion()),
             artifact(plan()),
             artifact(candidates()),
-            artifact(PartRegion{surface().input.face_count(), {1, 2, 5, 8}, true, point_map()}),
+            artifact(PartRegion{surface().input.face_count(), {1, 2, 5, 8}, true, point_map(), .1}),
             artifact(SurfaceMap{point_map(), point_map(), {}}),
             artifact(QualityNumbers{
                 R"({"energy": 0.5, "landmarks": [0, 1e-3], "levels": [{"kind": "diffusion"}]})"}),

@@ -285,7 +285,8 @@ TEST(Explore, SaysWhichLandmarksAreExchanged) {
         exchanged.emplace_back(pair.landmarks[k].first, pair.landmarks[(k + 2) % 4].second);
     ASSERT_EQ(warnings_with(pair, exchanged), 1u);
     EXPECT_THAT(logged_warnings().back(),
-                testing::HasSubstr("landmarks 1 with 3 and 2 with 4 look exchanged"));
+                testing::AllOf(testing::HasSubstr("landmarks 1 with 3 and 2 with 4 look exchanged"),
+                               testing::HasSubstr("give --mirror")));
 }
 
 VertexImages true_images(const KnownPair& pair) {
@@ -757,24 +758,29 @@ TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
     const double found = confidence_of(candidates).probability;
     double last = found;
     for (const double dirichlet : {1.05, 1.15, 1.25, 1.35, 2.}) {
-        const double probability = confidence_of(candidates, InTheEnd{dirichlet, 1}).probability;
+        const double probability = confidence_of(candidates, InTheEnd{dirichlet, 1, false}).probability;
         EXPECT_LT(probability, last);
         last = probability;
     }
-    EXPECT_TRUE(confidence_of(candidates, InTheEnd{1.15, 1}).confident);
-    EXPECT_EQ(doubt(candidates, InTheEnd{1.15, .94}), "");
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1.35, 1}).confident);
-    EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1}), testing::HasSubstr("a Dirichlet energy of 1.35"));
-    EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1}).probability, found, 1e-3);
+    EXPECT_TRUE(confidence_of(candidates, InTheEnd{1.15, 1, false}).confident);
+    EXPECT_EQ(doubt(candidates, InTheEnd{1.15, .94, false}), "");
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1.35, 1, false}).confident);
+    EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1, false}),
+                testing::HasSubstr("a Dirichlet energy of 1.35"));
+    EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1, false}).probability, found, 1e-3);
 }
 
 TEST(Confidence, FallsWithWhatTheFinishedMapLeavesOut) {
     const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
-    const Confidence whole = confidence_of(candidates, InTheEnd{1, 1});
-    EXPECT_NEAR(confidence_of(candidates, InTheEnd{1, .96}).probability, whole.probability, .01);
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1, .89}).confident);
-    EXPECT_LT(confidence_of(candidates, InTheEnd{1, .81}).probability, .1);
-    EXPECT_THAT(doubt(candidates, InTheEnd{1, .81}), testing::HasSubstr("leaves out 19% of a surface"));
+    const Confidence whole = confidence_of(candidates, InTheEnd{1, 1, false});
+    const InTheEnd inside_out{1, 1, true};
+    EXPECT_NEAR(confidence_of(candidates, inside_out).probability, whole.probability / 2, 1e-9);
+    EXPECT_THAT(doubt(candidates, inside_out), testing::HasSubstr("inside out"));
+    EXPECT_NEAR(confidence_of(candidates, InTheEnd{1, .96, false}).probability, whole.probability, .01);
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1, .89, false}).confident);
+    EXPECT_LT(confidence_of(candidates, InTheEnd{1, .81, false}).probability, .1);
+    EXPECT_THAT(doubt(candidates, InTheEnd{1, .81, false}),
+                testing::HasSubstr("leaves out 19% of a surface"));
 }
 
 }  // namespace

@@ -104,6 +104,9 @@ TEST(RelaxPart, BeginsWhereThePartWasPlacedIfThePlanLeadsAstray) {
     EXPECT_LT(error(mapped(astray)), .005);
     region.placed = alone.A_to_B;
     EXPECT_LT(error(mapped(pair.plan)), .005) << "the plan's is no worse";
+    region.placed = pair.as_planned().A_to_B;
+    region.strain = .2;
+    EXPECT_GT(error(mapped(astray)), .05) << "a doubtful place";
     region.placed.pop_back();
     EXPECT_THROW(mapped(pair.plan), ArtifactError);
 }

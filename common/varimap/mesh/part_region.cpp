@@ -13,7 +13,7 @@ namespace varimap {
 
 template <class Archive>
 void serialize(Archive& archive, PartRegion& region) {
-    archive(region.face_count, region.faces, region.part_is_source, region.placed);
+    archive(region.face_count, region.faces, region.part_is_source, region.placed, region.strain);
 }
 
 std::string encode(const PartRegion& region) {
@@ -27,6 +27,7 @@ void decode(const std::string& payload, PartRegion& region) {
                         "faces");
     for (const SurfacePoint& point : region.placed)
         require<PartRegion>(point.face >= -1 && point.barycentric.allFinite(), "points");
+    require<PartRegion>(region.strain >= 0, "strain");
 }
 
 namespace {

@@ -10,25 +10,30 @@
 namespace varimap {
 
 /// Where a part lies on the whole that it belongs to: the artifact of varimap-locate, by which
-/// varimap-preprocess cuts the whole and varimap-diffuse begins.
+/// varimap-preprocess cuts the whole and varimap-diffuse and varimap-relax begin.
 struct PartRegion {
     int face_count = 0;           ///< of the whole's input (Surface)
     std::vector<int> faces;       ///< those of them that the part covers, ascending
     bool part_is_source = false;  ///< else the target is the part
     PointMap placed;              ///< per vertex of the part's file: where it lies on the whole's file
+    double strain = 0;            ///< mean robust excess energy of the part as placed; infinite if it is not
+
+    /// Whether the place is doubtful: stages/locate/README.md has what right and wrong ones are strained by.
+    bool is_strained() const { return strain > much_strain; }
+    static constexpr double much_strain = 0.12;
 };
 
 template <>
 struct ArtifactType<PartRegion> {
     static constexpr const char* kind = "region";
     static constexpr const char* stage = "varimap-locate";
-    static constexpr int schema = 1;
+    static constexpr int schema = 2;
 };
 std::string encode(const PartRegion& region);
 void decode(const std::string& payload, PartRegion& region);
 
-/// Marks the shortest strips of `between`'s faces that join marked patches to the largest of them, where there
-/// are such.
+/// Marks the shortest strips of `between`'s faces that join marked patches to the largest of them, where
+/// there are such.
 void join_patches(const TriangleMesh& mesh, const FaceData<char>& between, FaceData<char>& marked);
 
 /// The marked faces of a manifold mesh, of which at least one is marked, as a surface with boundary: unmarked

@@ -6,6 +6,7 @@
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/serialization.h"
 #include "varimap/mesh/surface_check.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -74,6 +75,12 @@ PointMap from_file(const PointMap& map, const Surface& source, const Surface& ta
 
 const TriangleMesh& file_of(const Surface& surface) {
     return surface.link.is_identity() ? surface.input : surface.link.file;
+}
+
+bool one_is_inside_out(const Surface& A, const Surface& B) {
+    if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return false;
+    if (!is_closed(A.mesh) || !is_closed(B.mesh)) return false;
+    return (signed_volume(A.mesh) < 0) != (signed_volume(B.mesh) < 0);
 }
 
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {

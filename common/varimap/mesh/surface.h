@@ -51,6 +51,10 @@ PointMap from_file(const PointMap& map, const Surface& source, const Surface& ta
 /// The surface's file as it was read; where nothing was repaired and the surface is mirrored, mirrored too.
 const TriangleMesh& file_of(const Surface& surface);
 
+/// Whether of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored: all
+/// maps that keep the orientation are then those of a mirror image.
+bool one_is_inside_out(const Surface& A, const Surface& B);
+
 /// A point of a mesh as barycentric coordinates of another face that holds it too: exact by the vertices that
 /// both faces name; where these are not enough, because a repair moved the point, those of the closest point.
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point);

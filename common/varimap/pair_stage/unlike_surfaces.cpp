@@ -10,7 +10,6 @@
 #include "varimap/mesh/handles.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/results/surface_map.h"
-#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -46,9 +45,10 @@ std::vector<char> on_largest_component(const Surface& surface) {
 
 /// The loop at which a surface is open widest.
 struct Opening {
-    double width = 0;   ///< loop_openings (boundary.h); sqrt(area)
-    int edges = 0;      ///< of the loop
-    bool alone = true;  ///< whether there is no other
+    double width = 0;    ///< loop_openings (boundary.h); sqrt(area)
+    int edges = 0;       ///< of the loop
+    int loops = 0;       ///< how many there are
+    int long_loops = 0;  ///< those of them that are as long as wide ones, though they may be holes in a wall
 };
 Opening widest_opening(const Surface& surface) {
     const Edges edges = find_edges(surface.input);
@@ -58,22 +58,41 @@ Opening widest_opening(const Surface& surface) {
     const std::vector<char> counts = on_largest_component(surface);
     for (std::size_t i = 0; i < boundary.edges.size(); ++i)
         if (!counts[std::size_t(boundary.edges[i][0])]) widths[std::size_t(boundary.loop[i])] = 0;
+    const double unit = std::sqrt(surface_area(surface.input));
+    const std::vector<double> lengths = loop_lengths(surface.input, boundary);
     const auto widest = std::max_element(widths.begin(), widths.end());
-    return {*widest / std::sqrt(surface_area(surface.input)),
+    return {*widest / unit,
             int(std::count(boundary.loop.begin(), boundary.loop.end(), int(widest - widths.begin()))),
-            boundary.loops == 1};
+            boundary.loops,
+            int(std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l >= wide * unit; }))};
+}
+
+std::string how_to_close(const Opening& own) {
+    if (own.loops > 1)
+        return fmt::format("; if its {} loops are holes, --fill-holes all closes them", own.loops);
+    if (own.width < as_holes) return fmt::format("; if it is a hole, --fill-holes {} closes it", own.edges);
+    return "";
 }
 
 void warn_of_part(const Opening& own, const Opening& other, const char* which, const char* whole) {
     if (own.width < wide || other.width > much_narrower * own.width) return;
-    const bool may_be_hole = !own.alone || own.width < as_holes;
     warn(
         "the {} looks like a part of the {}: it ends at a loop, {:.2f} sqrt(area) around, where the {} has "
         "none "
         "beyond {:.2f}; a part is stretched over the whole, so give --part {}, or cut the {} to the same "
         "part{}",
-        which, whole, own.width, whole, other.width, which, whole,
-        may_be_hole ? fmt::format("; if it is a hole, --fill-holes {} closes it", own.edges) : "");
+        which, whole, own.width, whole, other.width, which, whole, how_to_close(own));
+}
+
+/// Of clothes, which have as many, they correspond.
+void warn_of_other_holes(const Opening& a, const Opening& b) {
+    constexpr int several = 3;
+    if (std::min(a.long_loops, b.long_loops) < several || a.long_loops == b.long_loops) return;
+    warn(
+        "the surfaces are open at {} and {} long loops, and a map goes around holes that do not lie at the "
+        "same "
+        "places: --fill-holes all closes them before the map is made",
+        a.long_loops, b.long_loops);
 }
 
 }  // namespace
@@ -83,6 +102,7 @@ void warn_of_part(const Surface& A, const Surface& B) {
     const Opening a = widest_opening(A), b = widest_opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");
+    warn_of_other_holes(a, b);
 }
 
 void warn_of_genus(const Surface& A, const Surface& B) {
@@ -96,14 +116,11 @@ void warn_of_genus(const Surface& A, const Surface& B) {
 }
 
 void warn_of_inside_out(const Surface& A, const Surface& B) {
-    if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return;
-    if (!is_closed(A.mesh) || !is_closed(B.mesh)) return;
-    const bool A_is = looks_inward(A), B_is = looks_inward(B);
-    if (A_is != B_is)
+    if (one_is_inside_out(A, B))
         warn(
             "the {} is inside out: its faces look inward, so that it counts as a mirror image; reverse its "
             "faces, or give --mirror",
-            A_is ? "source" : "target");
+            signed_volume(A.mesh) < 0 ? "source" : "target");
 }
 
 namespace {

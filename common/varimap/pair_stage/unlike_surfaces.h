@@ -7,16 +7,16 @@ namespace varimap {
 
 /// Warns where one surface is likely a part of the other: its largest component is open, as a limb that was
 /// cut off, much wider than that of the other, both by their areas; a hole in a wall is no such opening
-/// (boundary.h). A part is mapped onto the whole of the other all the same, and stretched for it. Not where
-/// the whole was cut to the part (part_region.h).
+/// (boundary.h). A part is mapped onto the whole of the other all the same, and stretched for it. And where
+/// both have several wide openings, not as many, which are holes at other places then. Not where the whole
+/// was cut to the part (part_region.h).
 void warn_of_part(const Surface& A, const Surface& B);
 
 /// Warns where the surfaces differ in genus: no map between them is one to one. Beyond 20 handles it is
 /// noise.
 void warn_of_genus(const Surface& A, const Surface& B);
 
-/// Warns where of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored:
-/// all maps that keep the orientation are then those of a mirror image.
+/// Warns where one of two surfaces is inside out (one_is_inside_out).
 void warn_of_inside_out(const Surface& A, const Surface& B);
 
 /// Warns of points of A's input with images on B's (correspondences_of) that are no map to begin from: the

@@ -111,9 +111,11 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
                              ? 0
                              : plausibility(best) * plausibility_of_reversed(best.reversed_mass) *
                                    plausibility_of_handedness(best.mirror_gain) * (1 - doubt);
-    if (finished)
+    if (finished) {
         probability *=
             plausibility_when_finished(finished->dirichlet) * plausibility_when_covered(finished->coverage);
+        if (finished->inside_out) probability /= 2;
+    }
     return {margin, probability, probability >= sure};
 }
 
@@ -140,6 +142,7 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
     if (std::any_of(candidates.begin(), candidates.end(),
                     [](const Candidate& one) { return one.turned_about_axis; }))
         add("turned about an axis it looks nearly the same");
+    if (finished && finished->inside_out) add("one of the surfaces is inside out");
     if (finished && finished->coverage < covered)
         add(fmt::format("finished, it leaves out {:.0f}% of a surface", 100 * (1 - finished->coverage)));
     if (finished && finished->dirichlet > strained_in_the_end)

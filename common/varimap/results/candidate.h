@@ -61,6 +61,8 @@ struct Confidence {
 struct InTheEnd {
     double dirichlet = 1;  ///< Dirichlet energy, geometric mean of both directions
     double coverage = 1;   ///< the lesser of both directions
+    /// One of the surfaces is inside out, so that this is the map of a mirror image unless it is one.
+    bool inside_out = false;
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 

@@ -26,7 +26,7 @@ FaceData<char> marked_where(const TriangleMesh& mesh, const Inside& inside) {
 }
 
 PartRegion tidied(const TriangleMesh& mesh, FaceData<char> marked) {
-    return {mesh.face_count(), tidy_region(mesh, std::move(marked)), true, {}};
+    return {mesh.face_count(), tidy_region(mesh, std::move(marked)), true, {}, 0};
 }
 
 TriangleMesh faces_of(const TriangleMesh& mesh, const PartRegion& region) {
@@ -143,11 +143,11 @@ TEST(PartRegion, OfARepairedMeshKeepsTheWayToTheFile) {
 }
 
 TEST(PartRegion, OfAnotherMeshIsRefused) {
-    EXPECT_THROW(cropped({shapes::ellipsoid(2), {}, {}}, {7, {1, 2}, true, {}}), ArtifactError);
+    EXPECT_THROW(cropped({shapes::ellipsoid(2), {}, {}}, {7, {1, 2}, true, {}, 0}), ArtifactError);
     PartRegion region;
-    for (const PartRegion& bad :
-         {PartRegion{3, {}, true, {}}, PartRegion{3, {1, 3}, true, {}}, PartRegion{3, {-1}, true, {}},
-          PartRegion{3, {2, 1}, true, {}}, PartRegion{3, {1, 1}, true, {}}})
+    for (const PartRegion& bad : {PartRegion{3, {}, true, {}, 0}, PartRegion{3, {1, 3}, true, {}, 0},
+                                  PartRegion{3, {-1}, true, {}, 0}, PartRegion{3, {2, 1}, true, {}, 0},
+                                  PartRegion{3, {1, 1}, true, {}, 0}, PartRegion{3, {1}, true, {}, -1}})
         EXPECT_THROW(decode(encode(bad), region), ArtifactError);
 }
 

@@ -74,6 +74,27 @@ TEST(UnlikeSurfaces, HolesAreNamedWhereAnOpeningMayBeOne) {
     EXPECT_TRUE(asked(shapes::tube(20, 12, false))) << "it ends at two loops";
 }
 
+/// A ball without caps at so many corners of an icosahedron.
+Surface ball_with_holes(int holes) {
+    const TriangleMesh ball = shapes::ellipsoid(4), corners = shapes::ellipsoid(0);
+    std::vector<int> left;
+    for (int f = 0; f < ball.face_count(); ++f) {
+        const Vec3 at = position(ball, {f, Vec3::Constant(1.0 / 3)});
+        const auto distances = (corners.vertices.topRows(holes).rowwise() - at.transpose()).rowwise().norm();
+        if (distances.minCoeff() > .3) left.push_back(f);
+    }
+    return preprocess(TriangleMesh{ball.vertices, ball.faces(left, Eigen::all)}, {});
+}
+
+TEST(UnlikeSurfaces, HolesOfBothAtOtherPlacesAreSaid) {
+    const Surface three = ball_with_holes(3), five = ball_with_holes(5);
+    EXPECT_EQ(warnings_of(three, three, warn_of_part), 0u);
+    ASSERT_EQ(warnings_of(three, five, warn_of_part), 1u);
+    EXPECT_NE(logged_warnings().back().find("open at 3 and 5 long loops"), std::string::npos);
+    EXPECT_NE(logged_warnings().back().find("--fill-holes all"), std::string::npos);
+    EXPECT_EQ(warnings_of(ball_with_holes(1), five, warn_of_part), 0u);
+}
+
 TEST(UnlikeSurfaces, WhatIsWornMayBeOpen) {
     TriangleMesh hat = cut_ball(0);
     hat.vertices = (0.4 * hat.vertices).rowwise() + Eigen::RowVector3d(0, 0, 1.5);

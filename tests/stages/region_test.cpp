@@ -1,12 +1,16 @@
-#include "stages/locate/covered.h"
+#include "stages/locate/region.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fixtures/shapes.h"
+#include "stages/locate/covered.h"
 #include "stages/preprocess/preprocess.h"
+#include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 #include "varimap/mesh/closest_point.h"
 
 namespace varimap {
@@ -51,6 +55,35 @@ TEST(TouchedFaces, LieAlongAStripThatCoversNone) {
         if (touched[f]) {
             EXPECT_LT(std::abs(strip.middle(f).y() - .51), .11) << "two faces away";
         }
+}
+
+/// A landmark of the strip lies elsewhere on the square.
+TEST(RegionOfAPart, IsJoinedToALandmarkBesideIt) {
+    Strip strip(.2);
+    Surface part = preprocess(strip.part, {});
+    Placement placement;
+    const ClosestPoint closest(strip.whole.mesh);
+    for (int v = 0; v < part.mesh.vertex_count(); ++v) {
+        const Vec3 at = part.mesh.vertex(v) / part.scale + part.centre;
+        placement.images.push_back(closest((at - strip.whole.centre) * strip.whole.scale).point);
+    }
+    int corner = 0;
+    for (int v = 1; v < strip.whole.mesh.vertex_count(); ++v)
+        if (strip.whole.mesh.vertices.row(v).sum() < strip.whole.mesh.vertices.row(corner).sum()) corner = v;
+    const Sides with(part, strip.whole, {{{0}, {corner}}}, PartSide::source),
+        without(part, strip.whole, {}, PartSide::source);
+    placement.strain = .05;
+    const auto has_corner = [&](const std::vector<int>& region) {
+        return std::binary_search(region.begin(), region.end(),
+                                  strip.whole.on_input[std::size_t(corner)].face);
+    };
+    std::size_t before = logged_warnings().size();
+    EXPECT_FALSE(has_corner(region_of(placement, without)));
+    EXPECT_EQ(logged_warnings().size(), before);
+    EXPECT_TRUE(has_corner(region_of(placement, with)));
+    EXPECT_EQ(logged_warnings().size(), before + 1);
+    placement.strain = .3;
+    EXPECT_THROW(region_of(placement, with), InputError);
 }
 
 }  // namespace
