@@ -168,6 +168,7 @@ MappedSurfaces map_surfaces(const TriangleMesh& A, const TriangleMesh& B, const 
                             initial_map, options);
     SurfaceMap map =
         relax(surface_A, surface_B, plan.record, read_out(plan, surface_A, surface_B), plan.plan.area_bound);
+    warn_of_mirrored_parts(map);
     MappedSurfaces mapped;
     mapped.A_to_B = std::move(map.A_to_B);
     mapped.B_to_A = std::move(map.B_to_A);

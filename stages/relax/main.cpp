@@ -45,9 +45,14 @@ int main(int argc, char** argv) {
                                                 ? read_start<Diffusion>(stage, plan_file, A.value, B.value)
                                                 : read_start<Plan>(stage, plan_file, A.value, B.value);
         log("{} and {} input vertices", A.value.input.vertex_count(), B.value.input.vertex_count());
-        if (placed_in.empty())
-            return stage.write(out, relax(A.value, B.value, record, std::move(images), area_bound, params));
-        const PartRegion region = stage.read<PartRegion>("placed", placed_in).value;
-        stage.write(out, relax_part(A.value, B.value, record, images, region, area_bound, params));
+        const auto relaxed = [&] {
+            if (placed_in.empty())
+                return relax(A.value, B.value, record, std::move(images), area_bound, params);
+            const PartRegion region = stage.read<PartRegion>("placed", placed_in).value;
+            return relax_part(A.value, B.value, record, images, region, area_bound, params);
+        };
+        const SurfaceMap map = relaxed();
+        warn_of_mirrored_parts(map);
+        stage.write(out, map);
     });
 }

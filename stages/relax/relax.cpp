@@ -103,11 +103,6 @@ void log_untangling(const std::string& name, const UntanglingReport& report) {
         name, report.flipped_before, report.flipped_area_percent_before, report.flipped_after,
         report.flipped_area_percent_after, report.global_steps, report.sweeps, report.parts_replaced,
         report.parts_tried, report.disagreeing_after, report.disagreeing_before);
-    if (report.mirrored_parts > 0)
-        warn(
-            "{}: {} parts with {:.1f}% of the area are mirrored and were left as they are; give landmarks on "
-            "them (--landmarks)",
-            name, report.mirrored_parts, report.gated_area_percent);
 }
 
 void log_untangling(const char* which, const UntanglingReports& reports) {
@@ -128,7 +123,20 @@ UntanglingReport joined(const UntanglingReport& meshes, UntanglingReport inputs)
     return report;
 }
 
+void warn_of_mirrored_parts(const char* name, const UntanglingReport& report) {
+    if (report.mirrored_parts > 0)
+        warn(
+            "{}: {} parts with {:.1f}% of the area are mirrored and were left as they are; give landmarks on "
+            "them (--landmarks)",
+            name, report.mirrored_parts, report.gated_area_percent);
+}
+
 }  // namespace
+
+void warn_of_mirrored_parts(const SurfaceMap& map) {
+    warn_of_mirrored_parts("source to target", map.untangling.A_to_B);
+    warn_of_mirrored_parts("target to source", map.untangling.B_to_A);
+}
 
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, MapPair maps,
                  double area_bound, const RelaxParams& params) {

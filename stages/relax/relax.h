@@ -15,4 +15,7 @@ namespace varimap {
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, MapPair maps,
                  double area_bound, const RelaxParams& params = {});
 
+/// Warns of parts that are mirrored in the end and were left as they are.
+void warn_of_mirrored_parts(const SurfaceMap& map);
+
 }  // namespace varimap

@@ -10,6 +10,7 @@
 #include "stages/relax/placed_part.h"
 #include "stages/relax/prolongation.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
 #include "varimap/verification/verification.h"
@@ -101,7 +102,13 @@ TEST(RelaxPart, BeginsWhereThePartWasPlacedIfThePlanLeadsAstray) {
     const SurfaceMap alone =
         relax(pair.A, pair.B, astray.record, read_out(astray, pair.A, pair.B), astray.plan.area_bound);
     EXPECT_GT(error(alone), .05);
-    EXPECT_LT(error(mapped(astray)), .005);
+    const std::size_t before = logged_warnings().size();
+    const SurfaceMap begun = mapped(astray);
+    EXPECT_LT(error(begun), .005);
+    warn_of_mirrored_parts(begun);
+    EXPECT_EQ(logged_warnings().size(), before) << "of the map that was not kept";
+    warn_of_mirrored_parts(alone);
+    EXPECT_EQ(logged_warnings().size(), before + 2);
     region.placed = alone.A_to_B;
     EXPECT_LT(error(mapped(pair.plan)), .005) << "the plan's is no worse";
     region.placed = pair.as_planned().A_to_B;

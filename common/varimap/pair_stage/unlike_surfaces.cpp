@@ -89,8 +89,7 @@ void warn_of_other_holes(const Opening& a, const Opening& b) {
     constexpr int several = 3;
     if (std::min(a.long_loops, b.long_loops) < several || a.long_loops == b.long_loops) return;
     warn(
-        "the surfaces are open at {} and {} long loops, and a map goes around holes that do not lie at the "
-        "same "
+        "the surfaces are open at {} and {} long loops, and a map goes around holes that lie at other "
         "places: --fill-holes all closes them before the map is made",
         a.long_loops, b.long_loops);
 }

@@ -8,7 +8,7 @@ namespace varimap {
 /// Warns where one surface is likely a part of the other: its largest component is open, as a limb that was
 /// cut off, much wider than that of the other, both by their areas; a hole in a wall is no such opening
 /// (boundary.h). A part is mapped onto the whole of the other all the same, and stretched for it. And where
-/// both have several wide openings, not as many, which are holes at other places then. Not where the whole
+/// both have several long loops, not as many, which are holes at other places then. Not where the whole
 /// was cut to the part (part_region.h).
 void warn_of_part(const Surface& A, const Surface& B);
 
