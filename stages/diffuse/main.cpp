@@ -44,8 +44,7 @@ std::optional<Correspondences> read_placed(Stage& stage, const std::string& path
     if (path.empty()) return {};
     const PartRegion region = stage.read<PartRegion>("placed", path).value;
     const Surface &part = region.part_is_source ? A : B, &whole = region.part_is_source ? B : A;
-    if (int(region.placed.size()) != file_of(part).vertex_count())
-        throw ArtifactError("'" + path + "' is of another part; rerun varimap-locate");
+    require_places(region, file_of(part), file_of(whole));
     Correspondences pairs = correspondences_of(region.placed, part, whole);
     if (!region.part_is_source) std::swap(pairs.from_A, pairs.from_B);
     return pairs;

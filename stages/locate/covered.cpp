@@ -1,5 +1,7 @@
 #include "stages/locate/covered.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "varimap/core/index_set.h"
@@ -69,19 +71,23 @@ FaceData<char> covered_faces(const PointMap& images, const TriangleMesh& part, c
 }
 
 FaceData<char> touched_faces(const PointMap& images, const TriangleMesh& part, const Surface& whole) {
-    constexpr int samples = 4;  ///< along an edge, and its first end
+    constexpr int grain = 100;
+    constexpr int most = 32;  ///< samples along an edge
+    // Of unit area: about two thirds of a face's edge.
+    const double step = 1 / std::sqrt(double(whole.input.face_count()));
     const InputLocator on_input(whole);
     const Edges edges = find_edges(part);
-    std::vector<int> found(std::size_t(samples * edges.size()), -1);
-    parallel_for_each_index(edges.size(), 100, [&](int e) {
+    std::vector<int> found(std::size_t((most + 1) * edges.size()), -1);
+    parallel_for_each_index(edges.size(), grain, [&](int e) {
         const auto& [u, v] = edges.vertices[std::size_t(e)];
         const SurfacePoint &from = images[std::size_t(u)], &to = images[std::size_t(v)];
         if (from.face < 0 || to.face < 0) return;
         const Vec3 normal =
             face_normal(whole.mesh, from.face).normalized() + face_normal(whole.mesh, to.face).normalized();
         const Vec3 start = position(whole.mesh, from), way = position(whole.mesh, to) - start;
-        for (int k = 0; k < samples; ++k)
-            found[std::size_t(samples * e + k)] = on_input(start + k * way / samples, normal).face;
+        const int steps = std::min(most, 1 + int(way.norm() / step));
+        for (int k = 0; k <= steps; ++k)
+            found[std::size_t((most + 1) * e + k)] = on_input(start + k * way / steps, normal).face;
     });
     std::erase(found, -1);
     make_set(found);

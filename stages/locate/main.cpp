@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     const std::string& out =
         stage.output(ArtifactType<PartRegion>::kind, ArtifactType<PartRegion>::schema,
                      "region to write: what varimap-preprocess --region keeps of the whole, and where "
-                     "varimap-diffuse --placed begins");
+                     "varimap-diffuse and varimap-relax --placed begin");
     const auto& landmark_files = stage.input_list_option("landmarks", "as for varimap-diffuse", 1, 2);
     return stage.main(argc, argv, [&] {
         if (params.part == PartSide::none) throw UsageError("--part: say source or target");

@@ -49,12 +49,6 @@ std::size_t landmark_apart(const Sides& sides, const std::vector<int>& region, c
     return 0;
 }
 
-FaceData<char> all_faces(const TriangleMesh& mesh) {
-    FaceData<char> all(mesh.face_count());
-    for (char& mark : all) mark = 1;
-    return all;
-}
-
 }  // namespace
 
 std::vector<int> region_of(const Placement& placement, const Sides& sides) {
@@ -68,17 +62,16 @@ std::vector<int> region_of(const Placement& placement, const Sides& sides) {
     for (const int f : region) marked[f] = 1;
     add_landmarks(sides, marked);
     join_patches(whole, touched, marked);
-    std::size_t apart = landmark_apart(sides, region, marked);
-    if (apart > 0 && placement.strain <= PartRegion::much_strain) {
-        warn("landmark {} lies beside where the part was put: is it right, and away from the rim?", apart);
-        join_patches(whole, all_faces(whole), marked);
-        apart = landmark_apart(sides, region, marked);
-    }
-    if (apart > 0)
+    const std::size_t apart = landmark_apart(sides, region, marked);
+    if (apart > 0 && placement.strain <= PartRegion::much_strain)
+        join_patches(whole, FaceData<char>(whole.face_count(), 1), marked);
+    if (const std::size_t still = landmark_apart(sides, region, marked); still > 0)
         throw InputError(fmt::format(
             "landmark {} lies outside of where the part was put (strained by {:.2f}): is it right, and away "
             "from the rim? If the whole has other components, map the largest alone (--components largest)",
-            apart, placement.strain));
+            still, placement.strain));
+    if (apart > 0)
+        warn("landmark {} lies beside where the part was put: is it right, and away from the rim?", apart);
     return tidy_region(whole, std::move(marked));
 }
 

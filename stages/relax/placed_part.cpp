@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
@@ -21,9 +20,10 @@ constexpr double in_order = 0.004;
 
 /// `there`: from the part's mesh to the whole's. Vertices keep their images where none was placed around
 /// them.
-void place(PointMap& there, const PointMap& on_input, const Surface& part, const Surface& whole) {
+void lay_where_placed(PointMap& there, const PointMap& on_input, const Surface& part, const Surface& whole) {
     const MeshLocator on_mesh(whole);
     const ClosestPoint closest(whole.mesh);
+    constexpr double half = 0.5;  // the rest of a face need not say where a point goes
     for (std::size_t v = 0; v < there.size(); ++v) {
         const SurfacePoint& at = part.on_input[v];
         if (at.face < 0) continue;
@@ -37,7 +37,7 @@ void place(PointMap& there, const PointMap& on_input, const Surface& part, const
             normal += at.barycentric[c] * face_normal(whole.mesh, point.face).normalized();
             weight += at.barycentric[c];
         }
-        if (weight > 0) there[v] = closest(sum / weight, normal).point;
+        if (weight > half) there[v] = closest(sum / weight, normal).point;
     }
 }
 
@@ -54,19 +54,19 @@ MapPair placed_maps(const PartRegion& region, const Surface& A, const Surface& B
     MapPair maps = planned;
     PointMap& there = region.part_is_source ? maps.A_to_B : maps.B_to_A;
     PointMap& back = region.part_is_source ? maps.B_to_A : maps.A_to_B;
-    place(there, from_file(region.placed, part.link, whole.link), part, whole);
+    lay_where_placed(there, from_file(region.placed, part.link, whole.link), part, whole);
     back = inverse(there, std::move(back), part.mesh, whole.mesh);
     pin_landmarks(maps, record, A, B);
     return maps;
 }
 
 /// What is wrong with a map: the mean way of the part's vertices there and back (measure_round_trip, in units
-/// of sqrt(area of the part)), and the share of the area that is reversed in either direction, beyond that of
+/// of sqrt(area of the part)), and the share of the area that is reversed in both directions, beyond that of
 /// maps that do not tear.
 double disorder(const SurfaceMap& map, bool part_is_source, const Surface& A, const Surface& B) {
-    const TriangleMesh &source = file_of(A), &target = file_of(B);
-    const RoundTrip way = part_is_source ? measure_round_trip(map.A_to_B, map.B_to_A, source, target)
-                                         : measure_round_trip(map.B_to_A, map.A_to_B, target, source);
+    const PointMap A_to_B = from_file(map.A_to_B, A, B), B_to_A = from_file(map.B_to_A, B, A);
+    const RoundTrip way = part_is_source ? measure_round_trip(A_to_B, B_to_A, A.input, B.input)
+                                         : measure_round_trip(B_to_A, A_to_B, B.input, A.input);
     const double reversed_percent =
         map.untangling.A_to_B.flipped_area_percent_after + map.untangling.B_to_A.flipped_area_percent_after;
     constexpr double little_reversed = 2;
@@ -77,11 +77,10 @@ double disorder(const SurfaceMap& map, bool part_is_source, const Surface& A, co
 
 SurfaceMap relax_part(const Surface& A, const Surface& B, const PairRecord& record, const MapPair& planned,
                       const PartRegion& region, double area_bound, const RelaxParams& params) {
-    const Surface& part = region.part_is_source ? A : B;
-    if (int(region.placed.size()) != file_of(part).vertex_count())
-        throw ArtifactError("the region is one of another part; rerun varimap-locate");
+    require_places(region, file_of(region.part_is_source ? A : B), file_of(region.part_is_source ? B : A));
     SurfaceMap map = relax(A, B, record, planned, area_bound, params);
-    if (!params.untangling.enabled || region.is_strained()) return map;
+    const bool was_chosen = !record.candidates.empty();
+    if (!params.untangling.enabled || region.is_strained() || was_chosen) return map;
     const double planned_disorder = disorder(map, region.part_is_source, A, B);
     if (planned_disorder < in_order) return map;
     log("from where the part was placed:");
@@ -89,7 +88,8 @@ SurfaceMap relax_part(const Surface& A, const Surface& B, const PairRecord& reco
     const double placed_disorder = disorder(other, region.part_is_source, A, B);
     log("way there and back and share reversed: {:.4f} from the plan, {:.4f} from there", planned_disorder,
         placed_disorder);
-    return placed_disorder < planned_disorder ? other : map;
+    if (placed_disorder < planned_disorder) return other;
+    return map;
 }
 
 }  // namespace varimap

@@ -6,10 +6,10 @@
 namespace varimap {
 
 /// The map of a part and its whole, which is cut to where varimap-locate placed the part: relax (relax.h)
-/// from the plan, and, where the way there and back leads far from where it began or much is reversed, from
-/// where the part was placed, too, if it is hardly strained there; what is less so is kept. A plan knows
-/// areas and costs of the cut surfaces, whose ragged rims may lead it astray; a placement knows that the part
-/// is one piece, but not that it covers what is left. Throws ArtifactError for a region of another part.
+/// from the plan. Where that map is not in order (its way there and back leads .004 sqrt(area of the part) or
+/// more from where it began in the mean, or much is reversed), the place is not doubtful, and no candidate of
+/// exploration was continued, relax begins where the part was placed, too, and the map that is more in order
+/// is returned. Throws ArtifactError for a region of another part or whole.
 SurfaceMap relax_part(const Surface& A, const Surface& B, const PairRecord& record, const MapPair& planned,
                       const PartRegion& region, double area_bound, const RelaxParams& params = {});
 

@@ -7,6 +7,7 @@
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/thin_faces.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -16,11 +17,24 @@ double times_radius(const LandmarkSurroundings& around) {
 
 namespace {
 
+/// Whether all boundaries of a mesh are short enough for holes: behind the lid of half a head, or of a sheet,
+/// which is 3 sqrt(area) around or more, what the map misses would count as reached.
+bool has_holes_alone(const TriangleMesh& mesh) {
+    constexpr double longest = 1;  // sqrt(area); a person's waist has .9
+    const Boundary boundary = find_boundary(mesh);
+    const std::vector<double> lengths = loop_lengths(mesh, boundary);
+    const double limit = longest * std::sqrt(surface_area(mesh));
+    return !lengths.empty() && *std::max_element(lengths.begin(), lengths.end()) < limit;
+}
+
+/// Not where components were joined by tubes, which would count as well.
 std::optional<Coverage> coverage_when_closed(const PointMap& map, const Surface& source,
-                                             const Surface& target) {
-    const bool has_holes = find_boundary(source.input).loops > 0;
-    const bool has_lids = without_added_faces(source).face_count() < source.input.face_count();
-    if (!has_holes && !has_lids) return {};
+                                             const TriangleMesh& own_faces, const Surface& target) {
+    const bool has_lids = own_faces.face_count() < source.input.face_count();
+    const bool has_holes = has_holes_alone(source.input);
+    if (!has_lids && !has_holes) return {};
+    const std::vector<int> components = vertex_components(own_faces);
+    if (*std::max_element(components.begin(), components.end()) > 0) return {};
     RepairedMesh closed{source.input, link_to_itself(source.input), {}};
     if (has_holes) closed = holes_filled(std::move(closed), std::numeric_limits<int>::max());
     return measure_coverage(map, std::move(closed.mesh), without_added_faces(target));
@@ -32,7 +46,7 @@ DirectionQuality measure_direction(const PointMap& map, const Surface& from, con
     const TriangleMesh& target = onto.input;
     const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
     return {measure_distortion(triangles), share_within_area_bound(triangles, source, area_bound),
-            measure_coverage(map, source, target), coverage_when_closed(map, from, onto),
+            measure_coverage(map, source, target), coverage_when_closed(map, from, source, onto),
             verify_map(map, source, target)};
 }
 

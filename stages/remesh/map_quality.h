@@ -20,8 +20,9 @@ struct DirectionQuality {
     Distortion distortion;
     double within_area_bound = 0;  ///< share_within_area_bound (quality.h), of the plan's bound
     Coverage coverage;
-    /// The same with the source's holes closed (holes.h), those that were filled and those that are open; of
-    /// what the target has on its file. None where the source has no holes.
+    /// The same of what the target has in its file, with the source's holes closed (holes.h): those that were
+    /// filled, and those that are open, unless a loop is sqrt(area) long or more, as the rim of a sheet is.
+    /// None where the source has no such holes, or several components, which tubes join.
     std::optional<Coverage> when_closed;
     Verification verification;
 

@@ -32,7 +32,7 @@ namespace varimap {
 ///       within_area_bound, conformal_distortion {as area_ratio}, dirichlet_energy, coverage, and
 ///       uncovered         of each part: area_percent, vertex of the file     (definitions: quality.h)
 ///       when_closed       coverage and uncovered with the holes of the surface that is mapped closed;
-///                         absent where it has none
+///                         absent where it has none (map_quality.h)
 ///       verification      reversed_count, reversed_area_percent, cutting_count, branch_points,
 ///                         signed_area_ratio; degree between closed surfaces (definitions: verification.h)
 ///       untangling        flipped_before, flipped_area_percent_before, flipped_after,

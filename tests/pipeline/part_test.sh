@@ -73,6 +73,10 @@ for part in source target; do
     make -n -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=part.off TARGET=whole.off OUT=made LANDMARKS=tips.txt PART=$part \
         VARIMAP_BIN="$VARIMAP_BIN" >log 2>&1 || fail "make -n"
     grep -o 'made/artifacts/part--whole[^ ]*' log | sort -u >$part.txt
+    # Where the part was placed goes on to the two stages that begin there.
+    for stage in diffuse relax; do
+        grep -q "varimap-$stage .*--placed made/artifacts/part--whole.$part-part.region" log || fail "$stage does not get the region"
+    done
 done
 (($(wc -l <source.txt) > 10 && $(wc -l <target.txt) > 10)) || fail "names of artifacts are not found"
 [[ -z $(comm -12 source.txt target.txt) ]] || fail "the same names with either part: $(comm -12 source.txt target.txt | xargs)"

@@ -84,6 +84,7 @@ TEST(RelaxPart, BeginsWhereThePartWasPlacedIfThePlanLeadsAstray) {
     pair.plan.record.landmarks.clear();
     PartRegion region;
     region.part_is_source = true;
+    region.strain = .05;
     region.placed = pair.as_planned().A_to_B;
     Plan astray = pair.plan;
     for (Points* centres : {&astray.centre_A, &astray.centre_B})

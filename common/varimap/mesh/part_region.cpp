@@ -30,6 +30,14 @@ void decode(const std::string& payload, PartRegion& region) {
     require<PartRegion>(region.strain >= 0, "strain");
 }
 
+void require_places(const PartRegion& region, const TriangleMesh& part_file, const TriangleMesh& whole_file) {
+    const bool fits = int(region.placed.size()) == part_file.vertex_count() &&
+                      std::all_of(region.placed.begin(), region.placed.end(), [&](const SurfacePoint& point) {
+                          return point.face < whole_file.face_count();
+                      });
+    if (!fits) throw ArtifactError("the region is one of another part or whole; rerun varimap-locate");
+}
+
 namespace {
 
 std::vector<int> marked_faces(const FaceData<char>& marked) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct PartRegion {
     std::vector<int> faces;       ///< those of them that the part covers, ascending
     bool part_is_source = false;  ///< else the target is the part
     PointMap placed;              ///< per vertex of the part's file: where it lies on the whole's file
-    double strain = 0;            ///< mean robust excess energy of the part as placed; infinite if it is not
+    /// Mean robust excess energy of the part as placed; infinite if it is not.
+    double strain = std::numeric_limits<double>::infinity();
 
     /// Whether the place is doubtful: stages/locate/README.md has what right and wrong ones are strained by.
     bool is_strained() const { return strain > much_strain; }
@@ -32,8 +34,12 @@ struct ArtifactType<PartRegion> {
 std::string encode(const PartRegion& region);
 void decode(const std::string& payload, PartRegion& region);
 
-/// Marks the shortest strips of `between`'s faces that join marked patches to the largest of them, where
-/// there are such.
+/// Throws ArtifactError unless `placed` has a point for each vertex of the part's file, on a face of the
+/// whole's.
+void require_places(const PartRegion& region, const TriangleMesh& part_file, const TriangleMesh& whole_file);
+
+/// Marks strips of `between`'s faces that join marked patches to the largest of them, where there are such:
+/// the shortest, in faces, on the way from there.
 void join_patches(const TriangleMesh& mesh, const FaceData<char>& between, FaceData<char>& marked);
 
 /// The marked faces of a manifold mesh, of which at least one is marked, as a surface with boundary: unmarked

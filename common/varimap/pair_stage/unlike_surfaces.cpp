@@ -15,9 +15,6 @@ namespace varimap {
 
 namespace {
 
-/// In units of sqrt(area). A person cut at the waist has .9, a head .8, a leg or an arm .3, all but a hand .2
-/// to .3; ragged holes of a jaw's scan, .2 to .8 long, .07 to .17.
-constexpr double wide = 0.18;
 /// Of that opening: where the other's widest is no wider, it has no such opening.
 constexpr double much_narrower = 0.4;
 /// Up to that a hole of a scan may be as wide.
@@ -47,35 +44,35 @@ std::vector<char> on_largest_component(const Surface& surface) {
 struct Opening {
     double width = 0;    ///< loop_openings (boundary.h); sqrt(area)
     int edges = 0;       ///< of the loop
-    int loops = 0;       ///< how many there are
-    int long_loops = 0;  ///< those of them that are as long as wide ones, though they may be holes in a wall
+    int long_loops = 0;  ///< all that are as long as wide ones, though they may be holes in a wall
 };
 Opening widest_opening(const Surface& surface) {
     const Edges edges = find_edges(surface.input);
     const Boundary boundary = find_boundary(surface.input, edges);
     if (boundary.loops == 0) return {};
     std::vector<double> widths = loop_openings(surface.input, edges, boundary);
+    std::vector<double> lengths = loop_lengths(surface.input, boundary);
     const std::vector<char> counts = on_largest_component(surface);
     for (std::size_t i = 0; i < boundary.edges.size(); ++i)
-        if (!counts[std::size_t(boundary.edges[i][0])]) widths[std::size_t(boundary.loop[i])] = 0;
+        if (const auto loop = std::size_t(boundary.loop[i]); !counts[std::size_t(boundary.edges[i][0])])
+            widths[loop] = lengths[loop] = 0;
     const double unit = std::sqrt(surface_area(surface.input));
-    const std::vector<double> lengths = loop_lengths(surface.input, boundary);
     const auto widest = std::max_element(widths.begin(), widths.end());
     return {*widest / unit,
             int(std::count(boundary.loop.begin(), boundary.loop.end(), int(widest - widths.begin()))),
-            boundary.loops,
-            int(std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l >= wide * unit; }))};
+            int(std::count_if(lengths.begin(), lengths.end(),
+                              [&](double l) { return l >= wide_opening * unit; }))};
 }
 
 std::string how_to_close(const Opening& own) {
-    if (own.loops > 1)
-        return fmt::format("; if its {} loops are holes, --fill-holes all closes them", own.loops);
+    if (own.long_loops > 1)
+        return fmt::format("; if its {} long loops are holes, --fill-holes all closes them", own.long_loops);
     if (own.width < as_holes) return fmt::format("; if it is a hole, --fill-holes {} closes it", own.edges);
     return "";
 }
 
 void warn_of_part(const Opening& own, const Opening& other, const char* which, const char* whole) {
-    if (own.width < wide || other.width > much_narrower * own.width) return;
+    if (own.width < wide_opening || other.width > much_narrower * own.width) return;
     warn(
         "the {} looks like a part of the {}: it ends at a loop, {:.2f} sqrt(area) around, where the {} has "
         "none "
@@ -84,7 +81,7 @@ void warn_of_part(const Opening& own, const Opening& other, const char* which, c
         which, whole, own.width, whole, other.width, which, whole, how_to_close(own));
 }
 
-/// Of clothes, which have as many, they correspond.
+/// Clothes have up to four loops, and two of a kind as many.
 void warn_of_other_holes(const Opening& a, const Opening& b) {
     constexpr int several = 3;
     if (std::min(a.long_loops, b.long_loops) < several || a.long_loops == b.long_loops) return;

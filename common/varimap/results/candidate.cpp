@@ -114,7 +114,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
     if (finished) {
         probability *=
             plausibility_when_finished(finished->dirichlet) * plausibility_when_covered(finished->coverage);
-        if (finished->inside_out) probability /= 2;
+        if (finished->inside_out) probability /= 2;  // as many are mirror images as not
     }
     return {margin, probability, probability >= sure};
 }

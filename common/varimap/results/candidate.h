@@ -61,7 +61,8 @@ struct Confidence {
 struct InTheEnd {
     double dirichlet = 1;  ///< Dirichlet energy, geometric mean of both directions
     double coverage = 1;   ///< the lesser of both directions
-    /// One of the surfaces is inside out, so that this is the map of a mirror image unless it is one.
+    /// One of the surfaces is inside out (surface.h), so that left and right are exchanged unless it is a
+    /// mirror image of the other.
     bool inside_out = false;
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
