@@ -77,7 +77,7 @@ FaceData<char> touched_faces(const PointMap& images, const TriangleMesh& part, c
     const double step = 1 / std::sqrt(double(whole.input.face_count()));
     const InputLocator on_input(whole);
     const Edges edges = find_edges(part);
-    std::vector<int> found(std::size_t((most + 1) * edges.size()), -1);
+    std::vector<std::vector<int>> along(std::size_t(edges.size()));
     parallel_for_each_index(edges.size(), grain, [&](int e) {
         const auto& [u, v] = edges.vertices[std::size_t(e)];
         const SurfacePoint &from = images[std::size_t(u)], &to = images[std::size_t(v)];
@@ -87,8 +87,10 @@ FaceData<char> touched_faces(const PointMap& images, const TriangleMesh& part, c
         const Vec3 start = position(whole.mesh, from), way = position(whole.mesh, to) - start;
         const int steps = std::min(most, 1 + int(way.norm() / step));
         for (int k = 0; k <= steps; ++k)
-            found[std::size_t((most + 1) * e + k)] = on_input(start + k * way / steps, normal).face;
+            along[std::size_t(e)].push_back(on_input(start + k * way / steps, normal).face);
     });
+    std::vector<int> found;
+    for (const std::vector<int>& faces : along) found.insert(found.end(), faces.begin(), faces.end());
     std::erase(found, -1);
     make_set(found);
     FaceData<char> touched(whole.input.face_count());

@@ -24,10 +24,6 @@ std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& bound
 /// way, and the sum is as long as the way around it, however jagged the cut; around a hole in a wall they
 /// point to all sides and cancel.
 std::vector<double> loop_openings(const TriangleMesh& mesh, const Edges& edges, const Boundary& boundary);
-/// From which on it is the end of a part rather than a hole, in units of sqrt(area). A person cut at the
-/// waist has .9, a head .8, a leg or an arm .3, all but a hand .2 to .3; ragged holes of a jaw's scan, .2 to
-/// .8 long, .07 to .17.
-constexpr double wide_opening = 0.18;
 
 /// Whether it is mostly rim, as a leaf, a shirt or the scan of a face are: its boundary is at least 3
 /// sqrt(area) long (a disc's 3.5, a hemisphere's 2.5). Chosen by hand. Such a surface bends easily, and its

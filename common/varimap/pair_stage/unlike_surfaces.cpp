@@ -15,6 +15,9 @@ namespace varimap {
 
 namespace {
 
+/// In units of sqrt(area). A person cut at the waist has .9, a head .8, a leg or an arm .3, all but a hand .2
+/// to .3; ragged holes of a jaw's scan, .2 to .8 long, .07 to .17.
+constexpr double wide = 0.18;
 /// Of that opening: where the other's widest is no wider, it has no such opening.
 constexpr double much_narrower = 0.4;
 /// Up to that a hole of a scan may be as wide.
@@ -60,8 +63,7 @@ Opening widest_opening(const Surface& surface) {
     const auto widest = std::max_element(widths.begin(), widths.end());
     return {*widest / unit,
             int(std::count(boundary.loop.begin(), boundary.loop.end(), int(widest - widths.begin()))),
-            int(std::count_if(lengths.begin(), lengths.end(),
-                              [&](double l) { return l >= wide_opening * unit; }))};
+            int(std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l >= wide * unit; }))};
 }
 
 std::string how_to_close(const Opening& own) {
@@ -72,7 +74,7 @@ std::string how_to_close(const Opening& own) {
 }
 
 void warn_of_part(const Opening& own, const Opening& other, const char* which, const char* whole) {
-    if (own.width < wide_opening || other.width > much_narrower * own.width) return;
+    if (own.width < wide || other.width > much_narrower * own.width) return;
     warn(
         "the {} looks like a part of the {}: it ends at a loop, {:.2f} sqrt(area) around, where the {} has "
         "none "
