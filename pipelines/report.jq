@@ -23,7 +23,9 @@ def direction($words):
 # Of what preprocess recorded: a few faces, edges or vertices were repaired, or a few components joined, and nothing changed the
 # surface's form but what was asked for: holes are never filled without.
 def little_repaired:
-    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, .cut_edges, .split_vertices, .closed_slits] | add // 0) as $elements
+    # An edge that is cut is one defect with the vertices at its ends, which are split for it.
+    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, ([.cut_edges, .split_vertices] | max), .closed_slits]
+        | add // 0) as $elements
     | any($elements, .turned_faces, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
         and $elements <= ([10, .001 * (.input_faces // 0)] | max) and (.bridges // 0) <= 10
         # Turning faces changes no form.

@@ -20,7 +20,7 @@ struct ExplorationOptions {
     int axes_maps = 0;       ///< maps from principal axes, besides the others
     int coarse = 10;         ///< maps that go on from levels with fewer than a hundred samples
     int candidates = 6;      ///< maps that reach the last level
-    int last_samples = 150;  ///< the first level with so many samples is the last
+    int last_samples = 100;  ///< the first level with so many samples is the last
     double distinct = 0.2;   ///< maps closer than this are duplicates: squared distance of centres / variance
     double area_bound =
         2;  ///< with exact areas the cheapest map of shapes of other proportions is a wrong one
@@ -34,14 +34,27 @@ struct Trial {
     bool is_mirrored() const;
 };
 
+/// How far an exploration has come.
+struct ExplorationProgress {
+    int levels = 0;           ///< that are done
+    std::vector<Trial> pool;  ///< on the last of these
+    std::mt19937 random;
+    int levels_with_starts = 0, levels_with_swaps = 0;
+    Levels extremities;  ///< the coarse level whose samples are exchanged
+};
+
 /// One exploration of a pair. Deterministic for a seed, for any number of threads.
 class Exploration {
   public:
     Exploration(const PairContext& context, const ExplorationOptions& options,
                 const AlternationOptions& alternation, const IroningOptions& ironing);
 
-    /// Distinct maps at the last level, the one of least energy first, mirrored ones last.
-    std::vector<Trial> run();
+    /// The levels too coarse to see orientation, and in any case not the last one. What they bring is the
+    /// same for the mirror image of either surface.
+    ExplorationProgress coarse_levels();
+    /// Goes on from there. Distinct maps at the last level, the one of least energy first, mirrored ones
+    /// last.
+    std::vector<Trial> go_on(ExplorationProgress progress);
     /// The map that landmarks lead to from the coarsest level on, as in varimap-diffuse.
     Trial follow_landmarks();
     /// The level pair they live on.
@@ -50,13 +63,16 @@ class Exploration {
     VertexImages images(const Trial& trial) const;
 
   private:
+    int samples_of(int level) const;
+    bool is_last(int level) const;
+    void explore_next_level();
     void enter(int level);
     void add_starts();
     void add_tip_starts();
     void add_axes_starts();
     void add_swaps(int best);
     void prune(int keep);
-    void log_pool(int level) const;
+    void log_pool() const;
     Trial tried(const Start& start, bool ironed) const;
     void try_all(const std::vector<Start>& starts, bool ironed = true);
 
@@ -64,9 +80,7 @@ class Exploration {
     ExplorationOptions options_;
     AlternationOptions alternation_;
     Descent descent_;  ///< at the level where the pool is
-    std::mt19937 random_;
-    Levels extremities_;  ///< the coarse level whose samples are exchanged
-    std::vector<Trial> pool_;
+    ExplorationProgress progress_;
 };
 
 /// Solved no more precisely than telling maps apart takes.

@@ -48,12 +48,13 @@ bool has_turned_rival(const std::vector<Appraised>& list) {
 
 /// What most pairs need: one exploration, and maps finished just well enough to be told apart. In `finished`
 /// the map that landmarks lead to may be finished already.
-std::vector<Appraised> quickly_found(const PairContext& context, const ExploreParams& params,
-                                     const std::vector<PooledMap>& led, FinishedPool& finished,
-                                     LazySelfMaps& self_maps) {
+std::vector<Appraised> quickly_found(const PairContext& context, const ExplorationProgress& coarse,
+                                     const ExploreParams& params, const std::vector<PooledMap>& led,
+                                     FinishedPool& finished, LazySelfMaps& self_maps) {
     // A wrong map may look as good as that where the right one is the same, turned about, and was not found.
     constexpr double beyond_doubt = 0.985;
-    std::vector<PooledMap> pool = pooled(context, {params.exploration}, params, led);
+    std::vector<PooledMap> pool =
+        pooled(led, {explored(context, coarse, params.exploration, params)}, context);
     finished.add_new_of(pool);
     std::vector<Appraised> list = finished.appraised();
     if (!self_maps.exist() ||
@@ -85,14 +86,14 @@ struct ByMirrorImages {
 /// `found`: the best first. Where shapes differ much either search may miss the best map: a horse and a cow
 /// fit better by 3 as mirror images, though both are their own. Then what was found is mirrored back, if the
 /// choice is not sure. Shapes that are much alike are told apart by less.
-ByMirrorImages found_by_mirror_images(const PairContext& context, const ExploreParams& params,
-                                      const std::vector<Candidate>& found) {
+ByMirrorImages found_by_mirror_images(const PairContext& context, const ExplorationProgress& coarse,
+                                      const ExploreParams& params, const std::vector<Candidate>& found) {
     // Chosen by hand. Bodies in other poses, which are their own mirror images, differ by .2, and fit by -36
     // at best; left bones and hands fit right ones by -39.
     constexpr double better = 0.35, much_alike = -36, unlike = -32;
     const bool sure = confidence_of(found).confident;
     if (sure && found.front().score > unlike) return {};  // too far from what could tell them apart
-    const MirrorImages mirror(context, params, quick_finishing(params));
+    const MirrorImages mirror(context, coarse, params, quick_finishing(params));
     const double score = mirror.best().score, as_they_are = found.front().score;
     log("as mirror images: score {:.2f}, as they are {:.2f}", score, as_they_are);
     const bool are_much_alike = score < much_alike;
@@ -108,7 +109,7 @@ ByMirrorImages found_by_mirror_images(const PairContext& context, const ExploreP
 std::vector<Appraised> thoroughly_found(const PairContext& context, const ExploreParams& params,
                                         const std::vector<PooledMap>& led, const Appraisal& appraisal,
                                         LazySelfMaps& self_maps) {
-    std::vector<ExplorationOptions> explorations;
+    std::vector<std::vector<PooledMap>> explorations;
     for (const double factor : {1.0, 0.5}) {
         ExplorationOptions options = params.exploration;
         options.area_bound = std::max(1.0, factor * options.area_bound);
@@ -117,13 +118,13 @@ std::vector<Appraised> thoroughly_found(const PairContext& context, const Explor
         options.coarse *= 3;
         options.distinct /= 2;
         options.seed += int(explorations.size());
-        explorations.push_back(options);
+        explorations.push_back(explored(context, options, params));
     }
     FinishingOptions options = params.finishing;
     options.alternation = for_comparison(params.alternation, params.alternation.area_bound);
     options.euclidean_rounds = options.ironing.maximum_rounds;
     options.most += 4;
-    std::vector<PooledMap> pool = pooled(context, explorations, params, led);
+    std::vector<PooledMap> pool = pooled(led, explorations, context);
     self_maps.add_compositions(pool, 2 * params.composed);
     FinishedPool finished(context, options, appraisal);
     finished.add_new_of(pool);
@@ -239,10 +240,11 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask.self_maps);
-    std::vector<Appraised> list = quickly_found(context, params, led_there, finished, self_maps);
+    const ExplorationProgress coarse = coarsely_explored(context, params.exploration, params);
+    std::vector<Appraised> list = quickly_found(context, coarse, params, led_there, finished, self_maps);
     ByMirrorImages mirrored;
     if (self_maps.exist()) {
-        mirrored = found_by_mirror_images(context, params, ratings(list));
+        mirrored = found_by_mirror_images(context, coarse, params, ratings(list));
         finished.add(mirrored.maps);
         list = with_turns(finished, context, appraisal);
     }

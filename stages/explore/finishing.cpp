@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "stages/explore/components.h"
 #include "stages/explore/difference.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
@@ -215,11 +216,13 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
                                 const std::vector<MapStart>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known) {
     JointDescent descent(context, appraisal, options, known);
+    const ComponentTurns components(context, appraisal);
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
         FinishedMap map{one.start,
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy(), one.rough_scores};
+        components.as_the_rest(map.maps);
         const auto is_same = [&](const FinishedMap& other) {
             return are_the_same(other.maps, map.maps, context, options.distinct);
         };

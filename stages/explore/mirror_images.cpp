@@ -16,21 +16,14 @@ SurfaceData mirror_image(SurfaceData data) {
     return data;
 }
 
-/// Of one exploration, finished: the best of `most` maps first.
-std::vector<Appraised> best_maps(const PairContext& context, const ExplorationOptions& options,
-                                 const ExploreParams& params, FinishingOptions finishing, int most) {
+/// Of maps that were explored, finished: the best of `most` first.
+std::vector<Appraised> best_of(const std::vector<PooledMap>& explored, const PairContext& context,
+                               FinishingOptions finishing, int most) {
     finishing.most = most;
     const Appraisal appraisal(context);
     FinishedPool finished(context, std::move(finishing), appraisal);
-    finished.add(explored(context, options, params));
+    finished.add(explored);
     return finished.appraised();
-}
-
-/// One map is to be found, not all: chosen by hand, as much as finds the best of people, bones and hands.
-ExplorationOptions half_of(ExplorationOptions options) {
-    options.random_starts /= 2;
-    options.tip_starts /= 2;
-    return options;
 }
 
 /// Images of the vertices by the best maps of a surface onto its own mirror image.
@@ -39,7 +32,8 @@ std::vector<VertexImages> own_mirrors(const SurfaceData& data, const ExplorePara
     constexpr int most = 2;
     const PairContext context(data, mirror_image(data), {});
     std::vector<VertexImages> images;
-    for (const Appraised& one : best_maps(context, self_map_options(params), params, finishing, most)) {
+    const std::vector<PooledMap> found = explored(context, self_map_options(params), params);
+    for (const Appraised& one : best_of(found, context, finishing, most)) {
         log("onto its own mirror image: score {:.2f}", one.candidate.score);
         images.push_back(vertex_images(one.map.maps, context));
     }
@@ -57,11 +51,12 @@ std::string mirror_advice(const PairContext& context) {
     return opposed ? "leave --mirror out" : "give --mirror";
 }
 
-MirrorImages::MirrorImages(const PairContext& context, const ExploreParams& params,
-                           const FinishingOptions& finishing)
+MirrorImages::MirrorImages(const PairContext& context, const ExplorationProgress& coarse,
+                           const ExploreParams& params, const FinishingOptions& finishing)
     : context_(context), params_(params), finishing_(finishing) {
     const Timer timer("mirror images");
-    best_ = best_maps(with_mirror_image(context), half_of(params.exploration), params, finishing, 1).front();
+    const PairContext mirror = with_mirror_image(context);
+    best_ = best_of(explored(mirror, coarse, params.exploration, params), mirror, finishing, 1).front();
 }
 
 std::vector<PooledMap> MirrorImages::mirrored_back() const {

@@ -20,7 +20,9 @@ std::string mirror_advice(const PairContext& context);
 /// by these, to a map that may not have been found otherwise. Keeps a reference to the context.
 class MirrorImages {
   public:
-    MirrorImages(const PairContext& context, const ExploreParams& params, const FinishingOptions& finishing);
+    /// `coarse`: of the exploration of the pair as it is.
+    MirrorImages(const PairContext& context, const ExplorationProgress& coarse, const ExploreParams& params,
+                 const FinishingOptions& finishing);
 
     const Candidate& best() const { return best_.candidate; }
     /// The best map after, or followed by, the maps of either surface onto its own mirror image.

@@ -22,12 +22,23 @@ VertexImages vertex_images(const MapPair& maps, const PairContext& context) {
             nearest_vertices(maps.B_to_A, context.A().surface.mesh)};
 }
 
+ExplorationProgress coarsely_explored(const PairContext& context, const ExplorationOptions& options,
+                                      const ExploreParams& params) {
+    const Timer timer("exploration");
+    return Exploration(context, options, params.alternation, params.ironing).coarse_levels();
+}
+
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationOptions& options,
                                 const ExploreParams& params) {
-    Exploration exploration(context, options, params.alternation, params.ironing);
+    return explored(context, coarsely_explored(context, options, params), options, params);
+}
+
+std::vector<PooledMap> explored(const PairContext& context, const ExplorationProgress& coarse,
+                                const ExplorationOptions& options, const ExploreParams& params) {
     const Timer timer("exploration");
+    Exploration exploration(context, options, params.alternation, params.ironing);
     std::vector<PooledMap> pool;
-    for (const Trial& trial : exploration.run())
+    for (const Trial& trial : exploration.go_on(coarse))
         if (pool.empty() || !trial.is_mirrored())
             pool.push_back(
                 {exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
@@ -41,16 +52,16 @@ std::vector<PooledMap> led_by_landmarks(const PairContext& context, const Explor
     return {{exploration.images(trial), {.explored = 0, .energy = trial.energy()}}};
 }
 
-std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
-                              const ExploreParams& params, const std::vector<PooledMap>& led) {
-    std::vector<PooledMap> pool = led;
+std::vector<PooledMap> pooled(std::vector<PooledMap> led,
+                              const std::vector<std::vector<PooledMap>>& explorations,
+                              const PairContext& context) {
     int found = 0;
-    for (const ExplorationOptions& options : explorations)
-        for (PooledMap& map : explored(context, options, params)) {
+    for (const std::vector<PooledMap>& maps : explorations)
+        for (PooledMap map : maps) {
             map.origin.explored = ++found;
-            add_if_new(pool, std::move(map), context);
+            add_if_new(led, std::move(map), context);
         }
-    return pool;
+    return led;
 }
 
 void add_if_new(std::vector<PooledMap>& pool, PooledMap map, const PairContext& context) {

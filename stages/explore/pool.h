@@ -15,16 +15,24 @@ struct PooledMap {
     Candidate origin;
 };
 
-/// What one exploration finds, numbered from 1; mirrored maps only where there are no others.
+/// What one exploration finds on the levels too coarse to see orientation (Exploration::coarse_levels).
+ExplorationProgress coarsely_explored(const PairContext& context, const ExplorationOptions& options,
+                                      const ExploreParams& params);
+
+/// What one exploration finds, from there or from the beginning on, numbered from 1; mirrored maps only where
+/// there are no others.
+std::vector<PooledMap> explored(const PairContext& context, const ExplorationProgress& coarse,
+                                const ExplorationOptions& options, const ExploreParams& params);
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationOptions& options,
                                 const ExploreParams& params);
 
 /// The map that landmarks lead to; none without landmarks.
 std::vector<PooledMap> led_by_landmarks(const PairContext& context, const ExploreParams& params);
 
-/// `led`, if there is such a map, and those that explorations find, numbered through.
-std::vector<PooledMap> pooled(const PairContext& context, const std::vector<ExplorationOptions>& explorations,
-                              const ExploreParams& params, const std::vector<PooledMap>& led);
+/// `led`, if there is such a map, and those that explorations found, numbered through.
+std::vector<PooledMap> pooled(std::vector<PooledMap> led,
+                              const std::vector<std::vector<PooledMap>>& explorations,
+                              const PairContext& context);
 
 /// The vertices nearest to the images.
 VertexImages vertex_images(const MapPair& maps, const PairContext& context);

@@ -23,7 +23,7 @@ expect_ran ""
 # Another candidate is continued: nobody asks again to choose.
 map a.off b.off -o out --candidate 2
 ! grep -q 'not sure\|candidates.png' out.txt || fail "after --candidate 2 the summary still asks"
-grep -q 'explored: candidate 2 of [0-9]*, as asked; the first is right with a probability of' out.txt ||
+grep -q 'explored: candidate 2 of [0-9]*, as asked; the first, as it was found, is right with a probability of' out.txt ||
     fail "the summary does not say which candidate it is, or gives it the probability of the first: $(<out.txt)"
 "$varimap" report out >report.txt 2>log || fail "report"
 grep -q 'candidate 2, as asked' report.txt || fail "the report does not say which candidate it is"

@@ -250,12 +250,29 @@ TEST(MirrorImages, TellALeftOneFromARightOne) {
     EXPECT_THAT(doubt({opposite}), testing::HasSubstr("fit better as mirror images"));
 }
 
+TEST(MirrorImages, AreTheSameOnCoarseLevels) {
+    const KnownPair pair = shapes::figure_pair(.5, false, 1000);
+    const PairContext context(pair.A, pair.B, {});
+    const ExploreParams params;
+    const ExplorationProgress coarse = coarsely_explored(context, params.exploration, params),
+                              mirror =
+                                  coarsely_explored(with_mirror_image(context), params.exploration, params);
+    EXPECT_GT(coarse.levels, 3);
+    EXPECT_LT(coarse.levels, context.diffusion_levels());
+    ASSERT_EQ(coarse.levels, mirror.levels);
+    ASSERT_EQ(coarse.pool.size(), mirror.pool.size());
+    for (std::size_t n = 0; n < coarse.pool.size(); ++n)
+        EXPECT_EQ(coarse.pool[n].energy(), mirror.pool[n].energy());
+}
+
 TEST(MirrorImages, OfBodiesThatAreTheirOwnLeadToMapsAsTheyAre) {
     const KnownPair pair = person();
     const PairContext context(pair.A, pair.B, {});
     FinishingOptions options;
     options.gap = options.gap_at_first = 1000;
-    const MirrorImages mirror(context, ExploreParams(), options);
+    const ExploreParams params;
+    const MirrorImages mirror(context, coarsely_explored(context, params.exploration, params), params,
+                              options);
     EXPECT_LT(mirror.best().score, -30);
     std::vector<VertexImages> starts;
     for (const PooledMap& map : mirror.mirrored_back()) {
@@ -639,6 +656,7 @@ TEST(Confidence, NeverCallsAMapImpossibleOrCertain) {
     EXPECT_EQ(probability_in_words({.probability = .0099}), "right with a probability below 0.01");
     EXPECT_EQ(probability_in_words({.probability = 0}), "right with a probability below 0.01");
     EXPECT_EQ(probability_in_words({.probability = .994}), "right with a probability of 0.99");
+    EXPECT_EQ(probability_in_words({.probability = .899}), "right with a probability of 0.89");
     EXPECT_EQ(probability_in_words({.probability = .995}), "right with a probability above 0.99");
     EXPECT_EQ(probability_in_words({.probability = 1}), "right with a probability above 0.99");
 }

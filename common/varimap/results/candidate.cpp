@@ -122,7 +122,9 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
 std::string probability_in_words(const Confidence& confidence) {
     if (confidence.probability < .01) return "right with a probability below 0.01";
     if (confidence.probability >= .995) return "right with a probability above 0.99";
-    return fmt::format("right with a probability of {:.2f}", confidence.probability);
+    // Rounded down, so that what is not sure does not look as if it were.
+    return fmt::format("right with a probability of {:.2f}",
+                       std::floor(100 * confidence.probability + 1e-9) / 100);
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished) {

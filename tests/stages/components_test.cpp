@@ -1,0 +1,125 @@
+#include "stages/explore/components.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "fixtures/known_pair.h"
+#include "stages/generate/level_set.h"
+#include "varimap/mesh/closest_point.h"
+
+namespace varimap {
+namespace {
+
+using shapes::KnownPair;
+
+double distance_from_segment(const Vec3& p, const Vec3& from, const Vec3& to) {
+    const Vec3 along = to - from;
+    const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0., 1.);
+    return (p - from - t * along).norm();
+}
+
+bool is_on_bar(const Vec3& p) {
+    return p.y() > .65;
+}
+
+/// A body, and beside it a bar that is thicker at one end.
+TriangleMesh body_and_bar(double cell) {
+    const auto f = [](const Vec3& p) {
+        const double body = std::min({distance_from_segment(p, {-1, 0, 0}, {1, 0, 0}) - .35,
+                                      (p - Vec3(.8, 0, .4)).norm() - .35,
+                                      (p - Vec3(-.4, -.3, .3)).norm() - .25}),
+                     bar = std::min(distance_from_segment(p, {-.5, 1.25, 0}, {.4, 1.25, 0}) - .12,
+                                    (p - Vec3(.45, 1.25, .05)).norm() - .2);
+        return std::min(body, bar);
+    };
+    return shapes::level_set(f, {-1.6, -.9, -.7}, {1.6, 2.1, 1.1}, cell);
+}
+
+/// The bar turned in its place, the body as it is.
+Points bar_turned(Points points, double angle) {
+    const Vec3 centre(0, 1.25, 0);
+    const Eigen::AngleAxisd turn(angle, Vec3::UnitZ());
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+        if (const Vec3 p = points.row(i).transpose(); is_on_bar(p))
+            points.row(i) = (centre + turn * (p - centre)).transpose();
+    return points;
+}
+
+/// The same in the coordinates of the surfaces' meshes.
+Points places_on(const Surface& to, const Surface& from, double angle) {
+    const Points input = (from.mesh.vertices / from.scale).rowwise() + from.centre.transpose();
+    return (bar_turned(input, angle).rowwise() - to.centre.transpose()) * to.scale;
+}
+
+/// Another tessellation whose bar is turned.
+KnownPair pair_with_bar_turned(double angle) {
+    TriangleMesh other = body_and_bar(.085);
+    other.vertices = bar_turned(other.vertices, angle);
+    KnownPair pair = shapes::known_pair(body_and_bar(.09), other, {}, 60, {}, 1000);
+    pair.A_on_B = places_on(pair.B.surface, pair.A.surface, angle);
+    pair.B_on_A = places_on(pair.A.surface, pair.B.surface, -angle);
+    return pair;
+}
+
+PointMap nearest_points(const Points& places, const TriangleMesh& mesh) {
+    const ClosestPoint closest(mesh);
+    PointMap map;
+    for (Eigen::Index i = 0; i < places.rows(); ++i) map.push_back(closest(places.row(i).transpose()).point);
+    return map;
+}
+
+/// The map that turns the bar by an angle.
+MapPair maps_with_bar_turned(double angle, const KnownPair& pair) {
+    const Surface &A = pair.A.surface, &B = pair.B.surface;
+    return {nearest_points(places_on(B, A, angle), B.mesh), nearest_points(places_on(A, B, -angle), A.mesh)};
+}
+
+/// Mean error after components were turned as the rest.
+double error_as_the_rest(MapPair maps, const KnownPair& pair, const PairContext& context) {
+    const Appraisal appraisal(context);
+    ComponentTurns(context, appraisal).as_the_rest(maps);
+    return shapes::mean_error(maps, pair);
+}
+
+TEST(Components, AreThoseThatBridgesJoin) {
+    const KnownPair pair = pair_with_bar_turned(0);
+    const Components both(pair.A.surface);
+    ASSERT_EQ(both.count(), 2);
+    EXPECT_TRUE(both.are_several());
+    const int bar = 1 - both.largest();
+    EXPECT_NEAR(both.area(0) + both.area(1), 1, .02);  // the bridge has the rest
+    for (const int v : both.vertices(bar)) EXPECT_GT(both.mesh().vertex(v).y(), 0);
+    EXPECT_LT(both.faces(0).size() + both.faces(1).size(), std::size_t(both.mesh().face_count()));
+    EXPECT_FALSE(Components(shapes::figure_pair(.2, false, 300).A.surface).are_several());
+}
+
+TEST(Components, AreTurnedAsTheRest) {
+    const KnownPair pair = pair_with_bar_turned(0);
+    const PairContext context = pair.context();
+    const MapPair reversed = maps_with_bar_turned(std::numbers::pi, pair);
+    const double before = shapes::mean_error(reversed, pair);
+    EXPECT_GT(before, .03);
+    EXPECT_LT(error_as_the_rest(reversed, pair, context), .02);
+}
+
+TEST(Components, StayWhereTheyHaveLandmarks) {
+    const KnownPair pair = pair_with_bar_turned(0);
+    const MapPair reversed = maps_with_bar_turned(std::numbers::pi, pair);
+    const Components components(pair.A.surface);
+    const int on_bar = components.vertices(1 - components.largest()).front();
+    const int there = shapes::nearest_vertex(pair.B.surface.mesh, pair.A_on_B.row(on_bar).transpose());
+    const PairContext context(pair.A, pair.B, {{MeshVertex{on_bar}, MeshVertex{there}}});
+    EXPECT_EQ(error_as_the_rest(reversed, pair, context), shapes::mean_error(reversed, pair));
+}
+
+TEST(Components, StayWhereTheyDoLieOtherwise) {
+    const KnownPair pair = pair_with_bar_turned(std::numbers::pi / 2);
+    const MapPair right = maps_with_bar_turned(std::numbers::pi / 2, pair);
+    EXPECT_LT(shapes::mean_error(right, pair), .01);
+    EXPECT_EQ(error_as_the_rest(right, pair, pair.context()), shapes::mean_error(right, pair));
+}
+
+}  // namespace
+}  // namespace varimap
