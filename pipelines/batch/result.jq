@@ -11,6 +11,7 @@ def digits($n): if . == null then null else . * pow(10; $n) | round / pow(10; $n
     round_trip: ($q.round_trip.mean | digits(5)),
     landmarks_off: (if $q.landmarks | length > 0 then $q.landmarks | max | digits(5) else null end),
     strain: ($q.part.strain | digits(4)),
-    probability: ($first.probability | digits(3)), sure: $first.confident, sure_when_found: $q.exploration.confident_when_found,
+    # Rounded down, so that what is not sure does not look as if it were.
+    probability: ($first.probability | if . == null then null else . * 1000 + 1e-9 | floor / 1000 end), sure: $first.confident, sure_when_found: $q.exploration.confident_when_found,
     candidate: $candidate,
     warnings: $r.warnings, message: null}

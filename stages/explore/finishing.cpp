@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "stages/explore/components.h"
 #include "stages/explore/difference.h"
+#include "stages/explore/loose_components.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
@@ -55,6 +55,7 @@ class JointDescent {
           appraisal_(appraisal),
           options_(options),
           known_(known),
+          turns_(context, appraisal),
           descent_(context, options.alternation, options.ironing),
           euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
@@ -83,6 +84,7 @@ class JointDescent {
         return std::move(pursued_);
     }
     const LevelPair& level() const { return descent_.level(); }
+    const ComponentTurns& turns() const { return turns_; }
 
   private:
     /// Solves the first level, and returns its index.
@@ -161,7 +163,9 @@ class JointDescent {
     }
     void judge(Pursued& one) const {
         one.images = vertex_images(one.solution, level(), context_);
-        one.cues = appraisal_.cues(to_maps(one.images, context_));
+        MapPair maps = to_maps(one.images, context_);
+        turns_.turn_as_the_rest(maps);
+        one.cues = appraisal_.cues(maps);
         one.rough_scores.push_back(rough_score(one.cues));
     }
     /// On most of the surfaces.
@@ -174,6 +178,7 @@ class JointDescent {
     const Appraisal& appraisal_;
     const FinishingOptions& options_;
     const std::vector<FinishedMap>& known_;
+    const ComponentTurns turns_;
     Descent descent_;
     const IroningOptions euclidean_ironing_;
     std::vector<Pursued> pursued_;
@@ -216,13 +221,13 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
                                 const std::vector<MapStart>& starts, const FinishingOptions& options,
                                 const std::vector<FinishedMap>& known) {
     JointDescent descent(context, appraisal, options, known);
-    const ComponentTurns components(context, appraisal);
     std::vector<FinishedMap> finished;
     for (const Pursued& one : descent.run(starts)) {
         FinishedMap map{one.start,
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy(), one.rough_scores};
-        components.as_the_rest(map.maps);
+        if (const int turned = descent.turns().turn_as_the_rest(map.maps))
+            log("{} loose component{} turned as the rest", turned, turned == 1 ? "" : "s");
         const auto is_same = [&](const FinishedMap& other) {
             return are_the_same(other.maps, map.maps, context, options.distinct);
         };

@@ -15,6 +15,15 @@ std::vector<int> nearest_vertices(const PointMap& map, const TriangleMesh& to) {
     return vertices;
 }
 
+std::vector<PooledMap> pool_of(Exploration& exploration, ExplorationProgress coarse) {
+    std::vector<PooledMap> pool;
+    for (const Trial& trial : exploration.go_on(std::move(coarse)))
+        if (pool.empty() || !trial.is_mirrored())
+            pool.push_back(
+                {exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
+    return pool;
+}
+
 }  // namespace
 
 VertexImages vertex_images(const MapPair& maps, const PairContext& context) {
@@ -30,19 +39,16 @@ ExplorationProgress coarsely_explored(const PairContext& context, const Explorat
 
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationOptions& options,
                                 const ExploreParams& params) {
-    return explored(context, coarsely_explored(context, options, params), options, params);
+    const Timer timer("exploration");
+    Exploration exploration(context, options, params.alternation, params.ironing);
+    return pool_of(exploration, exploration.coarse_levels());
 }
 
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationProgress& coarse,
                                 const ExplorationOptions& options, const ExploreParams& params) {
     const Timer timer("exploration");
     Exploration exploration(context, options, params.alternation, params.ironing);
-    std::vector<PooledMap> pool;
-    for (const Trial& trial : exploration.go_on(coarse))
-        if (pool.empty() || !trial.is_mirrored())
-            pool.push_back(
-                {exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
-    return pool;
+    return pool_of(exploration, coarse);
 }
 
 std::vector<PooledMap> led_by_landmarks(const PairContext& context, const ExploreParams& params) {

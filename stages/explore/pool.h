@@ -19,8 +19,8 @@ struct PooledMap {
 ExplorationProgress coarsely_explored(const PairContext& context, const ExplorationOptions& options,
                                       const ExploreParams& params);
 
-/// What one exploration finds, from there or from the beginning on, numbered from 1; mirrored maps only where
-/// there are no others.
+/// What one exploration finds, from there (with the same options) or from the beginning on, numbered from 1;
+/// mirrored maps only where there are no others.
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationProgress& coarse,
                                 const ExplorationOptions& options, const ExploreParams& params);
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationOptions& options,

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "stages/explore/components.h"
+#include "stages/explore/loose_components.h"
 #include "stages/explore/principal_axes.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
@@ -42,7 +42,7 @@ double distance_from_itself(const Surface& surface, const ClosestPoint& closest,
 /// Turns about the principal axes that lay a surface nearly on itself.
 std::vector<Turn> turns_onto_itself(const Surface& surface, const ClosestPoint& closest) {
     // Of people and animals the least are .019 to .04. A lamp whose foot tells how it stands has .016 to .03.
-    const double near = Components(surface).are_several() ? 0.03 : 0.015;
+    const double near = SurfaceComponents(surface).are_several() ? 0.03 : 0.015;
     constexpr int angles = 24;
     std::vector<Turn> turns;
     const PrincipalAxes principal = principal_axes(surface);

@@ -77,6 +77,11 @@ const TriangleMesh& file_of(const Surface& surface) {
     return surface.link.is_identity() ? surface.input : surface.link.file;
 }
 
+bool is_cut_out(const Surface& surface) {
+    const std::vector<VertexFate>& fate = surface.link.fate;
+    return std::find(fate.begin(), fate.end(), VertexFate::outside_part) != fate.end();
+}
+
 bool one_is_inside_out(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return false;
     if (!is_closed(A.mesh) || !is_closed(B.mesh)) return false;

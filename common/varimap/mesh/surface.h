@@ -51,6 +51,9 @@ PointMap from_file(const PointMap& map, const Surface& source, const Surface& ta
 /// The surface's file as it was read; where nothing was repaired and the surface is mirrored, mirrored too.
 const TriangleMesh& file_of(const Surface& surface);
 
+/// Whether it is a part that was cut out of its file (part_region.h).
+bool is_cut_out(const Surface& surface);
+
 /// Whether of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored: all
 /// maps that keep the orientation are then those of a mirror image.
 bool one_is_inside_out(const Surface& A, const Surface& B);

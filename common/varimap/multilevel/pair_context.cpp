@@ -111,6 +111,13 @@ Levels PairContext::diffusion_samples(int index) const {
     return {A_.with_landmarks(A_.diffusion_source(index)), B_.with_landmarks(B_.diffusion_source(index))};
 }
 
+int PairContext::diffusion_sample_count(int index) const {
+    const auto count = [index](const Side& side) {
+        return samples_with(side.diffusion_source(index), side.landmarks).size();
+    };
+    return int(std::min(count(A_), count(B_)));
+}
+
 int PairContext::find_diffusion_level(const std::vector<int>& samples_A,
                                       const std::vector<int>& samples_B) const {
     for (int l = diffusion_levels() - 1; l >= 0; --l)

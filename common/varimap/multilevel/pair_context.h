@@ -33,6 +33,8 @@ class PairContext {
     LevelPair diffusion_level(int index) const;
     /// The same without embeddings.
     Levels diffusion_samples(int index) const;
+    /// Their number, on the side that has fewer. Builds no level.
+    int diffusion_sample_count(int index) const;
     /// The last diffusion level that has these samples, in this order; -1 if there is none. Builds no level.
     int find_diffusion_level(const std::vector<int>& samples_A, const std::vector<int>& samples_B) const;
 

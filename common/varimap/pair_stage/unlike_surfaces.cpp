@@ -23,12 +23,6 @@ constexpr double much_narrower = 0.4;
 /// Up to that a hole of a scan may be as wide.
 constexpr double as_holes = 0.4;
 
-/// To a part of itself.
-bool is_cut(const Surface& surface) {
-    return std::find(surface.link.fate.begin(), surface.link.fate.end(), VertexFate::outside_part) !=
-           surface.link.fate.end();
-}
-
 /// Per vertex whether it lies on the component of the largest area. Others hang on it by a tube (bridges.h):
 /// a body is whole if it wears an open jacket.
 std::vector<char> on_largest_component(const Surface& surface) {
@@ -96,7 +90,7 @@ void warn_of_other_holes(const Opening& a, const Opening& b) {
 }  // namespace
 
 void warn_of_part(const Surface& A, const Surface& B) {
-    if (!A.is_surface() || !B.is_surface() || is_cut(A) || is_cut(B)) return;
+    if (!A.is_surface() || !B.is_surface() || is_cut_out(A) || is_cut_out(B)) return;
     const Opening a = widest_opening(A), b = widest_opening(B);
     warn_of_part(a, b, "source", "target");
     warn_of_part(b, a, "target", "source");

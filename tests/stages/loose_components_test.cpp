@@ -1,4 +1,4 @@
-#include "stages/explore/components.h"
+#include "stages/explore/loose_components.h"
 
 #include <gtest/gtest.h>
 
@@ -79,23 +79,23 @@ MapPair maps_with_bar_turned(double angle, const KnownPair& pair) {
 /// Mean error after components were turned as the rest.
 double error_as_the_rest(MapPair maps, const KnownPair& pair, const PairContext& context) {
     const Appraisal appraisal(context);
-    ComponentTurns(context, appraisal).as_the_rest(maps);
+    ComponentTurns(context, appraisal).turn_as_the_rest(maps);
     return shapes::mean_error(maps, pair);
 }
 
-TEST(Components, AreThoseThatBridgesJoin) {
+TEST(LooseComponents, AreThoseThatBridgesJoin) {
     const KnownPair pair = pair_with_bar_turned(0);
-    const Components both(pair.A.surface);
+    const SurfaceComponents both(pair.A.surface);
     ASSERT_EQ(both.count(), 2);
     EXPECT_TRUE(both.are_several());
     const int bar = 1 - both.largest();
     EXPECT_NEAR(both.area(0) + both.area(1), 1, .02);  // the bridge has the rest
     for (const int v : both.vertices(bar)) EXPECT_GT(both.mesh().vertex(v).y(), 0);
     EXPECT_LT(both.faces(0).size() + both.faces(1).size(), std::size_t(both.mesh().face_count()));
-    EXPECT_FALSE(Components(shapes::figure_pair(.2, false, 300).A.surface).are_several());
+    EXPECT_FALSE(SurfaceComponents(shapes::figure_pair(.2, false, 300).A.surface).are_several());
 }
 
-TEST(Components, AreTurnedAsTheRest) {
+TEST(LooseComponents, AreTurnedAsTheRest) {
     const KnownPair pair = pair_with_bar_turned(0);
     const PairContext context = pair.context();
     const MapPair reversed = maps_with_bar_turned(std::numbers::pi, pair);
@@ -104,17 +104,33 @@ TEST(Components, AreTurnedAsTheRest) {
     EXPECT_LT(error_as_the_rest(reversed, pair, context), .02);
 }
 
-TEST(Components, StayWhereTheyHaveLandmarks) {
-    const KnownPair pair = pair_with_bar_turned(0);
+TEST(LooseComponents, OfMirrorImagesAreTurnedAsTheRest) {
+    KnownPair pair = pair_with_bar_turned(0);
     const MapPair reversed = maps_with_bar_turned(std::numbers::pi, pair);
-    const Components components(pair.A.surface);
-    const int on_bar = components.vertices(1 - components.largest()).front();
-    const int there = shapes::nearest_vertex(pair.B.surface.mesh, pair.A_on_B.row(on_bar).transpose());
-    const PairContext context(pair.A, pair.B, {{MeshVertex{on_bar}, MeshVertex{there}}});
+    // As --mirror leaves it: its faces look inward.
+    pair.B.surface.mesh.vertices.col(1) *= -1;
+    pair.A_on_B.col(1) *= -1;
+    const PairContext context = pair.context();
+    EXPECT_GT(shapes::mean_error(reversed, pair), .03);
+    EXPECT_LT(error_as_the_rest(reversed, pair, context), .02);
+}
+
+/// Of the map that leads the bar end for end, with one landmark.
+void expect_unturned(const KnownPair& pair, int a, int b) {
+    const MapPair reversed = maps_with_bar_turned(std::numbers::pi, pair);
+    const PairContext context(pair.A, pair.B, {{MeshVertex{a}, MeshVertex{b}}});
     EXPECT_EQ(error_as_the_rest(reversed, pair, context), shapes::mean_error(reversed, pair));
 }
 
-TEST(Components, StayWhereTheyDoLieOtherwise) {
+TEST(LooseComponents, StayWhereTheyHaveLandmarks) {
+    const KnownPair pair = pair_with_bar_turned(0);
+    const SurfaceComponents A(pair.A.surface), B(pair.B.surface);
+    const int bar_A = 1 - A.largest(), bar_B = 1 - B.largest();
+    expect_unturned(pair, A.vertices(bar_A).front(), B.vertices(B.largest()).front());
+    expect_unturned(pair, A.vertices(A.largest()).front(), B.vertices(bar_B).front());
+}
+
+TEST(LooseComponents, StayWhereTheyDoLieOtherwise) {
     const KnownPair pair = pair_with_bar_turned(std::numbers::pi / 2);
     const MapPair right = maps_with_bar_turned(std::numbers::pi / 2, pair);
     EXPECT_LT(shapes::mean_error(right, pair), .01);
