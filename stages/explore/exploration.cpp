@@ -189,7 +189,7 @@ Trial Exploration::follow_landmarks() {
     for (int l = 0; l < context_.diffusion_levels(); ++l) {
         enter(l);
         if (l == 0) try_all({zero_start(descent_.level())});
-        if (descent_.samples() >= options_.led_samples) break;
+        if (descent_.samples() >= options_.last_samples) break;
     }
     return std::move(progress_.pool.front());
 }

@@ -20,8 +20,7 @@ struct ExplorationOptions {
     int axes_maps = 0;       ///< maps from principal axes, besides the others
     int coarse = 10;         ///< maps that go on from levels with fewer than a hundred samples
     int candidates = 6;      ///< maps that reach the last level
-    int last_samples = 100;  ///< the first level with so many samples is the last
-    int led_samples = 150;   ///< the same for the map that landmarks lead to
+    int last_samples = 150;  ///< the first level with so many samples is the last
     double distinct = 0.2;   ///< maps closer than this are duplicates: squared distance of centres / variance
     double area_bound =
         2;  ///< with exact areas the cheapest map of shapes of other proportions is a wrong one
