@@ -2,6 +2,7 @@
 # A part finds its place on the whole, whichever is the source, and the rest of the whole is left out and named.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=(--set preprocess.target_edge_length=.15)  # a thousand vertices are enough
 figure rest.off 12
 figure whole.off 12 .3
 upper_part rest.off >part.off
@@ -37,7 +38,7 @@ jq '.round_trip.p95 = .12' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/r
 ! grep -q ' done:' log || fail "a second run finds something to do: $(grep -m 1 ' done:' log)"
 "$VARIMAP_BIN/varimap-inspect" --check out/artifacts/*.{region,surface} || fail "artifacts"
 make -s -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=part.off TARGET=whole.off OUT=made LANDMARKS=tips.txt PART=source \
-    RENDER_FLAGS="--width=64 --samples=1" VARIMAP_BIN="$VARIMAP_BIN" >log 2>&1 || fail "make"
+    PREPROCESS_FLAGS="--target_edge_length .15" RENDER_FLAGS="--width=64 --samples=1" VARIMAP_BIN="$VARIMAP_BIN" >log 2>&1 || fail "make"
 cmp out/source_to_target.csv made/source_to_target.csv || fail "make makes another map"
 
 map whole.off part.off -o back --landmarks tips.txt --part target

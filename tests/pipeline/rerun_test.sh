@@ -2,6 +2,7 @@
 # What reruns after which change, and nothing else does.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
+small_picture+=("${coarse[@]}")
 figure a.off 8
 figure b.off 8 .5
 figure c.off 8 -.5

@@ -121,9 +121,10 @@ void use_declared_spelling(std::vector<std::string>& arguments, const CLI::App& 
     for (auto& argument : arguments) {
         if (argument == "--") return;
         if (!argument.starts_with("--")) continue;
-        const auto end = std::min(argument.find('='), argument.size());
-        const auto known = declared.find(spelling(argument.substr(2, end - 2)));
-        if (known != declared.end()) argument = "--" + known->second + argument.substr(end);
+        const std::string given = argument.substr(2);
+        const std::string name = given.substr(0, given.find('='));
+        const auto known = declared.find(spelling(name));
+        if (known != declared.end()) argument = "--" + known->second + given.substr(name.size());
     }
 }
 
