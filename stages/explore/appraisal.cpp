@@ -11,13 +11,9 @@ namespace varimap {
 
 namespace {
 
-/// Degrees of the rotation R that minimises sum m |R (x - mean x) - (y - mean y)|^2 (Kabsch).
-double best_turn(const Points& x, const Points& y, const Eigen::VectorXd& mass) {
-    const Eigen::RowVector3d mean_x = mass.transpose() * x / mass.sum(),
-                             mean_y = mass.transpose() * y / mass.sum();
-    const Eigen::Matrix3d products =
-        (y.rowwise() - mean_y).transpose() * mass.asDiagonal() * (x.rowwise() - mean_x);
-    return Eigen::AngleAxisd(nearest_rotation(products)).angle() * 180 / std::numbers::pi;
+/// Of a rotation.
+double degrees(const Eigen::Matrix3d& rotation) {
+    return Eigen::AngleAxisd(rotation).angle() * 180 / std::numbers::pi;
 }
 
 }  // namespace
@@ -65,7 +61,7 @@ void compare(const MapPair& best, const MapPair& other, const PairContext& conte
         moved.row(v) = x.transpose();
     }
     candidate.moved_mass = share_elsewhere(moved, A.mesh.vertices, A, elsewhere);
-    candidate.turn = best_turn(A.mesh.vertices, moved, A.mass);
+    candidate.turn = degrees(nearest_rotation(A.mesh.vertices, moved, A.mass));
 }
 
 }  // namespace varimap

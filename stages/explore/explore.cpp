@@ -93,7 +93,9 @@ ByMirrorImages found_by_mirror_images(const PairContext& context, const Explorat
     constexpr double better = 0.35, much_alike = -36, unlike = -32;
     const bool sure = confidence_of(found).confident;
     if (sure && found.front().score > unlike) return {};  // too far from what could tell them apart
-    const MirrorImages mirror(context, coarse, params, quick_finishing(params));
+    // A left and a right one are isometric as mirror images, so that the right map has little energy.
+    const std::size_t most = sure ? 3 : std::numeric_limits<std::size_t>::max();
+    const MirrorImages mirror(context, coarse, params, quick_finishing(params), most);
     const double score = mirror.best().score, as_they_are = found.front().score;
     log("as mirror images: score {:.2f}, as they are {:.2f}", score, as_they_are);
     const bool are_much_alike = score < much_alike;

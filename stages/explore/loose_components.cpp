@@ -110,12 +110,9 @@ Vec3 SurfaceComponents::mean(int component, const Points& points) const {
 }
 
 Eigen::Matrix3d SurfaceComponents::turn(int component, const Points& images, bool mirrored) const {
-    const Vec3 here = mean(component, mesh().vertices), there = mean(component, images);
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (const int v : vertices(component))
-        products +=
-            surface_.mass[v] * (images.row(v).transpose() - there) * (mesh().vertex(v) - here).transpose();
-    return nearest_rotation(products, mirrored);
+    const std::vector<int>& own = vertices(component);
+    const Points here = mesh().vertices(own, Eigen::all), there = images(own, Eigen::all);
+    return nearest_rotation(here, there, surface_.mass(own), mirrored);
 }
 
 std::optional<int> SurfaceComponents::partner(int component, const PointMap& map,

@@ -1,5 +1,6 @@
 #include "stages/explore/mirror_images.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "stages/explore/self_maps.h"
@@ -52,11 +53,15 @@ std::string mirror_advice(const PairContext& context) {
 }
 
 MirrorImages::MirrorImages(const PairContext& context, const ExplorationProgress& coarse,
-                           const ExploreParams& params, const FinishingOptions& finishing)
+                           const ExploreParams& params, const FinishingOptions& finishing, std::size_t most)
     : context_(context), params_(params), finishing_(finishing) {
     const Timer timer("mirror images");
     const PairContext mirror = with_mirror_image(context);
-    best_ = best_of(explored(mirror, coarse, params.exploration, params), mirror, finishing, 1).front();
+    ExplorationOptions options = params.exploration;
+    options.last_samples = 100;  // one map is finished, whose exact rank among the others hardly matters
+    std::vector<PooledMap> found = explored(mirror, coarse, options, params);
+    found.erase(found.begin() + std::ptrdiff_t(std::min(most, found.size())), found.end());
+    best_ = best_of(found, mirror, finishing, 1).front();
 }
 
 std::vector<PooledMap> MirrorImages::mirrored_back() const {

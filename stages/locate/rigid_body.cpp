@@ -16,9 +16,7 @@ Pose RigidBody::fitted(const Points& from, const Points& to, const Eigen::Vector
     const double sum = weight.sum();
     const Eigen::RowVector3d from_mean = weight.transpose() * from / sum,
                              to_mean = weight.transpose() * to / sum;
-    const Eigen::Matrix3d turn = nearest_rotation(
-        (to.rowwise() - to_mean).transpose() * weight.asDiagonal() * (from.rowwise() - from_mean),
-        handedness_ < 0);
+    const Eigen::Matrix3d turn = nearest_rotation(from, to, weight, handedness_ < 0);
     return {turn, (to_mean - from_mean * turn.transpose()).transpose()};
 }
 

@@ -272,7 +272,7 @@ TEST(MirrorImages, OfBodiesThatAreTheirOwnLeadToMapsAsTheyAre) {
     options.gap = options.gap_at_first = 1000;
     const ExploreParams params;
     const MirrorImages mirror(context, coarsely_explored(context, params.exploration, params), params,
-                              options);
+                              options, 10);
     EXPECT_LT(mirror.best().score, -30);
     std::vector<VertexImages> starts;
     for (const PooledMap& map : mirror.mirrored_back()) {

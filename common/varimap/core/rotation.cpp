@@ -12,4 +12,13 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M, bool mirrored) {
     return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 }
 
+Eigen::Matrix3d nearest_rotation(const PointRows& from, const PointRows& to, const Eigen::VectorXd& weights,
+                                 bool mirrored) {
+    const double sum = weights.sum();
+    const Eigen::RowVector3d from_mean = weights.transpose() * from / sum,
+                             to_mean = weights.transpose() * to / sum;
+    return nearest_rotation(
+        (to.rowwise() - to_mean).transpose() * weights.asDiagonal() * (from.rowwise() - from_mean), mirrored);
+}
+
 }  // namespace varimap

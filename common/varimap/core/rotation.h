@@ -8,4 +8,10 @@ namespace varimap {
 /// one for which R x_k are nearest to y_k. `mirrored`: the best reflection instead.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M, bool mirrored = false);
 
+/// One point per row.
+using PointRows = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>;
+/// The same that takes weighted points nearest to others, both about their centroids.
+Eigen::Matrix3d nearest_rotation(const PointRows& from, const PointRows& to, const Eigen::VectorXd& weights,
+                                 bool mirrored = false);
+
 }  // namespace varimap

@@ -154,7 +154,10 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
     if (best.reversed_mass > mirrored)
         add(fmt::format("{:.0f}% of the surface is mirrored", 100 * best.reversed_mass));
     if (best.relief < unlike) add(fmt::format("relief agrees by {:.2f} only", best.relief));
-    return why.empty() ? "no one cue decides" : why;
+    if (why.empty())
+        return fmt::format("no number is bad by itself: Dirichlet energy {:.2f}, relief agrees by {:.2f}",
+                           finished ? finished->dirichlet : best.dirichlet, best.relief);
+    return why;
 }
 
 std::string decided_by(const std::vector<Candidate>& candidates) {
