@@ -20,8 +20,8 @@ std::string mirror_advice(const PairContext& context);
 /// by these, to a map that may not have been found otherwise. Keeps a reference to the context.
 class MirrorImages {
   public:
-    /// `coarse`: of the exploration of the pair as it is. `most` of the maps found, those of least energy, are
-    /// compared.
+    /// `coarse`: of the exploration of the pair as it is. `most` of the maps found, those of least energy,
+    /// are compared.
     MirrorImages(const PairContext& context, const ExplorationProgress& coarse, const ExploreParams& params,
                  const FinishingOptions& finishing, std::size_t most);
 
