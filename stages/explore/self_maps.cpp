@@ -51,7 +51,7 @@ ExplorationOptions self_map_options(const ExploreParams& params) {
     options.distinct = 0.4;
     options.random_starts *= 2;
     options.candidates = 4;
-    options.last_samples = 250;  // rougher self-maps composed are no good
+    options.last_samples = 400;  // rougher self-maps composed are no good
     return options;
 }
 
