@@ -1,22 +1,12 @@
 #include "stages/explore/appraisal.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "stages/explore/difference.h"
 #include "varimap/core/rotation.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {
-
-namespace {
-
-/// Of a rotation.
-double degrees(const Eigen::Matrix3d& rotation) {
-    return Eigen::AngleAxisd(rotation).angle() * 180 / std::numbers::pi;
-}
-
-}  // namespace
 
 void set_cues(Candidate& candidate, const Cues& cues) {
     candidate.relief = cues.relief;

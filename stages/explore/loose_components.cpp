@@ -1,9 +1,7 @@
 #include "stages/explore/loose_components.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "varimap/core/rotation.h"
@@ -33,10 +31,6 @@ std::vector<int> component_of_each_vertex(const Surface& surface) {
         of[v] = is_added ? -1 : of_input[std::size_t(nearest_vertex(surface.input, at))];
     }
     return of;
-}
-
-double degrees_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-    return Eigen::AngleAxisd(Eigen::Matrix3d(a.transpose() * b)).angle() * 180 / std::numbers::pi;
 }
 
 /// Lays components of one surface onto those of another, turned, centre on centre.
@@ -157,7 +151,7 @@ int ComponentTurns::turn_as_the_rest(MapPair& maps) const {
         const std::optional<int> b = a == largest ? std::nullopt : counterpart(a, maps);
         if (!b || A_.holds_any(a, context_.landmarks_A()) || B_.holds_any(*b, context_.landmarks_B()))
             continue;
-        if (degrees_between(rest, A_.turn(a, images, opposed)) < otherwise) continue;
+        if (degrees(rest.transpose() * A_.turn(a, images, opposed)) < otherwise) continue;
         MapPair other = maps;
         there.lay(other.A_to_B, a, *b, rest);
         back.lay(other.B_to_A, *b, a, rest.transpose());

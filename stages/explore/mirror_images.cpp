@@ -58,9 +58,10 @@ MirrorImages::MirrorImages(const PairContext& context, const ExplorationProgress
     const Timer timer("mirror images");
     const PairContext mirror = with_mirror_image(context);
     ExplorationOptions options = params.exploration;
-    options.last_samples = 100;  // one map is finished, whose exact rank among the others hardly matters
+    // The first that sees orientation: one map is finished, whose rank among the others hardly matters.
+    options.last_samples = params.ironing.minimum_samples;
     std::vector<PooledMap> found = explored(mirror, coarse, options, params);
-    found.erase(found.begin() + std::ptrdiff_t(std::min(most, found.size())), found.end());
+    found.resize(std::min(most, found.size()));
     best_ = best_of(found, mirror, finishing, 1).front();
 }
 

@@ -112,6 +112,9 @@ small_picture=(--set render.width=64 --set render.samples=1)
 # Besides, where the map itself does not matter: a few hundred vertices instead of 2500, which takes a second.
 # shellcheck disable=SC2034
 coarse=(--set preprocess.target_edge_length=.2 --set explore.random_starts=4)
+# Where it matters a little: a thousand vertices.
+# shellcheck disable=SC2034
+smaller=(--set preprocess.target_edge_length=.15)
 map() {
     "$varimap" map -v "${small_picture[@]}" "$@" >out.txt 2>log || fail "varimap map $* (exit $?)"
 }

@@ -2,7 +2,7 @@
 # A part finds its place on the whole, whichever is the source, and the rest of the whole is left out and named.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
-small_picture+=(--set preprocess.target_edge_length=.15)  # a thousand vertices are enough
+small_picture+=("${smaller[@]}")
 figure rest.off 12
 figure whole.off 12 .3
 upper_part rest.off >part.off

@@ -2,7 +2,7 @@
 # A template onto specimens whose vertices correspond: points, landmarks, the mean shape, components, several templates.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
-small_picture+=(--set preprocess.target_edge_length=.15)  # a thousand vertices are enough
+small_picture+=("${smaller[@]}")
 mkdir meshes points
 for twist in 1 2 3 4; do figure "meshes/s$twist.off" 10 ".$twist"; done
 figure template.off 10

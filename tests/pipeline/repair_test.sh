@@ -3,7 +3,7 @@
 # own. Every vertex of the file has its row, every tool takes the file, and the map is that of the clean mesh.
 # shellcheck source=tests/pipeline/common.sh
 . "$(dirname "$0")/common.sh"
-small_picture+=(--set preprocess.target_edge_length=.15)  # a thousand vertices are enough
+small_picture+=("${smaller[@]}")
 figure a.off 15
 figure b.off 15 .7
 landmarks_of_figure a.off >tips.txt

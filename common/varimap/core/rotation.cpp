@@ -1,7 +1,9 @@
 #include "varimap/core/rotation.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <numbers>
 
 namespace varimap {
 
@@ -19,6 +21,10 @@ Eigen::Matrix3d nearest_rotation(const PointRows& from, const PointRows& to, con
                              to_mean = weights.transpose() * to / sum;
     return nearest_rotation(
         (to.rowwise() - to_mean).transpose() * weights.asDiagonal() * (from.rowwise() - from_mean), mirrored);
+}
+
+double degrees(const Eigen::Matrix3d& rotation) {
+    return Eigen::AngleAxisd(rotation).angle() * 180 / std::numbers::pi;
 }
 
 }  // namespace varimap

@@ -14,4 +14,7 @@ using PointRows = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eige
 Eigen::Matrix3d nearest_rotation(const PointRows& from, const PointRows& to, const Eigen::VectorXd& weights,
                                  bool mirrored = false);
 
+/// The angle of a rotation, in degrees.
+double degrees(const Eigen::Matrix3d& rotation);
+
 }  // namespace varimap
