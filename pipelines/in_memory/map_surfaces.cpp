@@ -119,7 +119,7 @@ std::optional<Candidates> found_candidates(const PairContext& surfaces, const Su
         pair_context(std::move(sketch_A), std::move(sketch_B), given, options.landmark_weight);
     OnDemand ask;
     ask.surfaces = [&] { return surfaces; };
-    if (options.landmarks.empty()) ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
+    if (options.landmarks.empty()) ask.self_maps = find_when_asked(context, params);
     return explore(context, params, ask);
 }
 

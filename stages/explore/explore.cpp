@@ -46,6 +46,12 @@ bool has_turned_rival(const std::vector<Appraised>& list) {
     });
 }
 
+/// Whether the surfaces are so much alike that both have the same maps onto themselves.
+bool is_nearly_isometric(const Candidate& best) {
+    constexpr double plausible = 0.985, strained = 1.1;
+    return plausibility(best) >= plausible && best.dirichlet < strained;
+}
+
 /// What most pairs need: one exploration, and maps finished just well enough to be told apart. In `finished`
 /// the map that landmarks lead to may be finished already.
 std::vector<Appraised> quickly_found(const PairContext& context, const ExplorationProgress& coarse,
@@ -61,7 +67,10 @@ std::vector<Appraised> quickly_found(const PairContext& context, const Explorati
         (logged_plausibility(list.front().candidate) >= beyond_doubt && has_turned_rival(list)))
         return list;
     const size_t before = pool.size();
-    self_maps.add_compositions(pool, params.composed);
+    if (is_nearly_isometric(list.front().candidate))
+        self_maps.add_compositions_with_B(pool, params.composed);
+    else
+        self_maps.add_compositions(pool, params.composed);
     if (pool.size() == before) return list;
     finished.add_new_of(pool);
     return finished.appraised();

@@ -12,14 +12,15 @@ namespace varimap {
 /// leave the rest of a body to turn or twist, and a twisted one may look as plausible as the right map.
 int landmarks_apart(const PairContext& context);
 
-/// What is asked for only where it is needed; either may be empty.
+/// What is asked for only where it is needed; each may be empty.
 struct OnDemand {
-    std::function<SelfMaps()> self_maps;    ///< of both surfaces
+    SelfMapsOnDemand self_maps;
     std::function<PairContext()> surfaces;  ///< what was sketched, with the same landmarks
 };
 
-/// Maps worth continuing, the best first. What exploration finds is composed with self-maps of both surfaces,
-/// so that a wrong map brings the right one with it, unless one is beyond doubt without that. All are
+/// Maps worth continuing, the best first. What exploration finds is composed with self-maps of both surfaces
+/// (if they are nearly isometric, of one), so that a wrong map brings the right one with it, unless one is
+/// beyond doubt without that. All are
 /// finished at the resolution of these surfaces (meant to be sketches), and compared as finished maps
 /// (candidate.h). Where the choice is not sure, those that may be right are solved for on the surfaces
 /// that were sketched, and one that is clearly better there takes the first place.

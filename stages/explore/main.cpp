@@ -133,10 +133,14 @@ int main(int argc, char** argv) {
             throw UsageError(
                 "--onto_itself looks for maps of one surface: give it twice, with the same basis and "
                 "hierarchy");
-        std::optional<SelfMaps> given;
-        if (!self_map_files.empty())
-            given = {read_self_maps(stage, inputs, "A", self_map_files[0], A.surface.input),
-                     read_self_maps(stage, inputs, "B", self_map_files[1], B.surface.input)};
+        SelfMapsOnDemand given;
+        if (!self_map_files.empty()) {
+            const auto of = [&](const std::string& side, const std::string& path, const TriangleMesh& input) {
+                return [maps = read_self_maps(stage, inputs, side, path, input)] { return maps; };
+            };
+            given = {of("A", self_map_files[0], A.surface.input),
+                     of("B", self_map_files[1], B.surface.input)};
+        }
         std::optional<SketchedSurfaces> surfaces;
         if (!surface_files.empty()) surfaces = record_surfaces(stage, surface_files, inputs);
         const auto landmarks =
@@ -144,10 +148,10 @@ int main(int argc, char** argv) {
         const PairContext context =
             pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
         OnDemand ask;
-        if (given)
-            ask.self_maps = [&] { return *given; };
+        if (given.of_A)
+            ask.self_maps = given;
         else if (landmark_files.empty())
-            ask.self_maps = [&] { return find_self_maps_of_both(context, params); };
+            ask.self_maps = find_when_asked(context, params);
         if (surfaces)
             ask.surfaces = [&] {
                 return pair_context(surfaces->A.read(), surfaces->B.read(), landmarks,

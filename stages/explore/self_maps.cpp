@@ -74,10 +74,12 @@ Candidates find_self_maps(const PairContext& context, const ExploreParams& param
     return found;
 }
 
-SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& params) {
-    const Timer timer("self-maps");
-    return {find_self_maps({pair.A(), pair.A(), {}}, params),
-            find_self_maps({pair.B(), pair.B(), {}}, params)};
+SelfMapsOnDemand find_when_asked(const PairContext& pair, const ExploreParams& params) {
+    const auto found = [&params](const SurfaceData& surface) {
+        const Timer timer("self-maps");
+        return find_self_maps({surface, surface, {}}, params);
+    };
+    return {[&pair, found] { return found(pair.A()); }, [&pair, found] { return found(pair.B()); }};
 }
 
 std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& surface) {
@@ -107,13 +109,19 @@ void compose(std::vector<PooledMap>& pool, int count, const std::vector<VertexIm
     }
 }
 
+const std::vector<VertexImages>& LazySelfMaps::OfOne::images(const Surface& surface) {
+    if (!found) found = images_of(ask(), surface);
+    return *found;
+}
+
 void LazySelfMaps::add_compositions(std::vector<PooledMap>& pool, int count) {
     if (!exist()) return;
-    if (!images_) {
-        const SelfMaps found = ask_();
-        images_ = {images_of(found.A, context_.A().surface), images_of(found.B, context_.B().surface)};
-    }
-    compose(pool, count, images_->A, images_->B, context_);
+    compose(pool, count, A_.images(context_.A().surface), B_.images(context_.B().surface), context_);
+}
+
+void LazySelfMaps::add_compositions_with_B(std::vector<PooledMap>& pool, int count) {
+    if (!exist()) return;
+    compose(pool, count, {}, B_.images(context_.B().surface), context_);
 }
 
 }  // namespace varimap

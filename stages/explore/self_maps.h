@@ -18,10 +18,12 @@ Candidates find_self_maps(const PairContext& surface, const ExploreParams& param
 /// What they are looked for with.
 ExplorationOptions self_map_options(const ExploreParams& params);
 
-struct SelfMaps {
-    Candidates A, B;  ///< of each surface onto itself
+/// Those of either surface of a pair, looked for only when they are asked for; both functions may be empty.
+struct SelfMapsOnDemand {
+    std::function<Candidates()> of_A, of_B;
 };
-SelfMaps find_self_maps_of_both(const PairContext& pair, const ExploreParams& params);
+/// Keeps references to both.
+SelfMapsOnDemand find_when_asked(const PairContext& pair, const ExploreParams& params);
 
 /// The self-maps of an artifact, as images of the surface's vertices.
 std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& surface);
@@ -30,24 +32,28 @@ std::vector<VertexImages> images_of(const Candidates& self_maps, const Surface& 
 void compose(std::vector<PooledMap>& pool, int count, const std::vector<VertexImages>& self_maps_A,
              const std::vector<VertexImages>& self_maps_B, const PairContext& context);
 
-/// Self-maps of both surfaces of a pair, asked for once, where they are needed. Keeps references to the
+/// Self-maps of the surfaces of a pair, asked for once, where they are needed. Keeps references to the
 /// context and to `ask`, which may be empty: then there are none.
 class LazySelfMaps {
   public:
-    LazySelfMaps(const PairContext& context, const std::function<SelfMaps()>& ask)
-        : context_(context), ask_(ask) {}
-    bool exist() const { return bool(ask_); }
+    LazySelfMaps(const PairContext& context, const SelfMapsOnDemand& ask)
+        : context_(context), A_{ask.of_A}, B_{ask.of_B} {}
+    bool exist() const { return A_.ask && B_.ask; }
 
     /// Adds what the first `count` maps become with them (compose).
     void add_compositions(std::vector<PooledMap>& pool, int count);
+    /// The same with those of B alone. If a map is an isometry, those of A are those of B: what A's
+    /// make of it, B's make of it, too.
+    void add_compositions_with_B(std::vector<PooledMap>& pool, int count);
 
   private:
-    struct Images {
-        std::vector<VertexImages> A, B;
+    struct OfOne {
+        const std::function<Candidates()>& ask;
+        std::optional<std::vector<VertexImages>> found = {};
+        const std::vector<VertexImages>& images(const Surface& surface);
     };
     const PairContext& context_;
-    const std::function<SelfMaps()>& ask_;
-    std::optional<Images> images_;
+    OfOne A_, B_;
 };
 
 }  // namespace varimap

@@ -171,7 +171,7 @@ void run_explore(const Artifacts& all, const std::string&) {
     require_fit(all);
     require_surfaces(all.candidates, all.A.surface.input, all.A.surface.input);
     OnDemand ask;
-    ask.self_maps = [&] { return SelfMaps{all.candidates, {}}; };
+    ask.self_maps = {[&] { return all.candidates; }, [] { return Candidates(); }};
     ask.surfaces = [&] { return PairContext(all.A, all.B, {}); };
     encode(explore(PairContext(all.A, all.B, {}), explore_params(), ask));
 }

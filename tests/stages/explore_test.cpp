@@ -236,9 +236,10 @@ KnownPair person() {
 /// Explored without landmarks, as a pair of files is.
 Candidate best_of(const KnownPair& pair) {
     const PairContext context = pair.context();
+    const ExploreParams params;
     OnDemand ask;
-    ask.self_maps = [&] { return find_self_maps_of_both(context, ExploreParams()); };
-    return explore(context, ExploreParams(), ask).list.front();
+    ask.self_maps = find_when_asked(context, params);
+    return explore(context, params, ask).list.front();
 }
 
 TEST(MirrorImages, TellALeftOneFromARightOne) {
