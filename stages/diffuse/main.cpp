@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
         if (initial_map && placed_in.empty())
             warn_of_bad_initial_map(initial_map->from_A, A.surface, B.surface);
         const auto landmarks =
-            read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
+            read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_reading);
         const PairContext context =
             pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
         Diffusion diffusion = diffuse(context, params, candidates, initial_map);

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "varimap/mesh/io/index_base.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {
@@ -26,7 +27,7 @@ struct DiffuseParams {
     DescriptorWeights descriptors;
     int candidate = 1;                          ///< which of the candidates of varimap-explore is continued
     IndexBase map_base = IndexBase::automatic;  ///< of an initial map
-    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    LandmarkReading landmark_reading;
     double landmark_weight = 1;   ///< W of pull_landmarks (cost.h); 1: pinned
     bool check_landmarks = true;  ///< compares the map with one that lacks each landmark in turn
     int levels = 0;               ///< stop after this many diffusion levels; 0: all
@@ -43,7 +44,7 @@ struct DiffuseParams {
                  "which of the maps that varimap-explore found is continued (1: the best)", 1, 100);
         list.add("map_base", map_base,
                  "number of the first vertex in an initial map from vertices to vertices: 0, 1, or auto");
-        varimap::describe(list, landmark_space);
+        landmark_reading.describe(list);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);
         list.add("check_landmarks", check_landmarks, "names landmarks that the others contradict");

@@ -54,18 +54,20 @@ PointMap on_repaired(const PointMap& points, const RepairedMesh& target) {
 
 /// The errors on the repaired target, at vertices. `name`: of the map, for errors.
 MapErrors vertex_errors(const RepairedMesh& target, const PointMap& map,
-                        const std::vector<int>& source_points, std::vector<int> target_points,
-                        const std::string& name) {
-    if (!target.link.is_identity())
-        for (int& vertex : target_points) vertex = target.link.vertex[size_t(vertex)];
+                        const std::vector<std::pair<int, int>>& pairs, const std::string& name) {
+    std::vector<int> source_points, target_points;
+    for (const auto& [source, there] : pairs) {
+        source_points.push_back(source);
+        target_points.push_back(target.link.is_identity() ? there : target.link.vertex[size_t(there)]);
+    }
     return map_errors(on_repaired(map, target), target.mesh, source_points, target_points, name);
 }
 
 /// The same at landmarks of any form, which the map carries as points.
 MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const TriangleMesh& source,
-                          const std::vector<std::string>& files, const std::string& name) {
+                          const std::vector<std::string>& files, IndexBase base, const std::string& name) {
     const Landmarks landmarks =
-        read_landmarks(files, source, file_of(target), LandmarkSpace::stated, Repeats::allow);
+        read_landmarks(files, source, file_of(target), {.base = base}, Repeats::allow);
     const PointCarrier carry(source, map, file_of(target));
     PointMap images, truths;
     for (const auto& [point, truth] : as_points(landmarks, source, file_of(target)))
@@ -79,11 +81,10 @@ MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const
 MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const TriangleMesh* source,
                     const std::vector<std::string>& files, IndexBase base, const std::string& name) {
     if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
-        return vertex_errors(target, map, read_vertex_list(files[0], base, source),
-                             read_vertex_list(files[1], base, &file_of(target)), name);
+        return vertex_errors(target, map, read_vertex_pairs(files, base, source, &file_of(target)), name);
     if (source == nullptr)
         throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
-    return landmark_errors(target, map, *source, files, name);
+    return landmark_errors(target, map, *source, files, base, name);
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ int main(int argc, char** argv) {
         "map", "table of varimap, or a vertex of the target for each of the source: text, CSV, .npy, .npz");
     const auto& lists = stage.input_list(
         "points",
-        "vertices of the source and where they belong on the target, a list for each, row by row; or, with "
+        "vertices of the source and where they belong on the target, a list for each; or, with "
         "--source-mesh, landmarks in any form: one file of pairs, or two files");
     const auto& base_text = stage.option(
         "index-base",

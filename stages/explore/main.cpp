@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
         std::optional<SketchedSurfaces> surfaces;
         if (!surface_files.empty()) surfaces = record_surfaces(stage, surface_files, inputs);
         const auto landmarks =
-            read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_space);
+            read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_reading);
         const PairContext context =
             pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
         OnDemand ask;

@@ -2,6 +2,7 @@
 
 #include "stages/explore/exploration.h"
 #include "stages/explore/finishing.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {
@@ -15,7 +16,7 @@ struct ExploreParams {
     bool only_if_needed = false;  ///< with landmarks: unless the map that they lead to is a good one
     int few_landmarks = 10;       ///< with more, they are taken to decide
     int composed = 2;             ///< maps that self-maps are composed with
-    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    LandmarkReading landmark_reading;
     double landmark_weight = 1;  ///< W of pull_landmarks (cost.h); 1: pinned
 
     ExploreParams() { ironing.maximum_rounds = 0; }
@@ -44,7 +45,7 @@ struct ExploreParams {
                  "as in varimap-diffuse, for the maps that are finished", 0.0, 100.0);
         list.add("vicinity_weight", finishing.vicinity_weight,
                  "as in varimap-diffuse, for the maps that are finished", 0.0, 1000.0);
-        varimap::describe(list, landmark_space);
+        landmark_reading.describe(list);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);
     }

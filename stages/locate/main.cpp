@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
         SurfaceData sketch_A = sketches.read_A(stage), sketch_B = sketches.read_B(stage);
         const Surface A = read_surface(stage, sketches, "A", surface_A),
                       B = read_surface(stage, sketches, "B", surface_B);
-        const Landmarks landmarks = read_landmarks(stage, landmark_files, A, B, params.landmark_space);
+        const Landmarks landmarks = read_landmarks(stage, landmark_files, A, B, params.landmark_reading);
         const auto at_vertices = to_mesh_vertices(landmarks.vertices, A, B);
         const PairContext context = pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, 1);
         const Located located = locate(context, A, B, at_vertices, params);

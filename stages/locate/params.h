@@ -1,6 +1,7 @@
 #pragma once
 
 #include "stages/locate/sides.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/pair_stage/alternation_params.h"
 #include "varimap/stage/parameters.h"
 
@@ -9,7 +10,7 @@ namespace varimap {
 struct LocateParams {
     PartSide part = PartSide::none;
     PlacingOptions placing;
-    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    LandmarkReading landmark_reading;
     double enough = 0.05;  ///< strain by landmarks, on sketches, from which on no others are tried
 
     void describe(ParameterList& list) {
@@ -22,7 +23,7 @@ struct LocateParams {
         list.add("relief_weight", placing.relief_weight,
                  "weight of like relief against the isometry while the part is placed", 0, 1e3);
         list.add("enough", enough, "a part that is strained less is looked for no longer", 0, 1e6);
-        varimap::describe(list, landmark_space);
+        landmark_reading.describe(list);
     }
 };
 

@@ -15,13 +15,12 @@ using namespace varimap;
 struct RegisterParams {
     int components = 5;
     bool scale = true;
-    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    LandmarkReading landmark_reading;
 
     void describe(ParameterList& list) {
         list.add("components", components, "principal components to write", 0, 1000);
         list.add("scale", scale, "bring all specimens to one size before shapes are compared");
-        list.add("landmark_space", landmark_space,
-                 "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
+        landmark_reading.describe(list);
     }
 };
 
@@ -43,9 +42,9 @@ int main(int argc, char** argv) {
     const bool& check = stage.flag(
         "check", "only read the landmarks of the templates in the manifest, before there are maps");
     return stage.main(argc, argv, [&] {
-        if (check) return check_landmarks(manifest, params.landmark_space);
+        if (check) return check_landmarks(manifest, params.landmark_reading);
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
-        const Registration all = read_registration(manifest, params.landmark_space);
+        const Registration all = read_registration(manifest, params.landmark_reading);
         const Extents extents(all.first, all.points, all.is_part, all.names);
         const ResultFolder folder(stage, out);
         write_points(folder, all, extents);

@@ -25,9 +25,9 @@ std::string text_of(const Json& object, const char* key) {
 }
 
 TemplateLandmarks read_template_landmarks(const std::string& path, const TriangleMesh& mesh,
-                                          LandmarkSpace space) {
+                                          const LandmarkReading& reading) {
     TemplateLandmarks result;
-    for (const auto& [name, point] : read_placed_landmarks(path, mesh, space)) {
+    for (const auto& [name, point] : read_placed_landmarks(path, mesh, reading)) {
         result.add_name(name);
         result.points.push_back(point);
     }
@@ -81,14 +81,15 @@ PointMap in_order_of(const TemplateLandmarks& first, TemplateLandmarks own, cons
 
 /// The first template's landmarks on the template of an answer: by a file of its own where it has one.
 PointMap landmarks_on_template_of(const Answer& answer, const std::string& own_file, const Registration& all,
-                                  LandmarkSpace space) {
+                                  const LandmarkReading& reading) {
     if (answer.from_first.empty()) return all.landmarks->points;
     if (own_file.empty()) return carried_landmarks(all.landmarks->points, all.first, answer);
-    return in_order_of(*all.landmarks, read_template_landmarks(own_file, answer.map.from, space), own_file);
+    return in_order_of(*all.landmarks, read_template_landmarks(own_file, answer.map.from, reading), own_file);
 }
 
 /// `path`: of the manifest. The meshes and maps of a specimen are let go before the next one's are read.
-void add_specimen(const Json& specimen, const std::string& path, LandmarkSpace space, Registration& all) {
+void add_specimen(const Json& specimen, const std::string& path, const LandmarkReading& reading,
+                  Registration& all) {
     const std::string name = text_of(specimen, "name");
     std::vector<Answer> answers;
     std::vector<PointMap> landmarks;  // on the template of each answer
@@ -96,7 +97,7 @@ void add_specimen(const Json& specimen, const std::string& path, LandmarkSpace s
         answers.push_back(read_answer(entry, text_of(specimen, "mesh"), all.first));
         if (all.landmarks)
             landmarks.push_back(
-                landmarks_on_template_of(answers.back(), text_of(entry, "landmarks"), all, space));
+                landmarks_on_template_of(answers.back(), text_of(entry, "landmarks"), all, reading));
     }
     if (answers.empty()) throw InputError(path + ": " + name + ": no answers");
     log("{}: {} answers", name, answers.size());
@@ -133,27 +134,27 @@ void TemplateLandmarks::add_name(const std::string& name) {
     names.push_back(name.empty() ? std::to_string(names.size() + 1) : name);
 }
 
-Registration read_registration(const std::string& path, LandmarkSpace space) {
+Registration read_registration(const std::string& path, const LandmarkReading& reading) {
     Registration all;
     with_manifest(path, [&](const Json& manifest) {
         all.first = read_mesh(text_of(manifest, "template"));
         const std::string landmarks = text_of(manifest, "landmarks");
-        if (!landmarks.empty()) all.landmarks = read_template_landmarks(landmarks, all.first, space);
-        for (const Json& specimen : manifest.at("specimens")) add_specimen(specimen, path, space, all);
+        if (!landmarks.empty()) all.landmarks = read_template_landmarks(landmarks, all.first, reading);
+        for (const Json& specimen : manifest.at("specimens")) add_specimen(specimen, path, reading, all);
     });
     if (all.names.empty()) throw InputError(path + ": no specimens");
     return all;
 }
 
-void check_landmarks(const std::string& path, LandmarkSpace space) {
+void check_landmarks(const std::string& path, const LandmarkReading& reading) {
     with_manifest(path, [&](const Json& manifest) {
         std::optional<TemplateLandmarks> first;
         for (const Json& entry : manifest.at("templates")) {
             const std::string file = text_of(entry, "landmarks"), mesh = text_of(entry, "template");
             if (!first)
-                first = read_template_landmarks(file, read_mesh(mesh), space);
+                first = read_template_landmarks(file, read_mesh(mesh), reading);
             else if (const auto further = mesh_if_readable(mesh))
-                in_order_of(*first, read_template_landmarks(file, *further, space), file);
+                in_order_of(*first, read_template_landmarks(file, *further, reading), file);
         }
     });
 }

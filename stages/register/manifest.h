@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "stages/register/answers.h"
-#include "varimap/landmarks/landmark_points.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -33,11 +33,11 @@ struct Registration {
 
 /// Reads the manifest that `varimap register` writes (README.md) and all that it names; at least one
 /// specimen. Throws IoError; InputError naming the file that is malformed, that does not fit the meshes, or
-/// whose landmarks lie far from the template. `space`: the axes of landmark points.
-Registration read_registration(const std::string& path, LandmarkSpace space);
+/// whose landmarks lie far from the template. `reading`: of landmark files.
+Registration read_registration(const std::string& path, const LandmarkReading& reading);
 
 /// Reads the landmarks of `templates` in a manifest, `template` and `landmarks` each, the first template's
 /// before the others'. Throws as read_registration does where they could not be carried.
-void check_landmarks(const std::string& path, LandmarkSpace space);
+void check_landmarks(const std::string& path, const LandmarkReading& reading);
 
 }  // namespace varimap

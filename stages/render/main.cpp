@@ -22,9 +22,9 @@ Eigen::VectorXd read_masses(const std::string& path, const RepairedMesh& mesh) {
 
 /// Landmarks of the files, on the repaired meshes.
 PointPairs read_landmarks_on(const std::vector<std::string>& files, const RepairedMesh& A,
-                             const RepairedMesh& B, LandmarkSpace space) {
+                             const RepairedMesh& B, const LandmarkReading& reading) {
     if (files.empty()) return {};
-    const Landmarks landmarks = read_landmarks(files, file_of(A), file_of(B), space);
+    const Landmarks landmarks = read_landmarks(files, file_of(A), file_of(B), reading);
     PointMap on_A, on_B;
     for (const auto& [a, b] : as_points(landmarks, file_of(A), file_of(B)))
         on_A.push_back(a), on_B.push_back(b);
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
         require_previews(candidates, file_of(A), file_of(B));
         const Image image = masses.empty()
                                 ? render(A.mesh, B.mesh, A_to_B, B_to_A, params,
-                                         read_landmarks_on(landmarks, A, B, params.landmark_space))
+                                         read_landmarks_on(landmarks, A, B, params.landmark_reading))
                                 : render_distortion(A.mesh, B.mesh, A_to_B, B_to_A, read_masses(masses[0], A),
                                                     read_masses(masses[1], B), params);
         stage.write_file(out, to_png(image));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/landmarks/landmark_points.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/mesh_repair.h"
 #include "varimap/stage/parameters.h"
 
@@ -17,7 +17,7 @@ struct RenderParams {
     bool mirror = false;
     double ratio_range = 4;
     double conformal_range = 4;
-    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    LandmarkReading landmark_reading;
     RepairOptions repair;
 
     void describe(ParameterList& list) {
@@ -35,8 +35,7 @@ struct RenderParams {
         list.add("flips", flips, "shows triangles in magenta whose image is reversed");
         list.add("mirror", mirror,
                  "the map reverses orientation on purpose; flips are triangles where it does not");
-        list.add("landmark_space", landmark_space,
-                 "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
+        landmark_reading.describe(list);
         repair.describe(list);
     }
 };

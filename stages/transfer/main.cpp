@@ -16,7 +16,7 @@ struct TransferParams {
     int bake = 0;
     int padding = -1;
     int influences = 0;
-    LandmarkSpace space = LandmarkSpace::stated;
+    LandmarkReading reading;
 
     void describe(ParameterList& list) {
         list.add("bake", bake,
@@ -26,7 +26,7 @@ struct TransferParams {
         list.add("padding", padding, "baking: pixels coloured beyond the rim of every patch; -1: 8", -1, 256);
         list.add("influences", influences, "weights: how many to keep in each row, the largest; 0: all", 0,
                  1 << 20);
-        list.add("landmark_space", space, "points: their axes, as their file states them or others");
+        reading.describe(list);
     }
 };
 
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
                    texture,
                    onto,
                    mesh,
-                   params.space,
+                   params.reading,
                    {params.bake, params.padding},
                    params.influences,
                    out};

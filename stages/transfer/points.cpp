@@ -40,14 +40,22 @@ std::vector<std::optional<Vec3>> carried(const std::vector<Vec3>& positions, con
     return result;
 }
 
+/// Throws InputError where there are numbers of what has no image. `what`: is numbered.
+void require_none(const std::vector<std::size_t>& without, const std::string& path, const char* what) {
+    if (!without.empty())
+        throw InputError(fmt::format("{}: without an image on the other mesh: {} {}; leave these out", path,
+                                     what, fmt::join(without, ", ")));
+}
+
 std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images, const std::string& path) {
     std::vector<Vec3> positions;
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        if (!images[i])
-            throw InputError(fmt::format("{}: point {} (from 1) has no image on the other mesh; leave it out",
-                                         path, i + 1));
-        positions.push_back(*images[i]);
-    }
+    std::vector<std::size_t> without;
+    for (std::size_t i = 0; i < images.size(); ++i)
+        if (images[i])
+            positions.push_back(*images[i]);
+        else
+            without.push_back(i + 1);
+    require_none(without, path, "points (counted from 1)");
     return positions;
 }
 
@@ -84,27 +92,30 @@ std::string name_line(const TextRows& list) {
     return has_name(list) ? join(list.rows[0].words, list.separator) + "\n" : "";
 }
 
-int vertex_number(const TextRow& row, const std::string& path, int count, const char* what) {
+/// From 0. `first`: the number of the first one in the file.
+int number_of(const TextRow& row, const std::string& path, int first, int count, const char* what) {
     long long number = -1;
-    if (!to_index(row.words[0], number) || number < 0 || number >= count)
-        throw InputError(fmt::format("{}:{}: '{}' is not one of the mesh's {} {}, counted from 0", path,
-                                     row.line, excerpt(row.words[0]), count, what));
-    return int(number);
+    if (!to_index(row.words[0], number) || number < first || number >= count + first)
+        throw InputError(fmt::format("{}:{}: '{}' is not one of the mesh's {} {}, counted from {}", path,
+                                     row.line, excerpt(row.words[0]), count, what, first));
+    return int(number) - first;
 }
 
-std::string carry_vertices(const TextRows& rows, const std::string& path, const Correspondence& map,
-                           const PointCarrier& there) {
+/// `first`: the number of the first vertex.
+std::string carry_vertices(const TextRows& rows, const std::string& path, int first,
+                           const Correspondence& map, const PointCarrier& there) {
     const PointMap at_vertex = points_at_vertices(map.from);
     std::string text = name_line(rows);
+    std::vector<std::size_t> without;
     for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
-        const TextRow& row = rows.rows[i];
-        const int v = vertex_number(row, path, map.from.vertex_count(), "vertices");
+        const int v = number_of(rows.rows[i], path, first, map.from.vertex_count(), "vertices");
         const SurfacePoint image = there(at_vertex[std::size_t(v)]);
-        if (image.face < 0)
-            throw InputError(fmt::format("{}:{}: vertex {} has no image on the other mesh; leave it out",
-                                         path, row.line, v));
-        text += fmt::format("{}\n", nearest_vertex(map.to, image));
+        if (image.face >= 0)
+            text += fmt::format("{}\n", nearest_vertex(map.to, image) + first);
+        else
+            without.push_back(std::size_t(v + first));
     }
+    require_none(without, path, "vertices");
     return text;
 }
 
@@ -126,14 +137,16 @@ std::string carry_rows(TextRows rows, const std::string& path, const Corresponde
 
 }  // namespace
 
-std::string carry_points(const std::string& path, LandmarkSpace space, const Correspondence& map,
+std::string carry_points(const std::string& path, const LandmarkReading& reading, const Correspondence& map,
                          const PointCarrier& there) {
     const std::string bytes = read_file(path);
-    if (is_picked_points(path)) return carry_picked(path, bytes, space, map, there);
+    if (is_picked_points(path)) return carry_picked(path, bytes, reading.space, map, there);
     TextRows rows = split_rows(bytes, path, Content::numbers);
     const bool vertices = std::all_of(rows.rows.begin(), rows.rows.end(),
                                       [](const TextRow& row) { return row.words.size() == 1; });
-    return vertices ? carry_vertices(rows, path, map, there) : carry_rows(std::move(rows), path, map, there);
+    const int first = reading.base == IndexBase::one ? 1 : 0;
+    return vertices ? carry_vertices(rows, path, first, map, there)
+                    : carry_rows(std::move(rows), path, map, there);
 }
 
 std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back) {
@@ -143,14 +156,18 @@ std::string carry_region(const std::string& path, const Correspondence& map, con
         const TextRow& row = rows.rows[i];
         if (row.words.size() != 1)
             throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
-        inside[std::size_t(vertex_number(row, path, map.from.face_count(), "faces"))] = true;
+        inside[std::size_t(number_of(row, path, 0, map.from.face_count(), "faces"))] = true;
     }
-    std::string text = name_line(rows);
+    std::string text;
     for (int f = 0; f < map.to.face_count(); ++f) {
         const SurfacePoint at = back({f, Vec3::Constant(1 / 3.)});
         if (at.face >= 0 && inside[std::size_t(at.face)]) text += fmt::format("{}\n", f);
     }
-    return text;
+    if (text.empty())
+        warn("{}: no face of the other mesh has its centroid on this region: it is smaller than faces there, "
+             "or nothing is mapped to it",
+             path);
+    return name_line(rows) + text;
 }
 
 }  // namespace varimap

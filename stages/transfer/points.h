@@ -2,18 +2,19 @@
 
 #include <string>
 
-#include "varimap/landmarks/landmark_points.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/results/correspondence.h"
 
 namespace varimap {
 
 /// A file of points of one surface as it is for the other: the same text with other positions, so that names,
 /// order, colours and what else the program wrote stay. Reads 3D Slicer's .mrk.json and .fcsv, MeshLab's .pp,
-/// and lines (.txt, .csv and others) that hold a vertex number from 0 (the first may name them), or x y z and
+/// and lines (.txt, .csv and others) that hold a vertex number (the first may name them), or x y z and
 /// perhaps names, or whose first line names columns x, y and z. A vertex number becomes that of the nearest
-/// vertex. Axes are those of `space` (landmark_points.h) on either side. Points that are not defined stay as
-/// they are. Throws InputError, also where most points lie far from the surface; IoError.
-std::string carry_points(const std::string& path, LandmarkSpace space, const Correspondence& map,
+/// vertex. Axes and the first vertex's number (0 unless it is said to be 1) are those of `reading` on either
+/// side. Points that are not defined stay as they are. Throws InputError, also where most points lie far from
+/// the surface; IoError.
+std::string carry_points(const std::string& path, const LandmarkReading& reading, const Correspondence& map,
                          const PointCarrier& there);
 
 /// A list of faces (a number from 0 in each line, of which the first may name them) as that of the other

@@ -69,8 +69,11 @@ void require_effect(const TransferRequest& request) {
         throw UsageError("--padding is that of what is baked: give --bake a number of pixels, too");
     if (request.influences > 0 && request.weights.empty())
         throw UsageError("--influences says how many of --weights are kept: give a file of these, too");
-    if (request.space != LandmarkSpace::stated && request.points.empty())
+    const LandmarkReading usual;
+    if (request.reading.space != usual.space && request.points.empty())
         throw UsageError("--landmark-space says which axes --points have: give a file of these, too");
+    if (request.reading.base != usual.base && request.points.empty())
+        throw UsageError("--landmark-base says how --points count vertices: give a file of these, too");
 }
 
 /// Vertices without an image go where those near them went; that is a guess.
@@ -107,7 +110,7 @@ class Transfer {
 
     NamedFiles run() {
         for (const auto& path : request_.points)
-            add(name_of(path), carry_points(path, request_.space, map_, there_));
+            add(name_of(path), carry_points(path, request_.reading, map_, there_));
         for (const auto& path : request_.regions) add(name_of(path), carry_region(path, map_, back_));
         for (const auto& path : request_.values) add_values(path, ValueKind::number);
         for (const auto& path : request_.labels) add_values(path, ValueKind::label);

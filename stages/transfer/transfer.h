@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "stages/transfer/bake.h"
-#include "varimap/landmarks/landmark_points.h"
+#include "varimap/landmarks/vertex_list.h"
 #include "varimap/results/correspondence.h"
 
 namespace varimap {
@@ -16,7 +16,7 @@ struct TransferRequest {
     std::string texture;  ///< OBJ of the source with texture coordinates
     std::string onto;     ///< OBJ of the target with its own, to bake onto; empty: the target's mesh
     std::string mesh;     ///< OBJ of the source whose polygons are wanted on the target
-    LandmarkSpace space = LandmarkSpace::stated;
+    LandmarkReading reading = {};  ///< of points
     BakeSize bake{0};    ///< pixels 0: no baking, but coordinates cut at seams
     int influences = 0;  ///< weights kept in each row; 0: all
     /// Where the results go: no image takes the place of another that lies there; empty: nothing lies there.

@@ -26,17 +26,17 @@ std::vector<std::string> names_of(const std::string& file, std::size_t count) {
 }
 
 NamedLandmarks read_named_landmarks(const std::vector<std::string>& files, const Correspondence& map,
-                                    LandmarkSpace space) {
-    const PointPairs points = as_points(read_landmarks(files, map.from, map.to, space), map.from, map.to);
+                                    const LandmarkReading& reading) {
+    const PointPairs points = as_points(read_landmarks(files, map.from, map.to, reading), map.from, map.to);
     return {points, names_of(files[0], points.size())};
 }
 
 /// Landmarks that went into the map, with their names; none where their files have changed beyond use.
 NamedLandmarks landmarks_of(const std::vector<std::string>& files, const Correspondence& map,
-                            LandmarkSpace space) {
+                            const LandmarkReading& reading) {
     if (files.empty()) return {};
     try {
-        return read_named_landmarks(files, map, space);
+        return read_named_landmarks(files, map, reading);
     } catch (const InputError& error) {
         warn("{}; the page shows no landmarks", error.what());
         return {};
@@ -79,12 +79,9 @@ std::vector<PageCandidate> candidates_of(const Candidates& candidates, const Cor
 }  // namespace
 
 int main(int argc, char** argv) {
-    LandmarkSpace landmark_space = LandmarkSpace::stated;
+    LandmarkReading landmark_reading;
     Stage stage("view", "A page that shows a map, for any browser, without network");
-    stage.parameters([&](ParameterList& list) {
-        list.add("landmark_space", landmark_space,
-                 "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
-    });
+    stage.parameters([&](ParameterList& list) { landmark_reading.describe(list); });
     const auto& source = stage.input("source-mesh", "mesh the map starts from");
     const auto& target = stage.input("target-mesh", "mesh the map leads to");
     const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
@@ -106,7 +103,7 @@ int main(int argc, char** argv) {
         require_unchanged(target, target_hash);
         const MapFiles files{source, target, there, back};
         const Correspondence map = read_correspondence(files, false);
-        PageContent content{map, landmarks_of(landmarks, map, landmark_space), read_report(report), mirror};
+        PageContent content{map, landmarks_of(landmarks, map, landmark_reading), read_report(report), mirror};
         content.texture = texture_of(texture, map);
         if (!candidates_in.empty())
             content.candidates =

@@ -45,7 +45,7 @@ Target points(const std::string& name, const std::string& ending, const std::vec
               const std::vector<std::string>& dictionary) {
     return {name, seeds, dictionary, [=](const std::string& bytes) {
                 const ScratchFile file(bytes, ending);
-                carry_points(file.path(), LandmarkSpace::stated, fixture().map, fixture().carrier);
+                carry_points(file.path(), {}, fixture().map, fixture().carrier);
             }};
 }
 

@@ -203,7 +203,7 @@ TEST(Manifest, PickedLandmarksFarFromTheTemplateAreRefused) {
     write_file_atomically(folder / "manifest", R"({"template": ")" + (folder / "template.ply") +
                                                    R"(", "landmarks": ")" + (folder / "far.pp") + R"("})");
     try {
-        read_registration(folder / "manifest", LandmarkSpace::stated);
+        read_registration(folder / "manifest", {LandmarkSpace::stated});
         FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(),
@@ -230,7 +230,7 @@ class FurtherTemplate : public ::testing::Test {
                               R"(, "answers": [{"template": )" + path("body.ply") + R"(, "there": )" +
                               path("same.csv") + R"(, "back": )" + path("same.csv") + R"(, "from_first": )" +
                               path("same.csv") + R"(, "landmarks": )" + path("own.csv") + "}]}]}");
-        return read_registration(folder_ / "manifest", LandmarkSpace::stated);
+        return read_registration(folder_ / "manifest", {LandmarkSpace::stated});
     }
     std::string refusal(const std::string& first, const std::string& own) {
         try {
@@ -279,8 +279,8 @@ TEST_F(FurtherTemplate, LandmarksAreReadInTheAxesThatWereAskedFor) {
     write("turned.txt", turned);
     write("manifest", R"({"templates": [{"template": ")" + (folder_ / "body.ply") + R"(", "landmarks": ")" +
                           (folder_ / "turned.txt") + R"("}]})");
-    EXPECT_NO_THROW(check_landmarks(folder_ / "manifest", LandmarkSpace::ras));
-    EXPECT_THROW(check_landmarks(folder_ / "manifest", LandmarkSpace::stated), InputError);
+    EXPECT_NO_THROW(check_landmarks(folder_ / "manifest", {LandmarkSpace::ras}));
+    EXPECT_THROW(check_landmarks(folder_ / "manifest", {LandmarkSpace::stated}), InputError);
 }
 
 TEST_F(FurtherTemplate, RefusesLandmarksOfOtherNames) {

@@ -529,7 +529,7 @@ TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
     request = {};
     request.points = {write("v.txt", "5\n")};
     map.there[5] = {};
-    EXPECT_THAT(refusal(request, map), HasSubstr("v.txt:1: vertex 5 has no image"));
+    EXPECT_THAT(refusal(request, map), HasSubstr("v.txt: without an image on the other mesh: vertices 5;"));
 }
 
 TEST_F(Transfer, WeightsStaySumsOfOne) {
@@ -943,9 +943,9 @@ TEST_F(Transfer, RefusesWhatWouldHaveNoEffect) {
     request.influences = 4;
     EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("how many of --weights are kept"));
     request.influences = 0;
-    request.space = LandmarkSpace::lps;
+    request.reading.space = LandmarkSpace::lps;
     EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("which axes --points have"));
-    request.space = LandmarkSpace::stated;
+    request.reading.space = LandmarkSpace::stated;
     EXPECT_EQ(carry(request, identity(ball_)).size(), 1u);
 }
 

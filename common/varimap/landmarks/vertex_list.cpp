@@ -29,15 +29,17 @@ std::vector<PickedPoint> points_of_rows(const std::vector<ListRow>& rows, size_t
 }
 
 /// The list of one side: picked points, rows of coordinates, or vertex numbers.
-std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh, LandmarkSpace space) {
-    if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh, space);
+std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh,
+                             const LandmarkReading& reading) {
+    if (is_picked_points(path)) return snapped_list(read_picked_points(path), path, mesh, reading.space);
     const auto rows = read_list_rows(path);
     if (rows[0].numbers.size() == 3) {
         require_count(rows, path, {3}, "the three coordinates of a point, as in the first row");
-        return snapped_list(points_of_rows(rows, 0), path, mesh, space);
+        return snapped_list(points_of_rows(rows, 0), path, mesh, reading.space);
     }
-    const bool may_start_at_1 = has_ending(path, ".vts") || has_ending(path, ".csv");
-    return vertices_of_list(rows, path, may_start_at_1 ? IndexBase::automatic : IndexBase::zero, &mesh);
+    const bool others_start_at_0 = !has_ending(path, ".vts") && !has_ending(path, ".csv");
+    const bool at_0 = reading.base == IndexBase::automatic && others_start_at_0;
+    return vertices_of_list(rows, path, at_0 ? IndexBase::zero : reading.base, &mesh);
 }
 
 /// The rows of a file of pairs: of vertices, or of points (x y z x y z).
@@ -54,11 +56,13 @@ std::vector<ListRow> read_pair_rows(const std::string& path) {
 
 /// One side (0 source, 1 target) of such rows.
 std::vector<Named> side_of_pairs(const std::vector<ListRow>& rows, const std::string& path, size_t side,
-                                 const TriangleMesh& mesh, LandmarkSpace space) {
-    if (rows[0].numbers.size() == 6) return snapped_list(points_of_rows(rows, 3 * side), path, mesh, space);
+                                 const TriangleMesh& mesh, const LandmarkReading& reading) {
+    if (rows[0].numbers.size() == 6)
+        return snapped_list(points_of_rows(rows, 3 * side), path, mesh, reading.space);
+    const int first = reading.base == IndexBase::one ? 1 : 0;
     std::vector<Named> list;
     for (const ListRow& row : rows)
-        list.push_back({row.line, to_vertex(row, side, 0, path, &mesh), row.name});
+        list.push_back({row.line, to_vertex(row, side, first, path, &mesh), row.name});
     return list;
 }
 
@@ -96,8 +100,8 @@ void require_distinct(const std::vector<Named>& list, const std::string& path, c
 }  // namespace
 
 std::vector<PlacedLandmark> read_placed_landmarks(const std::string& path, const TriangleMesh& mesh,
-                                                  LandmarkSpace space) {
-    const std::vector<Named> list = read_side(path, mesh, space);
+                                                  const LandmarkReading& reading) {
+    const std::vector<Named> list = read_side(path, mesh, reading);
     require_used(list, path, "landmark", mesh, {});
     const PointMap at_vertex = points_at_vertices(mesh);
     std::vector<PlacedLandmark> landmarks;
@@ -120,7 +124,7 @@ bool holds_points(const std::string& path) {
 }
 
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input, LandmarkSpace space, Repeats repeats,
+                         const TriangleMesh& target_input, const LandmarkReading& reading, Repeats repeats,
                          const std::vector<VertexFate>& source_fates,
                          const std::vector<VertexFate>& target_fates) {
     if (files.size() != 1 && files.size() != 2)
@@ -132,8 +136,8 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
     std::vector<Named> lists[2];
     for (size_t side : {0, 1}) {
         const std::string& path = files[are_pairs ? 0 : side];
-        lists[side] = are_pairs ? side_of_pairs(pairs, path, side, *meshes[side], space)
-                                : read_side(path, *meshes[side], space);
+        lists[side] = are_pairs ? side_of_pairs(pairs, path, side, *meshes[side], reading)
+                                : read_side(path, *meshes[side], reading);
         const char* role = side == 0 ? "source" : "target";
         require_used(lists[side], path, role, *meshes[side], side == 0 ? source_fates : target_fates);
         if (repeats == Repeats::refuse) require_distinct(lists[side], path, role);

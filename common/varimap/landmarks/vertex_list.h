@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "varimap/landmarks/landmark_points.h"
@@ -11,13 +12,33 @@
 
 namespace varimap {
 
-/// Reads a list of vertices (.vts, .pinned, .csv, plain): a line is a vertex number, which x y z may follow;
-/// `#` starts a comment. Here as in all lists, a line may be split by commas instead of blanks, and all lines
-/// by semicolons or tabs where the first one is; then the first or last field may be a name, and the first
-/// line may hold headings. Automatic base: where the lines carry coordinates, those of the mesh decide; else
-/// 0. Returns 0-based numbers, in the file's order. Numbers are checked against `mesh` where it is given.
-/// Throws IoError; InputError naming file and line (malformed, out of range) or an empty file.
-std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh);
+/// Vertices of the source and their partners on the target, each from a list (.vts, .pinned, .csv, plain),
+/// matched as landmarks are (read_landmarks): a line is a vertex number, which x y z may follow; `#` starts a
+/// comment. Here as in all lists, a line may be split by commas instead of blanks, and all lines by
+/// semicolons or tabs where the first one is; then the first or last field may be a name, and the first line
+/// may hold headings. Automatic base: where the lines carry coordinates, those of the mesh decide; else 0.
+/// Returns 0-based numbers, in the source file's order; a vertex may be that of several. Numbers are checked
+/// against the meshes that are given. Throws IoError; InputError naming file and line (malformed, out of
+/// range), an empty file, or what has no partner.
+std::vector<std::pair<int, int>> read_vertex_pairs(const std::vector<std::string>& files, IndexBase base,
+                                                   const TriangleMesh* source, const TriangleMesh* target);
+
+/// How the numbers in files of landmarks are meant.
+struct LandmarkReading {
+    LandmarkSpace space = LandmarkSpace::stated;
+    /// Of the first vertex; automatic: in a .vts or .csv coordinates decide, else 0.
+    IndexBase base = IndexBase::automatic;
+
+    template <class List>
+    void describe(List& list) {
+        list.add("landmark_space", space,
+                 "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
+        list.add(
+            "landmark_base", base,
+            "number of the first vertex in lists of landmarks: 0, 1 or auto (coordinates in a .vts or .csv "
+            "decide, else 0)");
+    }
+};
 
 /// A landmark of one surface.
 struct PlacedLandmark {
@@ -27,7 +48,7 @@ struct PlacedLandmark {
 /// Those of a list for one surface, as read_landmarks reads it. Points that are switched off or not defined
 /// are left out, with a warning; several may be in one place. Throws as read_landmarks does.
 std::vector<PlacedLandmark> read_placed_landmarks(const std::string& path, const TriangleMesh& mesh,
-                                                  LandmarkSpace space);
+                                                  const LandmarkReading& reading);
 
 /// Whether a file holds points of one surface rather than numbers of vertices: picked points, or x y z in the
 /// first row. Throws as the readers do.
@@ -47,8 +68,7 @@ PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, con
 /// known partners that a map is compared with.
 enum class Repeats { refuse, allow };
 
-/// Landmarks from one file of pairs, or from two lists matched row by row (in
-/// a .vts or .csv, coordinates decide whether numbers start at 0; in any other list they do). Instead of
+/// Landmarks from one file of pairs, or from two lists matched row by row. Instead of
 /// vertices a file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of
 /// picked points (landmark_points.h). Lists are matched by name where all rows of both have distinct ones. A
 /// point stands for the vertex nearest to where it lies on the surface where vertices are needed; its
@@ -58,7 +78,7 @@ enum class Repeats { refuse, allow };
 /// any other number of files. `source_fates`, `target_fates`: of the vertices (FileLink), by which errors say
 /// why one has no face; empty where the mesh has all faces of its file.
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
-                         const TriangleMesh& target_input, LandmarkSpace space = LandmarkSpace::stated,
+                         const TriangleMesh& target_input, const LandmarkReading& reading = {},
                          Repeats repeats = Repeats::refuse, const std::vector<VertexFate>& source_fates = {},
                          const std::vector<VertexFate>& target_fates = {});
 

@@ -93,11 +93,13 @@ std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std:
     return list;
 }
 
-std::vector<int> read_vertex_list(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
-    std::vector<int> vertices;
-    for (const Named& named : vertices_of_list(read_list_rows(path), path, base, mesh))
-        vertices.push_back(named.vertex);
-    return vertices;
+std::vector<std::pair<int, int>> read_vertex_pairs(const std::vector<std::string>& files, IndexBase base,
+                                                   const TriangleMesh* source, const TriangleMesh* target) {
+    const std::vector<Named> lists[2]{vertices_of_list(read_list_rows(files[0]), files[0], base, source),
+                                      vertices_of_list(read_list_rows(files[1]), files[1], base, target)};
+    std::vector<std::pair<int, int>> pairs;
+    for (const auto& [a, b] : matched(lists, files)) pairs.emplace_back(a.vertex, b.vertex);
+    return pairs;
 }
 
 }  // namespace varimap

@@ -65,9 +65,4 @@ inline void describe(ParameterList& list, DescriptorWeights& weights) {
              "how strongly landmarks hold the places around them, too (0: only themselves)", 0.0, 1000.0);
 }
 
-inline void describe(ParameterList& list, LandmarkSpace& space) {
-    list.add("landmark_space", space,
-             "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
-}
-
 }  // namespace varimap

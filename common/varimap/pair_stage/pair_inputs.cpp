@@ -220,11 +220,11 @@ Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B) {
 }
 
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
-                         const Surface& B, LandmarkSpace space) {
+                         const Surface& B, const LandmarkReading& reading) {
     if (files.empty()) return {};
     const Landmarks landmarks = on_inputs(
-        read_landmarks(files, in_numbers_of_file(A.input, A.link), in_numbers_of_file(B.input, B.link), space,
-                       Repeats::refuse, A.link.fate, B.link.fate),
+        read_landmarks(files, in_numbers_of_file(A.input, A.link), in_numbers_of_file(B.input, B.link),
+                       reading, Repeats::refuse, A.link.fate, B.link.fate),
         A, B);
     for (size_t i = 0; i < files.size(); ++i)
         stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);

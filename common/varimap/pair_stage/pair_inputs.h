@@ -57,7 +57,7 @@ class PairInputs {
 Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B);
 /// Reads landmarks (vertex_list.h) and records their files as inputs.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
-                         const Surface& B, LandmarkSpace space);
+                         const Surface& B, const LandmarkReading& reading);
 /// The vertices that stand for landmarks on the surfaces' meshes: those at them, or else corners of the faces
 /// they lie on, a different one for each. Throws InputError for those no face uses, for two that became one,
 /// and where there are not enough.

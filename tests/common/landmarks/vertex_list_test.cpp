@@ -69,7 +69,7 @@ TEST_F(VertexList, SaysWhyAVertexHasNoFace) {
         std::vector<VertexFate> fates(11, VertexFate::kept);
         fates[10] = fate;
         try {
-            read_landmarks({pairs}, mesh_, mesh_, LandmarkSpace::stated, Repeats::refuse, {}, fates);
+            read_landmarks({pairs}, mesh_, mesh_, {LandmarkSpace::stated}, Repeats::refuse, {}, fates);
             ADD_FAILURE();
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), HasSubstr(reason));
@@ -77,35 +77,55 @@ TEST_F(VertexList, SaysWhyAVertexHasNoFace) {
     }
 }
 
+/// The numbers in a list, which is its own partner.
+std::vector<int> vertices_in(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
+    std::vector<int> vertices;
+    for (const auto& [vertex, partner] : read_vertex_pairs({path, path}, base, mesh, mesh)) {
+        EXPECT_EQ(vertex, partner);
+        vertices.push_back(vertex);
+    }
+    return vertices;
+}
+
 TEST_F(VertexList, ReadsNumbersCommentsAndBlankLines) {
     const auto path = write("a.pinned", "# five\n 3\n\n0 # first\r\n\t7\n");
-    EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 0, 7));
-    EXPECT_THAT(read_vertex_list(path, IndexBase::zero, nullptr), ElementsAre(3, 0, 7));
+    EXPECT_THAT(vertices_in(path, IndexBase::automatic, &mesh_), ElementsAre(3, 0, 7));
+    EXPECT_THAT(vertices_in(path, IndexBase::zero, nullptr), ElementsAre(3, 0, 7));
 }
 
 TEST_F(VertexList, ShiftsWhereNumbersStartAtOne) {
     const auto path = write("a.vts", "1\n8\n");
-    EXPECT_THAT(read_vertex_list(path, IndexBase::one, &mesh_), ElementsAre(0, 7));
+    EXPECT_THAT(vertices_in(path, IndexBase::one, &mesh_), ElementsAre(0, 7));
 }
 
 TEST_F(VertexList, LetsCoordinatesDecideTheBase) {
     const auto zero = write("zero.vts", "2 1 0 0.2\n5 2 1 0.5\n"),
                one = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
-    EXPECT_THAT(read_vertex_list(zero, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
-    EXPECT_THAT(read_vertex_list(one, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
-    EXPECT_THAT(read_vertex_list(one, IndexBase::zero, &mesh_), ElementsAre(3, 6));
+    EXPECT_THAT(vertices_in(zero, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
+    EXPECT_THAT(vertices_in(one, IndexBase::automatic, &mesh_), ElementsAre(2, 5));
+    EXPECT_THAT(vertices_in(one, IndexBase::zero, &mesh_), ElementsAre(3, 6));
 }
 
 TEST_F(VertexList, AVertexThatNoFaceUsesDoesNotBlurCoordinates) {
     TriangleMesh mesh = mesh_;
     mesh.vertices.row(10) << 1e9, 0, 0;
     const auto one = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
-    EXPECT_THAT(read_vertex_list(one, IndexBase::automatic, &mesh), ElementsAre(2, 5));
+    EXPECT_THAT(vertices_in(one, IndexBase::automatic, &mesh), ElementsAre(2, 5));
 }
 
 TEST_F(VertexList, StartsAtZeroWhereCoordinatesSayNothing) {
     const auto path = write("a.vts", "3 0.0 0.0 0.0\n6 0.0 0.0 0.0\n");
-    EXPECT_THAT(read_vertex_list(path, IndexBase::automatic, &mesh_), ElementsAre(3, 6));
+    EXPECT_THAT(vertices_in(path, IndexBase::automatic, &mesh_), ElementsAre(3, 6));
+}
+
+TEST_F(VertexList, MatchesVerticesByNameWhereAllHaveOne) {
+    const auto sources = write("a.csv", "name,vertex\nnose,3\near,0\ntail,7\n"),
+               targets = write("b.csv", "name,vertex\ntail,2\nnose,5\n"), rows = write("c.csv", "2\n5\n6\n");
+    EXPECT_THAT(read_vertex_pairs({sources, targets}, IndexBase::zero, &mesh_, &mesh_),
+                ElementsAre(std::pair(3, 5), std::pair(7, 2)));
+    EXPECT_THAT(read_vertex_pairs({sources, rows}, IndexBase::zero, &mesh_, &mesh_),
+                ElementsAre(std::pair(3, 2), std::pair(0, 5), std::pair(7, 6)));
+    EXPECT_THROW(read_vertex_pairs({targets, rows}, IndexBase::zero, &mesh_, &mesh_), InputError);
 }
 
 TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
@@ -120,15 +140,29 @@ TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
     for (const auto& [text, message] : cases) {
         const auto path = write("bad.txt", text);
         try {
-            read_vertex_list(path, IndexBase::zero, &mesh_);
+            vertices_in(path, IndexBase::zero, &mesh_);
             ADD_FAILURE() << text;
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), HasSubstr(path));
             EXPECT_THAT(error.what(), HasSubstr(message));
         }
     }
-    EXPECT_THROW(read_vertex_list(write("one.txt", "0\n"), IndexBase::one, &mesh_), InputError);
-    EXPECT_THROW(read_vertex_list(folder_ / "absent", IndexBase::zero, nullptr), IoError);
+    EXPECT_THROW(vertices_in(write("one.txt", "0\n"), IndexBase::one, &mesh_), InputError);
+    EXPECT_THROW(vertices_in(folder_ / "absent", IndexBase::zero, nullptr), IoError);
+}
+
+TEST_F(VertexList, LandmarksCountFromOneWhereThatIsSaid) {
+    const auto expected = are({{3, 0}, {5, 9}});
+    const LandmarkReading from_1{.base = IndexBase::one};
+    EXPECT_THAT(read_landmarks({write("p.txt", "4 1\n6 10\n")}, mesh_, mesh_, from_1).vertices, expected);
+    EXPECT_THAT(
+        read_landmarks({write("a.txt", "4\n6\n"), write("b.vts", "1\n10\n")}, mesh_, mesh_, from_1).vertices,
+        expected);
+    EXPECT_THROW(read_landmarks({write("p.txt", "0 1\n6 10\n")}, mesh_, mesh_, from_1), InputError);
+    // Coordinates would say 1.
+    const auto list = write("one.vts", "3 1 0 .2\n6 2 1 .5\n");
+    EXPECT_THAT(read_landmarks({list, list}, mesh_, mesh_, {.base = IndexBase::zero}).vertices,
+                are({{3, 3}, {6, 6}}));
 }
 
 TEST_F(VertexList, ReadsLandmarksFromPairsOrFromTwoLists) {
@@ -214,7 +248,7 @@ TEST_F(VertexList, ReadsCommasWhereBlanksAreRead) {
     // Vertex numbers from 1 with their coordinates.
     EXPECT_THAT(vertices_of("vertex,x,y,z\n5,2,0,.4\n3,1,0,.2\n", partners), expected);
     EXPECT_TRUE(holds_points(write("h.csv", "name,x,y,z\n1,2,0,.4\n")));
-    EXPECT_THAT(read_vertex_list(write("v.csv", "vertex,x,y,z\n5,2,0,.4\n"), IndexBase::automatic, &mesh_),
+    EXPECT_THAT(vertices_in(write("v.csv", "vertex,x,y,z\n5,2,0,.4\n"), IndexBase::automatic, &mesh_),
                 ElementsAre(4));
 }
 
@@ -275,7 +309,7 @@ TEST_F(VertexList, CountsThePointsOfJson) {
 
 TEST_F(VertexList, KnownPartnersMayRepeatAVertex) {
     const auto pairs = write("a", "1 2\n3 2\n");
-    const auto found = read_landmarks({pairs}, mesh_, mesh_, LandmarkSpace::stated, Repeats::allow);
+    const auto found = read_landmarks({pairs}, mesh_, mesh_, {LandmarkSpace::stated}, Repeats::allow);
     EXPECT_THAT(found.vertices, are({{1, 2}, {3, 2}}));
 }
 
@@ -380,10 +414,10 @@ TEST_F(VertexList, HonoursTheAxesThatFilesState) {
 TEST_F(VertexList, TheUserKnowsTheAxesBetter) {
     const auto expected = are({{4, 4}, {7, 7}, {9, 9}});
     const auto wrong = write("a.mrk.json", slicer("RAS", picked));
-    EXPECT_THAT(read_landmarks({wrong, wrong}, mesh_, mesh_, LandmarkSpace::as_is).vertices, expected);
-    EXPECT_THAT(read_landmarks({wrong, wrong}, mesh_, mesh_, LandmarkSpace::lps).vertices, expected);
+    EXPECT_THAT(read_landmarks({wrong, wrong}, mesh_, mesh_, {LandmarkSpace::as_is}).vertices, expected);
+    EXPECT_THAT(read_landmarks({wrong, wrong}, mesh_, mesh_, {LandmarkSpace::lps}).vertices, expected);
     const auto rows = write("b.txt", "-2 0 .4\n-3 -1 .7\n-4 -1 .9\n");
-    EXPECT_THAT(read_landmarks({rows, rows}, mesh_, mesh_, LandmarkSpace::ras).vertices, expected);
+    EXPECT_THAT(read_landmarks({rows, rows}, mesh_, mesh_, {LandmarkSpace::ras}).vertices, expected);
 }
 
 TEST_F(VertexList, NamesTheLikelyCauseWhereMostPointsLieFarFromTheSurface) {
