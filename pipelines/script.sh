@@ -11,6 +11,7 @@ set -euo pipefail +fC  # -f and -C may come with an exported SHELLOPTS
 shopt -s inherit_errexit
 unset CDPATH
 : "${name:?}"
+explains="$name --help"  # what tells a user about options; a script may say otherwise
 # One language of sorting, numbers and letters: in Turkish the capital of i is none of A-Z.
 export LC_ALL=C
 
@@ -177,7 +178,7 @@ require_number() {  # OPTION VALUE LEAST
 
 # The kind of the option NAME; an unknown one ends the script.
 kind_of() {  # NAME AS_TYPED
-    [[ $1 =~ ^[a-z][a-z-]*$ && -n ${options[$1]:-} ]] || fail 2 "unknown option $2; $name --help explains"
+    [[ $1 =~ ^[a-z][a-z-]*$ && -n ${options[$1]:-} ]] || fail 2 "unknown option $2; $explains explains"
     echo "${options[$1]}"
 }
 
@@ -213,7 +214,7 @@ parse_options() {
         words-*=*) option "$long"; word "${typed#*=}" ;;
         value-*=*) option "$long" "${typed#*=}" ;;
         value-*)
-            (($#)) || fail 2 "$typed needs a value; $name --help explains"
+            (($#)) || fail 2 "$typed needs a value; $explains explains"
             option "$long" "$1"
             shift
             ;;
@@ -225,44 +226,5 @@ parse_options() {
 # help_topic TOPIC: the page help/TOPIC.md as plain text; false where there is none.
 help_topic() {
     [[ $1 =~ ^[a-z][a-z-]*$ && -r $share/help/$1.md ]] || return
-    say "$(plain_topic "$1")"
-}
-
-plain_topic() {  # TOPIC
-    awk '
-        function show_table(    r, c, line) {
-            for (r = 1; r <= rows; r++) {
-                line = "   "
-                for (c = 1; c < columns; c++) line = line sprintf(" %-" width[c] "s ", cell[r, c])
-                print line " " cell[r, columns]
-            }
-            for (c in width) delete width[c]
-            rows = 0
-        }
-        function plain(text) {
-            gsub(/`|\*\*/, "", text)
-            while (match(text, /\[[^]]*\]\([^)]*\)/)) {
-                link = substr(text, RSTART + 1, RLENGTH - 2); sub(/\]\(.*/, "", link)
-                text = substr(text, 1, RSTART - 1) link substr(text, RSTART + RLENGTH)
-            }
-            return text
-        }
-        /^```/ { code = !code; next }
-        code { print "    " $0; next }
-        /^\|[-:| ]+\|$/ { next }
-        /^\|.*\|$/ {
-            row = plain($0); gsub(/\\\|/, "\001", row)
-            columns = split(substr(row, 2, length(row) - 2), cells, "|")
-            rows++
-            for (c = 1; c <= columns; c++) {
-                gsub(/^ +| +$/, "", cells[c]); gsub(/\001/, "|", cells[c])
-                cell[rows, c] = cells[c]
-                if (length(cells[c]) > width[c]) width[c] = length(cells[c])
-            }
-            next
-        }
-        rows { show_table() }
-        /^#/ { sub(/^#+ */, ""); print toupper(plain($0)); next }
-        { print plain($0) }
-        END { if (rows) show_table() }' "$share/help/$1.md"
+    say "$(awk -f "$share/plain_text.awk" "$share/help/$1.md")"
 }

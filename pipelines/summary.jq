@@ -3,8 +3,9 @@
 def fixed(d): . * pow(10; d) | round / pow(10; d);
 # Rounded down, so that what is not sure does not look as if it were.
 def in_hundredths: . * 100 + 1e-9 | floor / 100;
-def direction(name; d): "  \(name): \(d.verification.reversed_count) triangles reversed "
-    + "(\(d.verification.reversed_area_percent | fixed(2)) % of the area), \(d.verification.branch_points) branch points, "
+def counted(one; several): "\(.) \(if . == 1 then one else several end)";
+def direction(name; d): "  \(name): \(d.verification.reversed_count | counted("triangle"; "triangles")) reversed "
+    + "(\(d.verification.reversed_area_percent | fixed(2)) % of the area), \(d.verification.branch_points | counted("branch point"; "branch points")), "
     + "coverage \(d.coverage * 100 | fixed(1)) %, conformal distortion \(d.conformal_distortion.p50 | fixed(2))"
     + " (median), \(d.conformal_distortion.p95 | fixed(2)) (95 %)";
 def uncovered(name; d): d.uncovered | select(length > 0) | "  not reached on the \(name): "

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -121,11 +122,11 @@ int main(int argc, char** argv) {
         const MapErrors errors =
             errors_of(target, map, source ? &*source : nullptr, lists, index_base_from(base_text), map_path);
         if (errors.unmapped > 0)
-            warn("{} pairs left out: the map has no image for them, or the target is not mapped there",
-                 errors.unmapped);
+            warn("{} left out: the map has no image there, or the target is not mapped",
+                 counted(errors.unmapped, "pair", "pairs"));
         if (errors.apart > 0)
-            warn("{} images are on other components than they belong to: their errors are straight distances",
-                 errors.apart);
+            warn("{} on another component than it should be: the error is the straight distance there",
+                 counted(errors.apart, "image is", "images are"));
         if (!curve_path.empty()) write_file_atomically(curve_path, curve_csv(errors));
         fmt::print("{}", json ? as_json(errors) : as_text(errors));
     });

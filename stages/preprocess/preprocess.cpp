@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/bisection.h"
@@ -67,10 +68,13 @@ ThinFaceRemoval repaired(Normalised& normalised) {
     ThinFaceRemoval repair = remove_thin_faces(normalised.mesh, thinnest_face);
     require_no_thin_faces(repair);
     if (repair.collapsed + repair.turned == 0) return repair;
-    warn(
-        "{} sides were collapsed and {} turned to remove faces without area; {} vertices are mapped as "
-        "others are",
-        repair.collapsed, repair.turned, normalised.mesh.vertex_count() - repair.mesh.vertex_count());
+    std::vector<std::string> done;
+    if (repair.collapsed > 0) done.push_back(counted(repair.collapsed, "side collapsed", "sides collapsed"));
+    if (repair.turned > 0) done.push_back(counted(repair.turned, "side turned", "sides turned"));
+    const int gone = normalised.mesh.vertex_count() - repair.mesh.vertex_count();
+    if (gone > 0)
+        done.push_back(counted(gone, "vertex is mapped as another is", "vertices are mapped as others are"));
+    warn("faces without area removed: {}", fmt::join(done, ", "));
     for (int& vertex : normalised.vertex_of_input)
         if (vertex >= 0) vertex = repair.vertex[vertex];
     return repair;
@@ -161,8 +165,9 @@ void report(const RepairCounts& counts, const PreprocessParams& params) {
     if (counts.dropped_area > much)
         warn(
             "{:.1f}% of the area is on components that are left out, and has no image; map them on their "
-            "own, or set "
-            "--components all and a lower preprocess.least_component",
+            "own, or with the rest, by --set preprocess.least_component=0.001 or less and without "
+            "--components "
+            "largest",
             100 * counts.dropped_area);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "stages/relax/prolongation.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/local_shape.h"
@@ -126,9 +127,9 @@ UntanglingReport joined(const UntanglingReport& meshes, UntanglingReport inputs)
 void warn_of_mirrored_parts(const char* name, const UntanglingReport& report) {
     if (report.mirrored_parts > 0)
         warn(
-            "{}: {} parts with {:.1f}% of the area are mirrored and were left as they are; give landmarks on "
-            "them (--landmarks)",
-            name, report.mirrored_parts, report.gated_area_percent);
+            "{}: mirrored are {} with {:.1f}% of the area, left as they are; give landmarks there "
+            "(--landmarks)",
+            name, counted(report.mirrored_parts, "part", "parts"), report.gated_area_percent);
 }
 
 }  // namespace

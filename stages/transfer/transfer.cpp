@@ -14,6 +14,7 @@
 #include "stages/transfer/shape.h"
 #include "stages/transfer/values.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
@@ -81,7 +82,8 @@ void warn_of_followers(const PointMap& map, const std::string& path) {
     const auto count =
         std::count_if(map.begin(), map.end(), [](const SurfacePoint& image) { return image.face < 0; });
     if (count > 0)
-        warn("{}: {} vertices have no image; they follow the nearest vertices that have one", path, count);
+        warn("{}: {} no image; the nearest ones that have one decide there", path,
+             counted(count, "vertex has", "vertices have"));
 }
 
 /// Materials that faces have and no library describes.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "stages/verify/verify.h"
+#include "varimap/core/counted.h"
 #include "varimap/stage/stage_main.h"
 
 int main(int argc, char** argv) {
@@ -20,7 +21,8 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         const Verification found = verify_files(source, target, map, mirror, options, index_base_from(base));
         if (found.left_out_count > 0)
-            warn("{} triangles left out: a corner has no image", found.left_out_count);
+            warn("{} left out: a corner has no image",
+                 counted(found.left_out_count, "triangle", "triangles"));
         if (!found.degree)
             log("no degree: it needs closed surfaces, an image for every vertex, and room between the image "
                 "and "

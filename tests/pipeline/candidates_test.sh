@@ -47,3 +47,7 @@ paste <(tips a.off) <(tips b.off) >tips.txt
 map a.off b.off -o out --landmarks tips.txt
 jq -e '[.warnings[].stage] | index("explore a--b") == null' out/quality.json >/dev/null || fail "the warning of explore, which this map does without"
 [[ ! -e out/candidates.png ]] || fail "the candidates of an earlier run are still shown"
+# Candidate 2 is another one without them.
+map a.off b.off -o out --candidate 2 --until preprocess
+grep -q 'warning: what lies in out was mapped with landmarks, .*tips.txt: candidate 2 is not of the list found then' log ||
+    fail "landmarks that are left out change the candidates without a word"

@@ -25,7 +25,7 @@ jq -e --arg here "$PWD" '.provenance | .source.file == $here + "/a.off" and .tar
 # What other commands made of an earlier map in the folder is named.
 touch -d 2001-01-01 out/view.html
 map --out out --landmarks=list.txt list.txt --landmark-weight=.5 --set diffuse.area-bound=2 --set refine.area_bound=2 -j 1 -- a.off b.off
-grep -q '^older    out/view.html is of an earlier map: run varimap view out again$' out.txt || fail "an older page is not named"
+grep -q '^older    out/view.html was made before this map: run varimap view out again$' out.txt || fail "an older page is not named"
 touch out/view.html
 map --out out --landmarks=list.txt list.txt --landmark-weight=.5 --set diffuse.area-bound=2 --set refine.area_bound=2 -j 1 -- a.off b.off
 ! grep -q '^older' out.txt || fail "a page of this map is called older"
@@ -81,6 +81,10 @@ check_front_end() {  # VARIMAP
     says "LANDMARKS" "$1" help landmark
     says "CARRYING THINGS OVER" "$1" help transfers
     says "--count" "$1" help eig
+    says "survey MESH" "$1" help survey
+    says "good" "$1" report --help
+    expect_exit 2 "$1" map a.off b.off -o out --no-such-option
+    grep -q 'unknown option --no-such-option; varimap help map explains' log || fail "what explains options of map"
     expect_exit 2 "$1" help re
     grep -q 'error: no help on re; did you mean one of: .*register .*results?' log || fail "the nearest topics"
     expect_exit 2 "$1" help nothing
@@ -98,7 +102,7 @@ grep -q 'survey: error: empty: no mesh there' log || fail "a folder without mesh
 # From an installed prefix, and through a link to it.
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
-cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,summary.jq,script.sh,progress.sh,bench,bench-list,debian-meshes,gallery,plot,register,scaling,selftest,torus} prefix/share/varimap
+cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,report.jq,summary.jq,script.sh,plain_text.awk,progress.sh,bench,bench-list,debian-meshes,gallery,plot,register,scaling,selftest,survey,torus} prefix/share/varimap
 cp -r "$VARIMAP_SOURCE/pipelines/batch" prefix/share/varimap
 cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap

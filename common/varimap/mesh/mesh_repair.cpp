@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/duplicate_faces.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -285,7 +286,7 @@ std::string in_words(const RepairCounts& counts) {
     const auto add = [&](int count, const char* one, const char* several) {
         if (count == 0) return;
         if (!text.empty()) text += ", ";
-        text += fmt::format("{} {}", count, count == 1 ? one : several);
+        text += counted(count, one, several);
     };
     add(counts.welded, "vertex welded", "vertices welded");
     add(counts.not_finite, "face with a corner that is not a number dropped",
