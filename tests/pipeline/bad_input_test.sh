@@ -54,6 +54,8 @@ refuse 2 a.off b.off -o out --landmark-weight 0.2
 grep -Fq -- '--landmark-weight needs --landmarks' log || fail "the reason is not given"
 refuse 2 a.off b.off -o out --landmark-space ras
 grep -Fq -- '--landmark-space needs --landmarks' log || fail "the reason is not given"
+refuse 2 a.off b.off -o out --landmark-base 1
+grep -Fq -- '--landmark-base needs --landmarks' log || fail "the reason is not given"
 refuse 6 a.off absent.off -o out
 refuse 6 a.off . -o out
 refuse 6 a.off b.off -o out --landmarks absent.txt
@@ -72,6 +74,10 @@ refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight 1.5
 refuse 2 a.off b.off -o out --landmarks one.txt --landmark-weight firm
 refuse 2 a.off b.off -o out --area-energy other
 refuse 2 a.off b.off -o out --landmarks one.txt --landmark-space up
+refuse 2 a.off b.off -o out --landmarks one.txt --landmark-base 2
+printf '0 1\n' >zero.txt
+refuse 3 a.off b.off -o out --landmarks zero.txt --landmark-base 1
+grep -Fq 'vertex 0 is out of range: numbers start at 1' log || fail "a number below the first one is taken"
 map a.off b.off -o out >/dev/null 2>log || fail "a good pair"
 cp out/artifacts/a--b.map good.map
 refuse 2 a.off b.off -o out --set eigen.count=-3

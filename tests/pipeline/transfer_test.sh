@@ -56,6 +56,12 @@ refuse 2 "give --bake" good --texture a.obj --onto a.obj
 refuse 2 "give --bake" good --texture a.obj --padding 8
 refuse 2 "how many of --weights" good --values heat.txt --influences 4
 refuse 2 "which axes --points have" good --values heat.txt --landmark-space lps
+refuse 2 "how --points count vertices" good --values heat.txt --landmark-base 1
+printf '0\n5\n' >from_0.txt
+printf '1\n6\n' >from_1.txt
+run good --points from_0.txt -o carried
+run good --points from_1.txt --landmark-base 1 -o carried
+awk '{ print $1 + 1 }' carried/from_0.txt | cmp -s - carried/from_1.txt || fail "vertices that count from 1"
 rm a.mtl
 refuse 6 "its materials a.mtl are missing" good --texture a.obj
 printf 'newmtl skin\nmap_Kd skin.png\n' >a.mtl
