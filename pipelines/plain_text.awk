@@ -21,7 +21,7 @@ function unstarred(text) {
 
 function plain(text,    link) {
     gsub(/`|\*\*/, "", text)
-    while (match(text, /(^| )\*[A-Za-z][^*]*\*/))
+    while (match(text, /(^|[ (])\*[A-Za-z][^*]*\*/))
         text = substr(text, 1, RSTART - 1) unstarred(substr(text, RSTART, RLENGTH)) substr(text, RSTART + RLENGTH)
     while (match(text, /!?\[[^]]*\]\([^)]*\)/)) {
         link = substr(text, RSTART, RLENGTH)
@@ -31,25 +31,43 @@ function plain(text,    link) {
     return text
 }
 
-# Columns side by side where they fit; else the first of each row with the others below it.
-function show_table(    r, c, line, total) {
-    for (c = 1; c <= columns; c++) total += width[c] + 2
-    for (r = 1; r <= rows; r++) {
-        line = "   "
-        for (c = 1; c < columns; c++) line = line sprintf(" %-" width[c] "s ", cell[r, c])
-        if (total <= most) print line " " cell[r, columns]
-        else if (r > 1) {
-            wrap(cell[r, 1], "    ", "    ")
-            for (c = 2; c <= columns; c++)
-                if (cell[r, c] != "") wrap((columns > 2 ? cell[1, c] ": " : "") cell[r, c], "        ", "        ")
-        }
-    }
+# Columns side by side where they fit, the first of them wrapped where the others are narrow; else the first of each row
+# with the others below it. Pictures have no place here, nor has their heading.
+function show_table(    r, c, others) {
+    if (pictures) rows = 0
+    for (c = 2; c <= columns; c++) others += width[c] + 2
+    if (4 + width[1] + others <= most) for (r = 1; r <= rows; r++) show_row(r, width[1])
+    else if (columns > 2 && others <= most / 2) for (r = 1; r <= rows; r++) show_row(r, most - 4 - others)
+    else for (r = 2; r <= rows; r++) show_below(r)
     for (c in width) delete width[c]
-    rows = 0
+    rows = pictures = 0
+}
+
+function show_row(r, first,    c, line, words, n, i, piece) {
+    n = split(cell[r, 1], words, " ")
+    for (i = 1; i <= n; i++) {
+        if (length(piece words[i]) > first && piece != "") {
+            sub(/ $/, "", piece)
+            print "    " piece
+            piece = ""
+        }
+        piece = piece words[i] " "
+    }
+    sub(/ $/, "", piece)
+    line = sprintf("    %-" first "s", piece)
+    for (c = 2; c <= columns; c++) line = line sprintf("  %-" width[c] "s", cell[r, c])
+    sub(/ +$/, "", line)
+    print line
+}
+
+function show_below(r,    c) {
+    wrap(cell[r, 1], "    ", "    ")
+    for (c = 2; c <= columns; c++)
+        if (cell[r, c] != "") wrap((columns > 2 ? cell[1, c] ": " : "") cell[r, c], "        ", "        ")
 }
 
 function show_paragraph() {
-    if (paragraph != "") wrap(paragraph, indent, hanging)
+    if (paragraph != "") wrap(plain(paragraph), indent, hanging)
     paragraph = ""
 }
 
@@ -58,11 +76,12 @@ function flush() {
     if (rows) show_table()
 }
 
-BEGIN { most = 112 }
-/^```/ { flush(); code = !code; next }
+BEGIN { most = 112 }  # columns; code stays as wide as it is
+picture && !/^$/ && !/^\*[^*].*\*$/ { picture = 0 }
+/^ *```/ { flush(); code = !code; next }
 code { print "    " $0; next }
 /^\|[-:| ]+\|$/ { next }
-/^\|.*!\[.*\|$/ { next }  # pictures side by side
+/^\|.*!\[.*\|$/ { pictures = 1; next }
 /^\|.*\|$/ {
     show_paragraph()
     row = plain($0); gsub(/\\\|/, "\001", row)
@@ -76,19 +95,19 @@ code { print "    " $0; next }
     next
 }
 /^#/ { flush(); sub(/^#+ */, ""); print toupper(plain($0)); next }
-/^!\[/ { flush(); picture = 1; next }  # its caption is the paragraph after it
-/^\*[^*].*\*$/ && picture { picture = 0; next }
+/^!\[/ { flush(); picture = 1; next }
+/^\*[^*].*\*$/ && picture { next }  # its caption
 /^$/ { flush(); if (!picture) print; next }
 /^ *([-*]|[0-9]+\.) / {
     flush()
     match($0, /^ *([-*]|[0-9]+\.) /)
     indent = substr($0, 1, RLENGTH)
     hanging = sprintf("%" RLENGTH "s", "")
-    paragraph = plain(substr($0, RLENGTH + 1))
+    paragraph = substr($0, RLENGTH + 1)
     next
 }
 {
     if (paragraph == "") indent = hanging = ""
-    paragraph = paragraph (paragraph == "" ? "" : " ") plain($0)
+    paragraph = paragraph (paragraph == "" ? "" : " ") $0
 }
 END { flush() }

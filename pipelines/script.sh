@@ -226,5 +226,7 @@ parse_options() {
 # help_topic TOPIC: the page help/TOPIC.md as plain text; false where there is none.
 help_topic() {
     [[ $1 =~ ^[a-z][a-z-]*$ && -r $share/help/$1.md ]] || return
-    say "$(awk -f "$share/plain_text.awk" "$share/help/$1.md")"
+    local text
+    text=$(awk -f "$share/plain_text.awk" "$share/help/$1.md") || fail 6 "$share/plain_text.awk: cannot be used"
+    say "$text"
 }

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "varimap/mesh/io/index_base.h"
 #include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/io/index_base.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {

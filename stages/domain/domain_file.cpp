@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -127,8 +128,8 @@ std::vector<Vec3> rows_of_points(const std::string& path) {
 
 void require_enough(int points, const std::string& path) {
     if (points < least_points)
-        throw InputError(fmt::format("{}: {} point{}; at least {} are needed", path, points,
-                                     points == 1 ? "" : "s", least_points));
+        throw InputError(fmt::format("{}: {}; at least {} are needed", path,
+                                     counted(points, "point", "points"), least_points));
 }
 
 void require_distinct(const Points& points, const std::string& path) {

@@ -82,7 +82,8 @@ MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const
 MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const TriangleMesh* source,
                     const std::vector<std::string>& files, IndexBase base, const std::string& name) {
     if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
-        return vertex_errors(target, map, read_vertex_pairs(files, base, source, &file_of(target)), name);
+        return vertex_errors(target, map,
+                             read_vertex_pairs(files[0], files[1], base, source, &file_of(target)), name);
     if (source == nullptr)
         throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
     return landmark_errors(target, map, *source, files, base, name);

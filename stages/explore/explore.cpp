@@ -46,10 +46,14 @@ bool has_turned_rival(const std::vector<Appraised>& list) {
     });
 }
 
+/// A wrong map may look as good as that where the right one is the same, turned about, and was not found.
+constexpr double beyond_doubt = 0.985;
+
 /// Whether the surfaces are so much alike that both have the same maps onto themselves.
 bool is_nearly_isometric(const Candidate& best) {
-    constexpr double plausible = 0.985, strained = 1.1;
-    return plausibility(best) >= plausible && best.dirichlet < strained;
+    // Chosen by hand; all of 38 pairs below that keep their maps and probabilities.
+    constexpr double strained = 1.1;
+    return !is_mirrored(best) && plausibility(best) >= beyond_doubt && best.dirichlet < strained;
 }
 
 /// What most pairs need: one exploration, and maps finished just well enough to be told apart. In `finished`
@@ -57,8 +61,6 @@ bool is_nearly_isometric(const Candidate& best) {
 std::vector<Appraised> quickly_found(const PairContext& context, const ExplorationProgress& coarse,
                                      const ExploreParams& params, const std::vector<PooledMap>& led,
                                      FinishedPool& finished, LazySelfMaps& self_maps) {
-    // A wrong map may look as good as that where the right one is the same, turned about, and was not found.
-    constexpr double beyond_doubt = 0.985;
     std::vector<PooledMap> pool =
         pooled(led, {explored(context, coarse, params.exploration, params)}, context);
     finished.add_new_of(pool);

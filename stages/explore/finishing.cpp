@@ -5,6 +5,7 @@
 
 #include "stages/explore/difference.h"
 #include "stages/explore/loose_components.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
@@ -227,7 +228,7 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy(), one.rough_scores};
         if (const int turned = descent.turns().turn_as_the_rest(map.maps))
-            log("{} loose component{} turned as the rest", turned, turned == 1 ? "" : "s");
+            log("{} turned as the rest", counted(turned, "loose component", "loose components"));
         const auto is_same = [&](const FinishedMap& other) {
             return are_the_same(other.maps, map.maps, context, options.distinct);
         };

@@ -166,8 +166,7 @@ void report(const RepairCounts& counts, const PreprocessParams& params) {
         warn(
             "{:.1f}% of the area is on components that are left out, and has no image; map them on their "
             "own, or with the rest, by --set preprocess.least_component=0.001 or less and without "
-            "--components "
-            "largest",
+            "--components largest",
             100 * counts.dropped_area);
 }
 

@@ -26,7 +26,8 @@ struct TransferParams {
         list.add("padding", padding, "baking: pixels coloured beyond the rim of every patch; -1: 8", -1, 256);
         list.add("influences", influences, "weights: how many to keep in each row, the largest; 0: all", 0,
                  1 << 20);
-        reading.describe(list);
+        list.add("landmark_space", reading.space, "points: their axes, as their file states them or others");
+        list.add("landmark_base", reading.base, "points that are vertices: number of the first; auto: 0");
     }
 };
 

@@ -40,11 +40,18 @@ std::vector<std::optional<Vec3>> carried(const std::vector<Vec3>& positions, con
     return result;
 }
 
-/// Throws InputError where there are numbers of what has no image. `what`: is numbered.
-void require_none(const std::vector<std::size_t>& without, const std::string& path, const char* what) {
-    if (!without.empty())
-        throw InputError(fmt::format("{}: without an image on the other mesh: {} {}; leave these out", path,
-                                     what, fmt::join(without, ", ")));
+/// Throws InputError naming the first of what has no image. `one`, `several`: what is numbered.
+void refuse_those_without_image(const std::vector<std::size_t>& without, const std::string& path,
+                                const char* one, const char* several) {
+    if (without.empty()) return;
+    constexpr std::size_t most = 12;
+    const std::size_t shown = std::min(without.size(), most);
+    const std::string more =
+        without.size() > shown ? fmt::format(" and {} more", without.size() - shown) : std::string();
+    throw InputError(fmt::format("{}: without an image on the other mesh: {} {}{}; leave out what has none",
+                                 path, without.size() == 1 ? one : several,
+                                 fmt::join(without.begin(), without.begin() + std::ptrdiff_t(shown), ", "),
+                                 more));
 }
 
 std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images, const std::string& path) {
@@ -55,7 +62,7 @@ std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images,
             positions.push_back(*images[i]);
         else
             without.push_back(i + 1);
-    require_none(without, path, "points (counted from 1)");
+    refuse_those_without_image(without, path, "point (from 1)", "points (from 1)");
     return positions;
 }
 
@@ -115,7 +122,7 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, int fi
         else
             without.push_back(std::size_t(v + first));
     }
-    require_none(without, path, "vertices");
+    refuse_those_without_image(without, path, "vertex", "vertices");
     return text;
 }
 
@@ -164,9 +171,10 @@ std::string carry_region(const std::string& path, const Correspondence& map, con
         if (at.face >= 0 && inside[std::size_t(at.face)]) text += fmt::format("{}\n", f);
     }
     if (text.empty())
-        warn("{}: no face of the other mesh has its centroid on this region: it is smaller than faces there, "
-             "or nothing is mapped to it",
-             path);
+        warn(
+            "{}: no face of the other mesh has its centroid on this region: it is smaller than faces there, "
+            "or nothing is mapped to it",
+            path);
     return name_line(rows) + text;
 }
 

@@ -82,8 +82,8 @@ void warn_of_followers(const PointMap& map, const std::string& path) {
     const auto count =
         std::count_if(map.begin(), map.end(), [](const SurfacePoint& image) { return image.face < 0; });
     if (count > 0)
-        warn("{}: {} no image; the nearest ones that have one decide there", path,
-             counted(count, "vertex has", "vertices have"));
+        warn("{}: {} the nearest vertices that have one", path,
+             counted(count, "vertex has no image and follows", "vertices have no image; they follow"));
 }
 
 /// Materials that faces have and no library describes.

@@ -49,5 +49,5 @@ jq -e '[.warnings[].stage] | index("explore a--b") == null' out/quality.json >/d
 [[ ! -e out/candidates.png ]] || fail "the candidates of an earlier run are still shown"
 # Candidate 2 is another one without them.
 map a.off b.off -o out --candidate 2 --until preprocess
-grep -q 'warning: what lies in out was mapped with landmarks, .*tips.txt: candidate 2 is not of the list found then' log ||
+grep -q 'warning: the map in out was made with .*tips.txt: candidate 2 is not of the list found then' log ||
     fail "landmarks that are left out change the candidates without a word"

@@ -233,6 +233,23 @@ KnownPair person() {
     return shapes::known_pair(mesh, other, {}, 60, tips, 1000);
 }
 
+/// How often self-maps of either surface are asked for where a pair is explored.
+std::pair<int, int> self_maps_asked_for(const SurfaceData& A, const SurfaceData& B) {
+    const PairContext context(A, B, {});
+    std::pair<int, int> asked{0, 0};
+    OnDemand ask;
+    ask.self_maps = {[&] { return ++asked.first, Candidates(); },
+                     [&] { return ++asked.second, Candidates(); }};
+    explore(context, ExploreParams(), ask);
+    return asked;
+}
+
+TEST(SelfMaps, AreThoseOfOneSurfaceWhereShapesAreAlike) {
+    const KnownPair alike = shapes::figure_pair(.5, false, 1000);
+    EXPECT_EQ(self_maps_asked_for(alike.A, alike.B), std::pair(0, 1));
+    EXPECT_EQ(self_maps_asked_for(alike.A, person().B), std::pair(1, 1));
+}
+
 /// Explored without landmarks, as a pair of files is.
 Candidate best_of(const KnownPair& pair) {
     const PairContext context = pair.context();

@@ -529,7 +529,39 @@ TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
     request = {};
     request.points = {write("v.txt", "5\n")};
     map.there[5] = {};
-    EXPECT_THAT(refusal(request, map), HasSubstr("v.txt: without an image on the other mesh: vertices 5;"));
+    EXPECT_THAT(refusal(request, map), HasSubstr("v.txt: without an image on the other mesh: vertex 5;"));
+}
+
+TEST_F(Transfer, NamesAllThatHasNoImage) {
+    Correspondence map = identity(ball_);
+    for (const int v : {5, 7, 9}) map.there[std::size_t(v)] = {};
+    TransferRequest request;
+    request.points = {write("v.txt", "5\n6\n9\n")};
+    EXPECT_THAT(refusal(request, map), HasSubstr("vertices 5, 9; leave out"));
+    const auto at = [&](int v) {
+        const Vec3 p = ball_.vertex(v);
+        return fmt::format("{} {} {}\n", p[0], p[1], p[2]);
+    };
+    request.points = {write("p.txt", at(6) + at(7) + at(9))};
+    EXPECT_THAT(refusal(request, map), HasSubstr("points (from 1) 2, 3; leave out"));
+    std::string all;
+    for (int v = 0; v < ball_.vertex_count(); ++v) {
+        map.there[std::size_t(v)] = {};
+        all += fmt::format("{}\n", v);
+    }
+    request.points = {write("all.txt", all)};
+    EXPECT_THAT(refusal(request, map), HasSubstr("10, 11 and 150 more; leave out"));
+}
+
+TEST_F(Transfer, ARegionThatVanishesIsSaid) {
+    Correspondence map = identity(ball_);
+    TransferRequest request;
+    request.regions = {write("r.txt", "face\n3\n4\n")};
+    EXPECT_EQ(carry(request, map).at("r.txt"), "face\n3\n4\n");
+    for (SurfacePoint& point : map.back) point = {0, Vec3(1, 0, 0)};
+    EXPECT_THAT(warnings_of(request, map),
+                HasSubstr("r.txt: no face of the other mesh has its centroid on this region"));
+    EXPECT_EQ(carry(request, map).at("r.txt"), "face\n");
 }
 
 TEST_F(Transfer, WeightsStaySumsOfOne) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
@@ -63,12 +64,12 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
         if (pairs.empty())
             throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
         if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
-            warn("{} landmarks are in both {} and {}; left out are {}", pairs.size(), files[0], files[1],
-                 names_in_one(lists));
+            warn("{} in both {} and {}; left out are {}", counted(std::ssize(pairs), "name is", "names are"),
+                 files[0], files[1], names_in_one(lists));
         return pairs;
     }
     if (lists[0].size() != lists[1].size())
-        throw InputError(fmt::format("{} names {} vertices but {} names {}; landmarks are matched row by row",
+        throw InputError(fmt::format("{} names {} vertices but {} names {}; they are matched row by row",
                                      files[0], lists[0].size(), files[1], lists[1].size()));
     for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
     warn_of_other_names(pairs, files);

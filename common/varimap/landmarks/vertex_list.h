@@ -20,7 +20,8 @@ namespace varimap {
 /// Returns 0-based numbers, in the source file's order; a vertex may be that of several. Numbers are checked
 /// against the meshes that are given. Throws IoError; InputError naming file and line (malformed, out of
 /// range), an empty file, or what has no partner.
-std::vector<std::pair<int, int>> read_vertex_pairs(const std::vector<std::string>& files, IndexBase base,
+std::vector<std::pair<int, int>> read_vertex_pairs(const std::string& source_list,
+                                                   const std::string& target_list, IndexBase base,
                                                    const TriangleMesh* source, const TriangleMesh* target);
 
 /// How the numbers in files of landmarks are meant.

@@ -93,12 +93,16 @@ std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std:
     return list;
 }
 
-std::vector<std::pair<int, int>> read_vertex_pairs(const std::vector<std::string>& files, IndexBase base,
+std::vector<std::pair<int, int>> read_vertex_pairs(const std::string& source_list,
+                                                   const std::string& target_list, IndexBase base,
                                                    const TriangleMesh* source, const TriangleMesh* target) {
-    const std::vector<Named> lists[2]{vertices_of_list(read_list_rows(files[0]), files[0], base, source),
-                                      vertices_of_list(read_list_rows(files[1]), files[1], base, target)};
+    const auto list = [&](const std::string& path, const TriangleMesh* mesh) {
+        return vertices_of_list(read_list_rows(path), path, base, mesh);
+    };
+    const std::vector<Named> lists[2]{list(source_list, source), list(target_list, target)};
     std::vector<std::pair<int, int>> pairs;
-    for (const auto& [a, b] : matched(lists, files)) pairs.emplace_back(a.vertex, b.vertex);
+    for (const auto& [a, b] : matched(lists, {source_list, target_list}))
+        pairs.emplace_back(a.vertex, b.vertex);
     return pairs;
 }
 

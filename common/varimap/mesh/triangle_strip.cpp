@@ -117,20 +117,26 @@ StraightPath ends_of(const Way& way, const TriangleMesh& mesh, const TriangleStr
             at(first_step(corners.rbegin(), corners.rend()), flat.portals.size() - 1, strip.faces.back(), 1)};
 }
 
+/// The edge of a face at one of its vertices that is not `edge`.
+int other_edge_at(const Edges& edges, int vertex, int face, int edge) {
+    int other = -1;
+    for (int side = 3 * face; side < 3 * face + 3; ++side) {
+        const int e = edges.of_side[side];
+        const auto [a, b] = edges.vertices[e];
+        if (e != edge && (a == vertex || b == vertex)) other = e;
+    }
+    return other;
+}
+
 /// Crosses, from `face`, the edge at `vertex` other than `edge`, and goes on around the vertex up to `last`.
 /// Nothing where a boundary is in the way.
 std::optional<TriangleStrip> walk_around(const Edges& edges, int vertex, int face, int edge, int last) {
     TriangleStrip walk;
     for (const int first = face; face != last;) {
-        int next = -1;
-        for (int side = 3 * face; side < 3 * face + 3; ++side) {
-            const int e = edges.of_side[side];
-            const auto [a, b] = edges.vertices[e];
-            if (e != edge && (a == vertex || b == vertex)) next = e;
-        }
-        const int beyond = next < 0 ? -1 : face_beyond(edges, next, face);
+        edge = other_edge_at(edges, vertex, face, edge);
+        const int beyond = face_beyond(edges, edge, face);
         if (beyond < 0 || beyond == first) return {};
-        edge = next, face = beyond;
+        face = beyond;
         walk.edges.push_back(edge);
         walk.faces.push_back(face);
     }
@@ -160,25 +166,26 @@ std::optional<TriangleStrip> pass_other_side(const Edges& edges, const TriangleS
     return other;
 }
 
-double angle(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
+double corner_angle(const TriangleMesh& mesh, int face, int vertex) {
+    int k = 0;
+    while (mesh.faces(face, k) != vertex) ++k;
+    const Vec3 p = mesh.vertex(vertex), to_next = mesh.vertex(mesh.faces(face, (k + 1) % 3)) - p,
+               to_last = mesh.vertex(mesh.faces(face, (k + 2) % 3)) - p;
+    return std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
 }
 
-/// Whether the angles of the faces around a vertex, one of which is `face`, sum up to so much; on a boundary
-/// they do.
-bool has_angle(const TriangleMesh& mesh, const Edges& edges, int vertex, int face, double most) {
+/// Whether there is surely no other way around a vertex, which lies on `edge` of `face`, unless its full
+/// angle is less than `enough`: it is as much, or there is a boundary.
+bool has_angle(const TriangleMesh& mesh, const Edges& edges, int vertex, int face, int edge, double enough) {
     double sum = 0;
-    for (const int first = face; sum < most;) {
-        int k = 0;
-        while (mesh.faces(face, k) != vertex) ++k;
-        const Vec3 p = mesh.vertex(vertex);
-        sum += angle(mesh.vertex(mesh.faces(face, (k + 1) % 3)) - p,
-                     mesh.vertex(mesh.faces(face, (k + 2) % 3)) - p);
-        face = face_beyond(edges, edges.of_side[std::size_t(3 * face + (k + 2) % 3)], face);
-        if (face < 0) return true;
-        if (face == first) break;
-    }
-    return sum >= most;
+    const int first = face;
+    do {
+        sum += corner_angle(mesh, face, vertex);
+        edge = other_edge_at(edges, vertex, face, edge);
+        if (edges.sides[edge].size() > 2) return false;
+        face = face_beyond(edges, edge, face);
+    } while (face >= 0 && face != first && sum < enough);
+    return face < 0 || sum >= enough;
 }
 
 /// The vertex at the left or the right end of a portal.
@@ -203,7 +210,8 @@ bool may_be_shorter_past(const TriangleMesh& mesh, const Edges& edges, const Tri
                             ? std::atan2(std::abs(cross(to_start, to_goal)), to_start.dot(to_goal))
                             : std::numbers::pi;
     constexpr double rounding = 1e-6;
-    return !has_angle(mesh, edges, vertex, strip.faces[std::size_t(portal)], 2 * half + rounding);
+    return !has_angle(mesh, edges, vertex, strip.faces[std::size_t(portal)], strip.edges[std::size_t(portal)],
+                      2 * half + rounding);
 }
 
 /// By how much a path is longer than the segment between its ends if another one is looked for, that passes a

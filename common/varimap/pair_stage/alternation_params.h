@@ -1,6 +1,5 @@
 #pragma once
 
-#include "varimap/landmarks/landmark_points.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/stage/parameters.h"

@@ -110,10 +110,9 @@ void warn_of_genus(const Surface& A, const Surface& B) {
 void warn_of_inside_out(const Surface& A, const Surface& B) {
     if (one_is_inside_out(A, B))
         warn(
-            "the {} is inside out: its faces look inward, so that it is mapped as a mirror image. If it is "
-            "one, as a "
-            "mesh that was mirrored by a change of sign, all is well; if not, give --mirror, which reverses "
-            "the faces",
+            "the {} is inside out: its faces look inward, so that it is mapped as a mirror image. If it "
+            "is one, as a mesh that was mirrored by a change of sign, all is well; if not, give "
+            "--mirror, which reverses the faces",
             signed_volume(A.mesh) < 0 ? "source" : "target");
 }
 

@@ -80,7 +80,7 @@ TEST_F(VertexList, SaysWhyAVertexHasNoFace) {
 /// The numbers in a list, which is its own partner.
 std::vector<int> vertices_in(const std::string& path, IndexBase base, const TriangleMesh* mesh) {
     std::vector<int> vertices;
-    for (const auto& [vertex, partner] : read_vertex_pairs({path, path}, base, mesh, mesh)) {
+    for (const auto& [vertex, partner] : read_vertex_pairs(path, path, base, mesh, mesh)) {
         EXPECT_EQ(vertex, partner);
         vertices.push_back(vertex);
     }
@@ -121,11 +121,11 @@ TEST_F(VertexList, StartsAtZeroWhereCoordinatesSayNothing) {
 TEST_F(VertexList, MatchesVerticesByNameWhereAllHaveOne) {
     const auto sources = write("a.csv", "name,vertex\nnose,3\near,0\ntail,7\n"),
                targets = write("b.csv", "name,vertex\ntail,2\nnose,5\n"), rows = write("c.csv", "2\n5\n6\n");
-    EXPECT_THAT(read_vertex_pairs({sources, targets}, IndexBase::zero, &mesh_, &mesh_),
+    EXPECT_THAT(read_vertex_pairs(sources, targets, IndexBase::zero, &mesh_, &mesh_),
                 ElementsAre(std::pair(3, 5), std::pair(7, 2)));
-    EXPECT_THAT(read_vertex_pairs({sources, rows}, IndexBase::zero, &mesh_, &mesh_),
+    EXPECT_THAT(read_vertex_pairs(sources, rows, IndexBase::zero, &mesh_, &mesh_),
                 ElementsAre(std::pair(3, 2), std::pair(0, 5), std::pair(7, 6)));
-    EXPECT_THROW(read_vertex_pairs({targets, rows}, IndexBase::zero, &mesh_, &mesh_), InputError);
+    EXPECT_THROW(read_vertex_pairs(targets, rows, IndexBase::zero, &mesh_, &mesh_), InputError);
 }
 
 TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {

@@ -54,33 +54,74 @@ TEST(StraightPath, FollowsGreatCircles) {
     }
 }
 
-TEST(StraightPath, PassesASpikeOnItsShorterSide) {
-    // Six faces around an apex, far above a hexagon. Paths around either side are locally shortest.
+TriangleStrip strip_through(const Edges& edges, const std::vector<int>& faces) {
+    TriangleStrip strip{faces, {}};
+    for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+        for (int side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side)
+            for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
+                if (other / 3 == faces[i + 1]) strip.edges.push_back(edges.of_side[std::size_t(side)]);
+    return strip;
+}
+
+/// Six faces around an apex at a height above a hexagon, whose corners rise and fall by `waves`.
+TriangleMesh spike_of(double height, double waves) {
     TriangleMesh spike;
     spike.vertices.resize(7, 3);
     spike.faces.resize(6, 3);
-    spike.vertices.row(6) << 0, 0, 5;
+    spike.vertices.row(6) << 0, 0, height;
     for (int k = 0; k < 6; ++k) {
-        spike.vertices.row(k) << std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0;
+        spike.vertices.row(k) << std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), k % 2 == 0 ? waves : -waves;
         spike.faces.row(k) << k, (k + 1) % 6, 6;
     }
+    return spike;
+}
+
+TEST(StraightPath, PassesASpikeOnItsShorterSide) {
+    const TriangleMesh spike = spike_of(5, 0);  // paths around either side are locally shortest
     const Edges edges = find_edges(spike);
     const Vec3 start = position(spike, {0, {0.4, 0.1, 0.5}}), goal = position(spike, {2, {0.1, 0.4, 0.5}});
-    const auto strip_through = [&](const std::vector<int>& faces) {
-        TriangleStrip strip{faces, {}};
-        for (std::size_t i = 0; i + 1 < faces.size(); ++i)
-            for (int side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side)
-                for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
-                    if (other / 3 == faces[i + 1]) strip.edges.push_back(edges.of_side[std::size_t(side)]);
-        return strip;
-    };
-    TriangleStrip longer = strip_through({0, 5, 4, 3, 2}), shorter = strip_through({0, 1, 2});
+    TriangleStrip longer = strip_through(edges, {0, 5, 4, 3, 2}), shorter = strip_through(edges, {0, 1, 2});
     const double around = straight_path(spike, edges, longer, start, goal).length;
     const StraightPath expected = straighten(spike, edges, shorter, start, goal);
     const StraightPath path = straighten(spike, edges, longer, start, goal);
     EXPECT_GT(around, 1.1 * expected.length);
     EXPECT_EQ(longer.faces, shorter.faces);
     EXPECT_EQ(path.length, expected.length);
+}
+
+/// Of both ways around an apex the shorter one is found from either, wherever either leads past it. With a
+/// third face on an edge there, which only one of them crosses, or with faces turned over, too.
+TEST(StraightPath, TakesTheShorterOfBothWaysAroundAVertex) {
+    int changed = 0;
+    for (const auto& [height, waves] : {std::pair(5., 0.), {1., 0.}, {.3, 0.}, {.8, .3}, {0., .4}, {.1, 1.}})
+        for (const bool has_fin : {false, true})
+            for (int to = 1; to < 6; ++to) {
+                TriangleMesh spike = spike_of(height, waves);
+                if (has_fin) {  // on the edge between the last two of the faces that lead the other way round
+                    spike.vertices.conservativeResize(8, 3);
+                    spike.vertices.row(7) << 2, 2, 2;
+                    spike.faces.conservativeResize(7, 3);
+                    spike.faces.row(6) << 0, 6, 7;
+                    std::swap(spike.faces(4, 0), spike.faces(4, 1));
+                }
+                const Edges edges = find_edges(spike);
+                std::vector<int> there, around{0};
+                for (int k = 0; k <= to; ++k) there.push_back(k);
+                for (int k = 5; k >= to; --k) around.push_back(k);
+                const Vec3 start = position(spike, {0, {0.35, 0.15, 0.5}}),
+                           goal = position(spike, {to, {0.2, 0.3, 0.5}});
+                const double one =
+                                 straight_path(spike, edges, strip_through(edges, there), start, goal).length,
+                             other = straight_path(spike, edges, strip_through(edges, around), start, goal)
+                                         .length;
+                TriangleStrip strip = strip_through(edges, has_fin ? around : other < one ? there : around);
+                const double longer = straight_path(spike, edges, strip, start, goal).length;
+                if (longer < 1.03 * (goal - start).norm()) continue;  // is not asked for
+                EXPECT_NEAR(straighten(spike, edges, strip, start, goal).length, std::min(one, other), 1e-9)
+                    << height << " " << waves << " " << has_fin << " " << to;
+                changed += longer > std::min(one, other) + 1e-9;
+            }
+    EXPECT_GT(changed, 20);
 }
 
 TEST(StraightStrip, LeadsThereWhereASearchWouldToo) {
