@@ -34,8 +34,9 @@ std::vector<Appraised> finalists(const std::vector<Appraised>& list) {
     return chosen;
 }
 
-/// Gives maps of sketches the cues and the scores of what becomes of them on the surfaces that were sketched.
-/// Relaxing the maps there changed no order.
+/// Gives maps of sketches the cues of what becomes of them on the surfaces that were sketched, and the mean
+/// of both scores: either errs, and by itself it lost right maps that the other was sure of. Relaxing the
+/// maps there changed no order.
 void rate_on(const PairContext& surfaces, std::vector<Appraised>& maps, const PairContext& sketches,
              const FinishingOptions& options) {
     const Timer timer("comparison on the surfaces");
@@ -53,6 +54,7 @@ void rate_on(const PairContext& surfaces, std::vector<Appraised>& maps, const Pa
         set_cues(candidate, cues[k]);
         log("{}: score {:.2f} on the surfaces, {:.2f} on sketches", origin(candidate), candidate.score,
             on_sketches);
+        candidate.score = (candidate.score + on_sketches) / 2;
     }
 }
 
@@ -63,8 +65,8 @@ std::vector<Appraised> compared_on_surfaces(std::vector<Appraised> list, const P
                                             const std::function<PairContext()>& ask_surfaces) {
     // Above .9, from which on choices are called sure: of a dog onto a lion a limb was wrong, by .92.
     constexpr double decided = 0.95;
-    // By more than scores err: of a hippopotamus and a lion the turned map was better by .3.
-    constexpr double better = 0.8;
+    // By more than scores err; chosen by hand.
+    constexpr double better = 0.5;
     if (confidence_of(ratings(list)).probability >= decided) return list;
     std::vector<Appraised> rivals = finalists(list);
     if (rivals.size() < 2) return list;
