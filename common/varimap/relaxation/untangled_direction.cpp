@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "varimap/core/timing.h"
+#include "varimap/relaxation/along_target.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/movable_vertices.h"
@@ -32,6 +33,13 @@ VertexData<bool> stay(const SlidingMap& map, const VertexData<bool>& pinned, con
         for (const int f : patch.faces) mark_corners(map.source(), f, fixed);
     }
     return fixed;
+}
+
+int reversed_along_target(const SlidingMap& map) {
+    AlongTarget along_target(map);
+    int count = 0;
+    for (int f = 0; f < map.source().face_count(); ++f) count += along_target.is_reversed(f);
+    return count;
 }
 
 }  // namespace
@@ -140,6 +148,15 @@ void UntangledDirection::repair(const PointMap& back) {
     (*repair_)(back);
 }
 
+bool UntangledDirection::is_worse(const Distortion& after) const {
+    // A large triangle that is reversed instead of many small ones is no reason to give up the rest. Nor are
+    // triangles that are reversed by the normals at their corners, where fewer are as they lie along the
+    // target: three of 36 pairs lost repairs of 30 to 70 triangles so.
+    return after.flipped_area_percent > before_.flipped_area_percent &&
+           after.flipped_count >= before_.flipped_count &&
+           reversed_along_target(sliding_) >= reversed_along_target({map_, source_, target_});
+}
+
 UntanglingReport UntangledDirection::finish() {
     if (replacement_) {
         report_.parts_tried = replacement_->report().tried;
@@ -147,10 +164,7 @@ UntanglingReport UntangledDirection::finish() {
         report_.replaced_area_percent = replacement_->report().area_percent;
     }
     const Distortion after = measure_distortion(sliding_.points(), source_, target_);
-    // A large triangle that is reversed instead of many small ones is no reason to give up the rest.
-    if (after.flipped_area_percent > before_.flipped_area_percent &&
-        after.flipped_count >= before_.flipped_count)
-        return report_;
+    if (is_worse(after)) return report_;
     map_ = sliding_.points();
     report_.flipped_after = after.flipped_count;
     report_.flipped_area_percent_after = after.flipped_area_percent;

@@ -52,6 +52,8 @@ class UntangledDirection {
     UntanglingReport finish();
 
   private:
+    /// Than it was in the beginning.
+    bool is_worse(const Distortion& after) const;
     /// Of the mapped faces, per area.
     double energy() const;
     std::unique_ptr<RoundRelaxation> relaxation(const Round& round, int steps);
