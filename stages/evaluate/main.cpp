@@ -126,8 +126,9 @@ int main(int argc, char** argv) {
             warn("{} left out: the map has no image there, or the target is not mapped",
                  counted(errors.unmapped, "pair", "pairs"));
         if (errors.apart > 0)
-            warn("{} on another component than it should be: the error is the straight distance there",
-                 counted(errors.apart, "image is", "images are"));
+            warn("{}: the error is the straight distance there",
+                 counted(errors.apart, "image is on another component than it should be",
+                         "images are on other components than they should be"));
         if (!curve_path.empty()) write_file_atomically(curve_path, curve_csv(errors));
         fmt::print("{}", json ? as_json(errors) : as_text(errors));
     });

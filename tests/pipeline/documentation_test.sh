@@ -6,7 +6,7 @@
 . "$(dirname "$0")/common.sh"
 cd "$VARIMAP_SOURCE"
 
-pages=(README.md CHANGELOG.md common/README.md pipelines/README.md pipelines/experiments/README.md pipelines/help/*.md stages/*/README.md)
+pages=(README.md CHANGELOG.md common/README.md pipelines/README.md pipelines/measurements.md pipelines/experiments/README.md pipelines/help/*.md stages/*/README.md)
 
 links_lead_somewhere() {
     local page link broken=0

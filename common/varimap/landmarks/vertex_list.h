@@ -34,10 +34,9 @@ struct LandmarkReading {
     void describe(List& list) {
         list.add("landmark_space", space,
                  "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
-        list.add(
-            "landmark_base", base,
-            "number of the first vertex in lists of landmarks: 0, 1 or auto (coordinates in a .vts or .csv "
-            "decide, else 0)");
+        list.add("landmark_base", base,
+                 "number of the first vertex in landmarks: 0, 1 or auto (coordinates in lists that are "
+                 ".vts or .csv decide, else 0)");
     }
 };
 
