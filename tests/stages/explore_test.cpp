@@ -233,21 +233,34 @@ KnownPair person() {
     return shapes::known_pair(mesh, other, {}, 60, tips, 1000);
 }
 
-/// How often self-maps of either surface are asked for where a pair is explored.
-std::pair<int, int> self_maps_asked_for(const SurfaceData& A, const SurfaceData& B) {
-    const PairContext context(A, B, {});
-    std::pair<int, int> asked{0, 0};
-    OnDemand ask;
-    ask.self_maps = {[&] { return ++asked.first, Candidates(); },
-                     [&] { return ++asked.second, Candidates(); }};
-    explore(context, ExploreParams(), ask);
-    return asked;
-}
+/// Counts how often self-maps of either surface are asked for.
+struct AskedFor {
+    int A = 0, B = 0;
+    SelfMapsOnDemand ask{[this] { return ++A, Candidates(); }, [this] { return ++B, Candidates(); }};
+};
 
 TEST(SelfMaps, AreThoseOfOneSurfaceWhereShapesAreAlike) {
     const KnownPair alike = shapes::figure_pair(.5, false, 1000);
-    EXPECT_EQ(self_maps_asked_for(alike.A, alike.B), std::pair(0, 1));
-    EXPECT_EQ(self_maps_asked_for(alike.A, person().B), std::pair(1, 1));
+    AskedFor asked;
+    OnDemand ask;
+    ask.self_maps = asked.ask;
+    explore({alike.A, alike.B, {}}, ExploreParams(), ask);
+    EXPECT_EQ(asked.A, 0);
+    EXPECT_EQ(asked.B, 1);
+}
+
+TEST(SelfMaps, AreAskedForOnceAndWhereTheyAreNeeded) {
+    const PairContext context = figures().context();
+    AskedFor asked;
+    LazySelfMaps self_maps(context, asked.ask);
+    std::vector<PooledMap> pool;
+    self_maps.add_compositions_with_B(pool, 2);
+    EXPECT_EQ(asked.A, 0);
+    EXPECT_EQ(asked.B, 1);
+    self_maps.add_compositions(pool, 2);
+    self_maps.add_compositions(pool, 2);
+    EXPECT_EQ(asked.A, 1);
+    EXPECT_EQ(asked.B, 1);
 }
 
 /// Explored without landmarks, as a pair of files is.
