@@ -1,17 +1,17 @@
 # A page of Markdown as plain text, for a terminal.
-function wrap(text, first, rest,    words, n, i, line) {
+# The text in lines of at most `room` columns; returns how many.
+function broken(text, room, lines,    words, n, i, k) {
     n = split(text, words, " ")
-    line = first
-    for (i = 1; i <= n; i++) {
-        if (length(line words[i]) > most && line != first && line != rest) {
-            sub(/ +$/, "", line)
-            print line
-            line = rest
-        }
-        line = line words[i] " "
-    }
-    sub(/ +$/, "", line)
-    print line
+    lines[k = 1] = words[1]
+    for (i = 2; i <= n; i++)
+        if (length(lines[k]) + 1 + length(words[i]) > room) lines[++k] = words[i]
+        else lines[k] = lines[k] " " words[i]
+    return k
+}
+
+function wrap(text, first, rest,    lines, n, i) {
+    n = broken(text, most - length(rest), lines)
+    for (i = 1; i <= n; i++) print (i == 1 ? first : rest) lines[i]
 }
 
 function unstarred(text) {
@@ -43,18 +43,10 @@ function show_table(    r, c, others) {
     rows = pictures = 0
 }
 
-function show_row(r, first,    c, line, words, n, i, piece) {
-    n = split(cell[r, 1], words, " ")
-    for (i = 1; i <= n; i++) {
-        if (length(piece words[i]) > first && piece != "") {
-            sub(/ $/, "", piece)
-            print "    " piece
-            piece = ""
-        }
-        piece = piece words[i] " "
-    }
-    sub(/ $/, "", piece)
-    line = sprintf("    %-" first "s", piece)
+function show_row(r, first,    c, line, lines, n, i) {
+    n = broken(cell[r, 1], first, lines)
+    for (i = 1; i < n; i++) print "    " lines[i]
+    line = sprintf("    %-" first "s", lines[n])
     for (c = 2; c <= columns; c++) line = line sprintf("  %-" width[c] "s", cell[r, c])
     sub(/ +$/, "", line)
     print line

@@ -9,6 +9,7 @@
 #include "stages/transfer/text_rows.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/listed.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/face_geometry.h"
@@ -40,28 +41,23 @@ std::vector<std::optional<Vec3>> carried(const std::vector<Vec3>& positions, con
     return result;
 }
 
-/// Throws InputError naming the first of what has no image. `one`, `several`: what is numbered.
-void refuse_those_without_image(const std::vector<std::size_t>& without, const std::string& path,
+/// Throws InputError where there is anything without an image, with the first of their numbers. `one`,
+/// `several`: what is numbered.
+void refuse_those_without_image(const std::vector<std::string>& without, const std::string& path,
                                 const char* one, const char* several) {
-    if (without.empty()) return;
-    constexpr std::size_t most = 12;
-    const std::size_t shown = std::min(without.size(), most);
-    const std::string more =
-        without.size() > shown ? fmt::format(" and {} more", without.size() - shown) : std::string();
-    throw InputError(fmt::format("{}: without an image on the other mesh: {} {}{}; leave out what has none",
-                                 path, without.size() == 1 ? one : several,
-                                 fmt::join(without.begin(), without.begin() + std::ptrdiff_t(shown), ", "),
-                                 more));
+    if (!without.empty())
+        throw InputError(fmt::format("{}: without an image on the other mesh: {} {}; leave out what has none",
+                                     path, without.size() == 1 ? one : several, listed(without)));
 }
 
 std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images, const std::string& path) {
     std::vector<Vec3> positions;
-    std::vector<std::size_t> without;
+    std::vector<std::string> without;
     for (std::size_t i = 0; i < images.size(); ++i)
         if (images[i])
             positions.push_back(*images[i]);
         else
-            without.push_back(i + 1);
+            without.push_back(std::to_string(i + 1));
     refuse_those_without_image(without, path, "point (from 1)", "points (from 1)");
     return positions;
 }
@@ -113,14 +109,14 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, int fi
                            const Correspondence& map, const PointCarrier& there) {
     const PointMap at_vertex = points_at_vertices(map.from);
     std::string text = name_line(rows);
-    std::vector<std::size_t> without;
+    std::vector<std::string> without;
     for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
         const int v = number_of(rows.rows[i], path, first, map.from.vertex_count(), "vertices");
         const SurfacePoint image = there(at_vertex[std::size_t(v)]);
         if (image.face >= 0)
             text += fmt::format("{}\n", nearest_vertex(map.to, image) + first);
         else
-            without.push_back(std::size_t(v + first));
+            without.push_back(std::to_string(v + first));
     }
     refuse_those_without_image(without, path, "vertex", "vertices");
     return text;
@@ -151,7 +147,7 @@ std::string carry_points(const std::string& path, const LandmarkReading& reading
     TextRows rows = split_rows(bytes, path, Content::numbers);
     const bool vertices = std::all_of(rows.rows.begin(), rows.rows.end(),
                                       [](const TextRow& row) { return row.words.size() == 1; });
-    const int first = reading.base == IndexBase::one ? 1 : 0;
+    const int first = number_of_first(reading.base);
     return vertices ? carry_vertices(rows, path, first, map, there)
                     : carry_rows(std::move(rows), path, map, there);
 }

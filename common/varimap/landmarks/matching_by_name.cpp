@@ -6,6 +6,7 @@
 
 #include "varimap/core/counted.h"
 #include "varimap/core/error.h"
+#include "varimap/core/listed.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/private/named.h"
@@ -23,17 +24,13 @@ bool have_distinct_names(const std::vector<Named>& list) {
 
 /// Names that one of two lists lacks, the first few of them.
 std::string names_in_one(const std::vector<Named> (&lists)[2]) {
-    constexpr size_t most = 12;
     std::map<std::string, int> count;
     for (const auto& list : lists)
         for (const Named& named : list) ++count[named.name];
     std::vector<std::string> names;
     for (const auto& [name, times] : count)
         if (times == 1) names.push_back(fmt::format("'{}'", excerpt(name)));
-    const size_t shown = std::min(names.size(), most);
-    const std::string list =
-        fmt::format("{}", fmt::join(names.begin(), names.begin() + std::ptrdiff_t(shown), ", "));
-    return names.size() > shown ? fmt::format("{} and {} more", list, names.size() - shown) : list;
+    return listed(names);
 }
 
 /// A name that stands twice must not shift the others' partners in silence.

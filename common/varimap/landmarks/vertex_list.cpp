@@ -59,7 +59,7 @@ std::vector<Named> side_of_pairs(const std::vector<ListRow>& rows, const std::st
                                  const TriangleMesh& mesh, const LandmarkReading& reading) {
     if (rows[0].numbers.size() == 6)
         return snapped_list(points_of_rows(rows, 3 * side), path, mesh, reading.space);
-    const int first = reading.base == IndexBase::one ? 1 : 0;
+    const int first = number_of_first(reading.base);
     std::vector<Named> list;
     for (const ListRow& row : rows)
         list.push_back({row.line, to_vertex(row, side, first, path, &mesh), row.name});

@@ -54,7 +54,7 @@ bool carries_coordinates(const std::vector<ListRow>& rows) {
 
 int first_number(const std::vector<ListRow>& rows, IndexBase base, const TriangleMesh* mesh,
                  const std::string& path) {
-    if (base != IndexBase::automatic) return base == IndexBase::one ? 1 : 0;
+    if (base != IndexBase::automatic) return number_of_first(base);
     const auto found = mesh ? base_from_coordinates(rows, *mesh) : std::nullopt;
     if (found) return *found;
     if (carries_coordinates(rows))

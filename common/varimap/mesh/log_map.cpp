@@ -23,11 +23,6 @@ int corner_of(const TriangleMesh& mesh, int f, int vertex) {
     return mesh.faces(f, 0) == vertex ? 0 : mesh.faces(f, 1) == vertex ? 1 : 2;
 }
 
-double corner_angle(const TriangleMesh& mesh, int f, int k) {
-    const Vec3 p = mesh.vertex(mesh.faces(f, k));
-    return angle(mesh.vertex(mesh.faces(f, (k + 1) % 3)) - p, mesh.vertex(mesh.faces(f, (k + 2) % 3)) - p);
-}
-
 /// The faces around a vertex, counter-clockwise; from a boundary, if it has one, or from the lowest.
 std::vector<int> fan(const TriangleMesh& mesh, const Edges& edges, int vertex, int face) {
     const auto beyond = [&](int f, int side_of_corner) {
@@ -85,7 +80,7 @@ LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, co
                 straight_path(mesh_, *edges_, outside, mesh_.vertex(vertex), to).goal_from_start;
             at = total + angle(mesh_.vertex(mesh_.faces(f, (k + 1) % 3)) - mesh_.vertex(vertex), away);
         }
-        total += corner_angle(mesh_, f, k);
+        total += corner_angle(mesh_, f, vertex);
     }
     const int edge =
         edges_->of_side[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))];

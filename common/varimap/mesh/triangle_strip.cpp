@@ -166,14 +166,6 @@ std::optional<TriangleStrip> pass_other_side(const Edges& edges, const TriangleS
     return other;
 }
 
-double corner_angle(const TriangleMesh& mesh, int face, int vertex) {
-    int k = 0;
-    while (mesh.faces(face, k) != vertex) ++k;
-    const Vec3 p = mesh.vertex(vertex), to_next = mesh.vertex(mesh.faces(face, (k + 1) % 3)) - p,
-               to_last = mesh.vertex(mesh.faces(face, (k + 2) % 3)) - p;
-    return std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
-}
-
 /// Whether there is surely no other way around a vertex, which lies on `edge` of `face`, unless its full
 /// angle is less than `enough`: it is as much, or there is a boundary.
 bool has_angle(const TriangleMesh& mesh, const Edges& edges, int vertex, int face, int edge, double enough) {
@@ -220,6 +212,14 @@ bool may_be_shorter_past(const TriangleMesh& mesh, const Edges& edges, const Tri
 constexpr double least_detour = 1.03;
 
 }  // namespace
+
+double corner_angle(const TriangleMesh& mesh, int face, int vertex) {
+    int k = 0;
+    while (mesh.faces(face, k) != vertex) ++k;
+    const Vec3 p = mesh.vertex(vertex), to_next = mesh.vertex(mesh.faces(face, (k + 1) % 3)) - p,
+               to_last = mesh.vertex(mesh.faces(face, (k + 2) % 3)) - p;
+    return std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+}
 
 StraightPath straight_path(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip,
                            const Vec3& start, const Vec3& goal) {

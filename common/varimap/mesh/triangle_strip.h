@@ -20,6 +20,9 @@ inline int face_beyond(const Edges& edges, int edge, int face) {
     return sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3;
 }
 
+/// The angle of a face at one of its vertices.
+double corner_angle(const TriangleMesh& mesh, int face, int vertex);
+
 /// A path along a surface, by its ends: where each lies as seen from the other, as the direction in which the
 /// path leaves, in the plane of the end's face, times the path's length.
 struct StraightPath {

@@ -112,7 +112,7 @@ double roughness(const VertexMap& map, int base, const TriangleMesh& source, con
 
 int first_number(const VertexMap& map, IndexBase base, const std::string& path, const TriangleMesh& target,
                  const TriangleMesh* source) {
-    if (base != IndexBase::automatic) return base == IndexBase::one ? 1 : 0;
+    if (base != IndexBase::automatic) return number_of_first(base);
     if (map.own_base) return *map.own_base;
     const bool has_zero = std::find(map.vertex.begin(), map.vertex.end(), 0) != map.vertex.end();
     const bool has_last =

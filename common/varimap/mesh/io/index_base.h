@@ -13,6 +13,10 @@ template <>
 struct EnumNames<IndexBase> {
     static constexpr std::array names{"0", "1", "auto"};
 };
+/// That number, where nothing else decides: automatic is 0.
+inline int number_of_first(IndexBase base) {
+    return base == IndexBase::one ? 1 : 0;
+}
 /// From "0", "1" or "auto"; empty: automatic. Throws UsageError.
 IndexBase index_base_from(const std::string& text);
 
