@@ -45,3 +45,35 @@ hashes_beside() { (cd -- "${1%/*}" && sha256sum -- "${@:2}" 2>/dev/null) || true
 
 # short_hash: sixteen digits of the SHA-256 of what is read.
 short_hash() { sha256sum | cut -c 1-16; }
+
+# split_csv LIST: as lines of fields separated by \037; quotes as in RFC 4180, lines of # alone and blank ones left out.
+split_csv() {
+    tr -d '\r' <"$1" | sed '1s/^\xef\xbb\xbf//' | awk '
+        /^[ \t]*(#|$)/ { next }
+        {
+            line = $0; field = ""; out = ""; quoted = 0
+            for (i = 1; i <= length(line); i++) {
+                c = substr(line, i, 1)
+                if (quoted && c == "\"" && substr(line, i + 1, 1) == "\"") { field = field c; i++ }
+                else if (c == "\"") quoted = !quoted
+                else if (c == "," && !quoted) { out = out field "\037"; field = "" }
+                else field = field c
+            }
+            if (quoted || line ~ /[\t\037]/) { print "\036" NR; exit }
+            print out field
+        }'
+}
+
+# place PATH: sets places[PATH] to where a file of a list in `list_folder` is: relative to the folder above that, or to it.
+declare -A places=()
+list_folder=
+place() {
+    [[ -n $1 ]] || return 0
+    if [[ -n ${places[$1]:-} ]]; then return; fi
+    local path=$1
+    [[ $path == /* ]] || path=$list_folder/../$1
+    [[ -e $path ]] || path=$list_folder/$1
+    [[ $1 != /* ]] || path=$1
+    require_file "$path"
+    places[$1]=$(realpath -s -- "$path")
+}

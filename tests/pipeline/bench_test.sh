@@ -97,6 +97,17 @@ bench ren.csv -o benched
 made >after.txt
 same before.txt after.txt
 
+# Lists are read as those of batch: quotes, blanks, a byte order mark, and a last row without a line end; groups may hold dots.
+mkdir 'my set'
+figure 'my set/cat, 0.off' 6
+cp set/vtx_5k/cat1.off 'my set/cat.1.off'
+printf '\xef\xbb\xbfgroup,source,target,landmarks,source_points,target_points,index_base\r\n# two\n%s\n%s' \
+    'v1.5,"my set/cat, 0.off",my set/cat.1.off,,set/vtx_5k/corres/cat0.vts,set/vtx_5k/corres/cat1.vts,1' \
+    'v1.6,my set/cat.1.off,"my set/cat, 0.off",,set/vtx_5k/corres/cat1.vts,set/vtx_5k/corres/cat0.vts,1' >odd.csv
+bench odd.csv -o odd
+[[ $(cut -d , -f 1,2 odd/bench.csv | xargs) == "group,pair v1.5,cat__0--cat_1 v1.6,cat_1--cat__0" ]] || fail "rows of an odd list: $(<odd/bench.csv)"
+[[ $(cut -d , -f 1 odd/curves.csv | sort -u | xargs) == "v1.5 v1.6" ]] || fail "groups with dots: $(cut -d , -f 1 odd/curves.csv | sort -u)"
+
 # Compared with itself, and with means that were made better and worse by .01.
 mkdir was
 cp benched/bench.csv was/bench.csv
@@ -114,6 +125,17 @@ cp benched/list.csv list.csv
 expect_exit 2 "$varimap" bench ren.csv -o benched --group cats --group dogs
 grep -q 'bench: error: --group dogs: no pair has that group; there are: cats$' log || fail "an unknown group: $(cat log)"
 same list.csv benched/list.csv
+while IFS='|' read -r code text row; do
+    { head -n 1 ren.csv; echo "$row"; } >bad.csv
+    expect_exit "$code" "$varimap" bench bad.csv -o none
+    grep -q "bench: error: .*$text" log || fail "no '$text' in: $(<log)"
+    [[ ! -e none ]] || fail "a refused list left files"
+done <<'TEXT'
+3|bad.csv, row 2: quotes that do not end|cats,"a.off,b.off,,,,
+3|bad.csv: a row with more fields than columns|cats,a.off,b.off,,,,,1
+3|bad.csv: a row without group, source or target|cats,a.off,,,,,
+6|absent.txt: no such file|cats,set/vtx_5k/cat0.off,set/vtx_5k/cat1.off,,absent.txt,,
+TEXT
 head -n 2 ren.csv | sed 's/[01]$/0/' >wrong.csv
 expect_exit 1 "$varimap" bench wrong.csv -o benched "${coarse[@]}" --set render.width=64 --set render.samples=1
 grep -q 'bench: error: no pair was evaluated' log || fail "maps that cannot be evaluated: $(cat log)"
