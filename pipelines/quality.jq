@@ -2,7 +2,7 @@
 # where everything comes from. Area and scale are those of the surface that was mapped: of a whole, of what was cut from it.
 #   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH
 #       --arg source_import FILE --arg target_import FILE (what a mesh was imported from, or nothing) --arg landmarks_1 FILE
-#       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT --arg part (source, target or nothing) RUN_FILE...
+#       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT --argjson options LIST --arg part (source, target or nothing) RUN_FILE...
 def stage_and_artifact($file): .stage + " " + ($file | sub(".*/"; "") | sub("[.][a-z]+[.]run[.]json$"; ""));
 def of_stage($stage): map(.value | select(.stage == $stage));
 def mesh($file; $origin): {file: $file, hash: .inputs.mesh, area: (1 / (.scale * .scale)), scale}
@@ -26,6 +26,7 @@ def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
         schema: 1,
         version: ($runs | of_stage("remesh") | .[0].version),
         command: (if $command == "" then null else $command end),
+        options: (if $command == "" then null else $options end),
         source: ($surfaces[0] | if . then mesh($source; $source_import) else null end),
         target: ($surfaces[-1] | if . then mesh($target; $target_import) else null end),
         landmarks: [$runs | of_stage("diffuse")[] | list("landmarks"; $landmarks_1), list("landmarks.A"; $landmarks_1),

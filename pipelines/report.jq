@@ -49,6 +49,6 @@ def little_repaired:
 | {verdict: (if $look | length > 0 then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),
     warnings: ($warnings | map("\(.stage): \(.message)")), alarms: ($alarms | map(.stage) | unique), look: $look, checks: $checks,
-    command: (.provenance.command // ""), version: (.provenance.version // ""),
+    command: (.provenance.command // ""), options: (.provenance.options // []), version: (.provenance.version // ""),
     times: [$stages | to_entries[] | select(.value.wall_seconds)
         | {stage: .key, seconds: .value.wall_seconds, megabytes: (.value.peak_megabytes // 0)}]}

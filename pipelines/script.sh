@@ -70,6 +70,18 @@ lock() {  # FOLDER: one run at a time; the lock lasts until the last stage has e
 
 # is_mesh FILE: whether its ending makes it a mesh of the folder that it is in. A file that is named itself is one in any case.
 is_mesh() { [[ ${1,,} =~ \.(obj|ply|off|stl|gltf|glb|fbx|dae|3mf)$ ]]; }
+# meshes_in PATH: sets `mesh_files` to the meshes of a folder, or to PATH itself; no program takes their names for options.
+meshes_in() {
+    local path=$1 file
+    [[ $path != -* ]] || path=./$path
+    mesh_files=("$path")
+    [[ -d $path ]] || return 0
+    mesh_files=()
+    for file in "$path"/*; do
+        # Of a link that leads nowhere it is said that no file is there.
+        if [[ ! -d $file ]] && is_mesh "$file"; then mesh_files+=("$file"); fi
+    done
+}
 # is_foreign MESH: whether it must be imported, being of a format that no stage reads.
 is_foreign() { [[ ${1##*/} == *.* && ! ${1,,} =~ \.(obj|ply|off|stl)$ ]]; }
 
@@ -82,6 +94,16 @@ artifact_stem() {
 
 # quoted TEXT: as a field of a CSV file.
 quoted() { printf '"%s"' "${1//\"/\"\"}"; }
+
+# shell_words WORD...: as words of a command of any POSIX shell; letters of every language stay readable.
+shell_words() {
+    local word text=''
+    for word in "$@"; do
+        [[ $word =~ ^[A-Za-z0-9_./:=,+@%-]+$ ]] || word=\'${word//\'/\'\\\'\'}\'
+        text+=" $word"
+    done
+    printf '%s' "${text# }"
+}
 
 # find_landmarks FOLDER MESH: the file of landmarks in FOLDER that has the name of that mesh; nothing where there is none.
 find_landmarks() {
@@ -100,7 +122,8 @@ group=''
 wait_for_group() {
     local code=0
     trap 'interrupted 130' INT
-    trap 'interrupted 143' TERM HUP
+    trap 'interrupted 143' TERM
+    trap 'interrupted 129' HUP
     wait "$group" || code=$?
     trap - INT TERM HUP
     return "$code"

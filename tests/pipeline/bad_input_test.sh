@@ -39,11 +39,15 @@ refuse 2 a.off b.off -o out --repair ''
 refuse 2 a.off b.off -o out -j 4097
 refuse 2 a.off b.off -o out -j 9999
 # shellcheck disable=SC2016
-for line in 'repair = "`touch obeyed`"' 'repair = "weld;touch obeyed"'; do
+for line in 'repair = "`touch obeyed`"' 'repair = "weld;touch obeyed"' 'fill_holes = "30 --mirror true"' 'fill_holes = "30 --mirror"' 'fill_holes = "30 40"' \
+    'repair = "weld, orient"'; do
     printf '[preprocess]\n%s\n' "$line" >bad.toml
     refuse 2 a.off b.off -o out --config bad.toml
     grep -q 'error: bad.toml: ' log || fail "$line: $(<log)"
 done
+printf '[preprocess]\nrepair = "weld"\nfill-holes = 30\nleast_component = 0.02\n' >some.toml
+map a.off b.off -o some --config some.toml --set preprocess.fill_holes=40 --until preprocess >out.txt 2>log || fail "a good file: $(<log)"
+rm -r some
 printf '[explore]\nonto_itself = true\n' >bad.toml
 refuse 2 a.off b.off -o out --config bad.toml
 grep -q 'error: bad.toml: onto_itself is not a parameter' log || fail "onto_itself in a file: $(<log)"

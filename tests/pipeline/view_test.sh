@@ -57,6 +57,33 @@ grep -q 'page shows no landmarks' log || fail "landmarks in other axes are shown
 spaced_page --landmark_space as-is
 grep -q 'tip3' page.html || fail "landmarks are not shown in the axes that were said"
 
+# Options are recorded as they were understood, for the command that the page offers.
+cp a.off "it's --mirror.off"
+printf '[eigen]\ncount = 80\n' >'my file.toml'
+landmarks_of_figure a.off >"it's a tip.txt"
+map a.off "it's --mirror.off" -o told --until remesh --part=source --fill_holes 30 --config 'my file.toml' --landmarks="it's a tip.txt"
+jq -c .provenance.options told/quality.json >options.txt
+grep -qxF "[[\"--set\",\"render.width=64\"],[\"--set\",\"render.samples=1\"],$(printf '["--set","%s"],' "${coarse[1]}" "${coarse[3]}")[\"--part\",\"source\"],[\"--fill-holes\",\"30\"],[\"--config\",\"$PWD/my file.toml\"]]" options.txt ||
+    fail "options that are recorded: $(<options.txt)"
+if command -v node >/dev/null; then
+    jq -f "$VARIMAP_SOURCE/pipelines/report.jq" told/quality.json >report.json
+    node --input-type=module - "$VARIMAP_SOURCE" <<'TEXT' >next.sh || fail "the page's landmarks"
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+const { Landmarks, nextCommand } = await import(`${process.argv[2]}/pipelines/view/src/landmarks.js`);
+const landmarks = new Landmarks(() => {});
+for (let i = 0; i < 3; i++) landmarks.add({});
+landmarks.remove(0);
+landmarks.add({});
+assert.deepEqual(landmarks.items.map(({ name }) => name), ['L2', 'L3', 'L1']);
+const side = (file) => ({ side: { file } });
+console.log(nextCommand(JSON.parse(readFileSync('report.json', 'utf8')), { source: side('a.off'), target: side("it's --mirror.off") }));
+TEXT
+    sed "s/^varimap/printf '%s\\\\n'/" next.sh | sh >words.txt
+    printf '%s\n' map a.off "it's --mirror.off" -o out-picked --set render.width=64 --set render.samples=1 "${coarse[@]}" --part source --fill-holes 30 \
+        --config "$PWD/my file.toml" --landmarks landmarks.txt | diff words.txt - >log || fail "the command that the page offers: $(<log)"
+fi
+
 frame=$VARIMAP_BIN/../view/frame.html
 [[ -s $frame ]] || { echo "skipped the browser: build $frame with pipelines/view/build"; exit 0; }
 # The front end tells the page what the map was made of, and in which axes.

@@ -123,7 +123,26 @@ async function run() {
   assert.equal(markup.controlPoints[before].label, 'nose');
   assert.deepEqual(markup.controlPoints[before].position, truth.slice(3));
   assert.match(await browser.evaluate(`document.getElementById('command').textContent`), /^varimap map .* --landmarks landmarks\.txt$/);
+
+  // Dragged by the left button alone; what is removed under it is gone, and one that is added has a name of its own.
+  const placed = await item(before);
+  await browser.evaluate(`(() => {
+    const marker = document.querySelector('.marker[data-side=source][data-index="${before}"]');
+    marker.dispatchEvent(new PointerEvent('pointerdown', { button: 2, bubbles: true }));
+    window.dispatchEvent(new PointerEvent('pointermove', { clientX: ${second[0]}, clientY: ${second[1]} }));
+    window.dispatchEvent(new PointerEvent('pointerup'));
+    marker.dispatchEvent(new PointerEvent('pointerdown', { button: 0, bubbles: true }));
+    window.dispatchEvent(new PointerEvent('pointercancel'));
+    window.dispatchEvent(new PointerEvent('pointermove', { clientX: ${second[0]}, clientY: ${second[1]} }));
+  })()`);
+  assert.deepEqual(await item(before), placed);
+  await browser.mouse('mouseMoved', ...third);
+  await browser.mouse('mousePressed', ...third, 1);
+  await browser.mouse('mouseMoved', ...second, 1);
   await browser.key('Delete');
+  await browser.mouse('mouseMoved', ...third, 1);
+  await browser.mouse('mouseReleased', ...third);
+  assert.equal(await count(), before + 1);
 
   // Layers, themes, the report.
   for (const key of ['1', '2', '3', '4', '5', '6', ...(await browser.evaluate('Boolean(varimap.data.texture)') ? ['7'] : [])]) {

@@ -9,7 +9,9 @@ export class Landmarks {
     this.onChange = onChange;
   }
   add(points, suggested = null) {
-    this.items.push({ name: `L${this.items.length + 1}`, suggested, ...points });
+    let number = 1;
+    while (this.items.some(({ name }) => name === `L${number}`)) number++;
+    this.items.push({ name: `L${number}`, suggested, ...points });
     this.select(this.items.length - 1);
     return this.items.at(-1);
   }
@@ -57,22 +59,15 @@ export class Landmarks {
   }
 }
 
+// Options that speak of the landmarks or the map of before.
+const ofBefore = ['--candidate', '--initial-map', '--map-base', '--landmark-space', '--landmark-base'];
+
 // The command that maps again with the saved landmarks, with the options of before.
 export function nextCommand(report, surfaces) {
-  const quoted = (word) => (/^[\w./=:+-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`);
-  const options = optionsOf(report?.command ?? '');
-  return ['varimap', 'map', quoted(surfaces.source.side.file), quoted(surfaces.target.side.file), '-o', 'out-picked',
-    ...options, '--landmarks', 'landmarks.txt'].join(' ');
-}
-
-// Those options of a command that hold for other landmarks too, as they were typed.
-function optionsOf(command) {
-  const kept = [];
-  for (const flag of ['--mirror', '--full-resolution'])
-    if (new RegExp(`\\s${flag}(\\s|$)`).test(command)) kept.push(flag);
-  for (const match of command.matchAll(/\s(--(?:area-bound|area-energy|set|config))(?:=|\s+)(\S+)/g))
-    kept.push(match[1], match[2]);
-  return kept;
+  const quoted = (word) => (/^[\w./=:+,@%-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`);
+  const options = (report?.options ?? []).filter(([name]) => !ofBefore.includes(name)).flat();
+  return ['varimap', 'map', surfaces.source.side.file, surfaces.target.side.file, '-o', 'out-picked', ...options,
+    '--landmarks', 'landmarks.txt'].map(quoted).join(' ');
 }
 
 export function download(name, text) {

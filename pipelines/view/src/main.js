@@ -182,18 +182,23 @@ class Page {
   // --- What is done --------------------------------------------------------------------------------------------
 
   drag(event, index, side) {
+    if (event.button !== 0) return;
     event.preventDefault();
     this.landmarks.selected = index;
+    const item = this.landmarks.items[index];
     const follow = (move) => {
       const { hit } = this.view.hitAt(...this.toCanvas(move), side);
-      if (hit) this.landmarks.move(index, side, hit);
+      const now = this.landmarks.items.indexOf(item); // it may have been removed meanwhile
+      if (hit && now >= 0) this.landmarks.move(now, side, hit);
     };
+    const dragging = new AbortController();
     const stop = () => {
-      window.removeEventListener('pointermove', follow);
+      dragging.abort();
       this.showLandmarks();
     };
-    window.addEventListener('pointermove', follow);
-    window.addEventListener('pointerup', stop, { once: true });
+    const { signal } = dragging;
+    window.addEventListener('pointermove', follow, { signal });
+    for (const type of ['pointerup', 'pointercancel']) window.addEventListener(type, stop, { signal });
   }
 
   // A point picked on one side: the suggested place of the selected landmark there, or a new landmark.

@@ -20,18 +20,11 @@ function addTable(parent, rows) {
   }
 }
 
-/** What makes the verdict "look here", as pipelines/varimap report says it. */
-function placesToLook({ alarms, checks }) {
-  const checked = checks.filter(({ grade }) => grade === 'look here').map(({ what }) => what);
-  return [...alarms.map((of) => `what ${of} warns of`), ...checked].join('; ');
-}
-
 export function drawReport(element, report) {
   element.replaceChildren();
   add(element, 'h2', 'Report');
   if (!report) return;
-  const look = report.verdict === 'look here' ? placesToLook(report) : '';
-  add(element, 'p', verdictWords[report.verdict] + look, 'verdict');
+  add(element, 'p', verdictWords[report.verdict] + report.look.join('; '), 'verdict');
   for (const warning of report.warnings) add(element, 'p', `Warning: ${warning}`, 'warning');
   addTable(element, report.checks.map(({ what, value, grade }) => [what, value, grade]));
   add(element, 'h2', 'What was done');
