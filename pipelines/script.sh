@@ -145,6 +145,25 @@ generate_pair() {
     "$VARIMAP_BIN/varimap-generate" "$@" 2>"$3/log.txt" || fail $? "$(tail -n 1 "$3/log.txt")"
 }
 
+# torus_mesh AROUND ACROSS SWELL: vertices along a ring of radius 1, and round the tube, whose radius is 0.4 (1 + SWELL cos u) at the
+# angle u along it.
+torus_mesh() {
+    awk -v n="$1" -v m="$2" -v swell="$3" 'BEGIN {
+        pi = atan2(0, -1)
+        print "OFF"; print n * m, 2 * n * m, 0
+        for (i = 0; i < n; ++i)
+            for (j = 0; j < m; ++j) {
+                u = 2 * pi * i / n; v = 2 * pi * j / m; r = .4 * (1 + swell * cos(u))
+                printf "%.9f %.9f %.9f\n", (1 + r * cos(v)) * cos(u), (1 + r * cos(v)) * sin(u), r * sin(v)
+            }
+        for (i = 0; i < n; ++i)
+            for (j = 0; j < m; ++j) {
+                a = i * m + j; b = (i + 1) % n * m + j; c = (i + 1) % n * m + (j + 1) % m; d = i * m + (j + 1) % m
+                print 3, a, b, c; print 3, a, c, d
+            }
+    }'
+}
+
 # map_shape FOLDER OUT OPTION...: maps the pair that varimap-generate left in FOLDER, results in OUT; errors.txt and
 # errors.json in FOLDER.
 map_shape() {
@@ -190,6 +209,9 @@ reliability='
     }
     BEGIN { split("0 .5 .7 .9 .98 1", edge, " ") }
 '
+
+# What OpenMP is told is not about these programs.
+cores_here() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
 
 require_cores() {  # VALUE of -j; stages take no more threads
     [[ $1 =~ ^[1-9][0-9]{0,3}$ && $1 -le 4096 ]] || fail 2 "-j $1: give a number of cores, from 1 to 4096"

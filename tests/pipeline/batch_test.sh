@@ -37,14 +37,61 @@ for surface in a b c; do seq 0 145 >lists_of/$surface.txt; done
 [[ $(column errors.csv pair | grep -c -- --) == 3 ]] || fail "errors of three pairs"
 grep -q '^6 of 6 maps are right' errors.csv || fail "the maps are wrong: $(tail -n 3 errors.csv)"
 expect_exit 6 "$VARIMAP_SOURCE/pipelines/batch/errors" all meshes
+seq 0 100 >lists_of/b.txt
+expect_exit 3 "$VARIMAP_SOURCE/pipelines/batch/errors" all lists_of
+grep -q '^errors: error: a--b: cannot be evaluated; are the lists numbered from 0, and of the same length?$' log || fail "a list of another length: $(<log)"
+! grep -q 'no pair' out.txt || fail "pairs are done, and said not to be"
 expect_exit 6 env VARIMAP_BIN="$PWD/nowhere" "$VARIMAP_SOURCE/pipelines/batch/errors" all lists_of
 
-# Who holds OUT is told to whoever waits for it.
-flock all/.lock sleep 1 &
-sleep .3
+# The cost model, from what this batch has cost: all rows, those of which it tells nothing as they were; what landmarks called for is
+# no measure of what exploration costs.
+fit=$VARIMAP_SOURCE/pipelines/batch/fit model=$VARIMAP_SOURCE/pipelines/batch/cost_model.csv
+"$fit" all/costs.csv >model.csv 2>log || fail "fit (exit $?)"
+[[ $(cut -d , -f 1,2 model.csv) == "$(cut -d , -f 1,2 "$model")" ]] || fail "rows of the cost model: $(<model.csv)"
+for stage in locate explore_if_needed; do grep -qxF "$(grep "^$stage," "$model")" model.csv || fail "$stage of the cost model: $(<model.csv)"; done
+! grep -qxF "$(grep '^explore,' "$model")" model.csv || fail "a batch does not tell what exploration costs"
+{ cat all/costs.csv; echo explore,a--b.landmarks.candidates,,9999,9999,9999; } >doubted.csv
+"$fit" doubted.csv | diff model.csv - >log || fail "exploration with landmarks in the cost model: $(<log)"
+expect_exit 2 "$fit"
+expect_exit 6 "$fit" absent.csv
+
+# A folder that is called as what jobs leave when they are killed is none of it.
+mkdir all/pairs/a.tmp.b
+touch all/pairs/a.tmp.b/mine all/pairs/a--b/mine.tmp.1
 batch --all-pairs meshes -o all -j 1
+[[ -e all/pairs/a.tmp.b/mine && ! -e all/pairs/a--b/mine.tmp.1 ]] || fail "what killed jobs left"
+rm -r all/pairs/a.tmp.b
+
+# As job arrays, by the shell of sbatch, in a folder of any name.
+mkdir programs
+cat >programs/sbatch <<'TEXT'
+#!/usr/bin/env bash
+# The tasks one after another, each by sh, as SLURM does it.
+tasks=1
+for word in "$@"; do [[ $word != --array=1-* ]] || tasks=${word#--array=1-}; done
+for ((i = 1; i <= tasks; ++i)); do SLURM_ARRAY_TASK_ID=$i sh -c "${!#}" >>"$SBATCH_SAID" 2>&1 || true; done
+echo 7
+TEXT
+chmod +x programs/sbatch
+mkdir few
+cp meshes/a.off meshes/b.off few
+arrays=$'\xc3\xb6\'s \\tables'
+batch --all-pairs few -o "$arrays" --plan
+SBATCH_SAID=$PWD/said PATH=$PWD/programs:$PATH "$VARIMAP_SOURCE/pipelines/batch/slurm" "$arrays" 08 >out.txt 2>log || fail "job arrays (exit $?)"
+[[ $(<out.txt) == "7 7 7" ]] || fail "numbers of the jobs: $(<out.txt)"
+[[ $(column "$arrays/status.csv" status) == "done" ]] || fail "job arrays: $(<said)"
+same "$arrays/pairs/a--b/source_to_target.csv" all/pairs/a--b/source_to_target.csv
+batch --all-pairs few -o "$arrays" --plan
+! grep -q . "$arrays/batch/pending" || fail "what job arrays have done is not known"
+
+# Who holds OUT is told to whoever waits for it.
+exec {held}>all/.lock
+flock $held
+"$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o all -j 1 >out.txt 2>log {held}>&- &
+until grep -q 'waiting for another run' log || ! kill -0 $! 2>/dev/null; do sleep .05; done
+exec {held}>&-
+wait $! || fail "a batch that waited (exit $?)"
 grep -q '^batch: the other run is process [0-9]* on .*, kill -- -[0-9]* ends these$' log || fail "who holds OUT: $(cat log)"
-wait $!
 
 # What is replaced while a batch runs is not done, and told.
 mkdir moving
@@ -268,6 +315,10 @@ printf 'source,target\nmeshes/a.off,meshes/b.off\nmeshes/a.off,meshes/b.off\n' >
 expect_exit 3 "$varimap" batch twice.csv -o none
 printf 'mesh,name\n"meshes/a.off,x\n' >quotes.csv
 expect_exit 3 "$varimap" batch quotes.csv -o none
+cp meshes/a.off bare
+printf 'source,target\nbare,meshes/b.off\n' >bare.csv
+expect_exit 3 "$varimap" batch bare.csv -o none
+grep -q '^batch: error: .*/bare: a name without an ending' log || fail "a mesh without an ending: $(<log)"
 echo '0 0' >'back\slash.txt'
 printf 'source,target,landmarks\nmeshes/a.off,meshes/b.off,back\\slash.txt\n' >slash.csv
 expect_exit 3 "$varimap" batch slash.csv -o none

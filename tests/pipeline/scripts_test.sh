@@ -96,6 +96,9 @@ check_front_end() {  # VARIMAP
 check_front_end "$varimap"
 
 mkdir empty
+cp a.off ./-x.off
+"$varimap" survey -- -x.off >out.txt 2>log || fail "survey of a name with a dash (exit $?)"
+grep -q '^"./-x.off",taken,' out.txt || fail "a name with a dash: $(<out.txt)"
 expect_exit 6 "$varimap" survey empty
 grep -q 'survey: error: empty: no mesh there' log || fail "a folder without meshes"
 
