@@ -1,5 +1,5 @@
 # What the sources of each folder may include follows from what their target links. It is written to include_rules.txt
-# in the build folder, which tests/include_rules_test.sh reads: two lines for a folder, of its headers and of its other
+# in the build folder, which tests/include_rules/include_rules_test.sh reads: two lines for a folder, of its headers and of its other
 # sources, with what a permitted include may begin with.
 
 # What includes of each package begin with.

@@ -168,8 +168,18 @@ same_batch() {  # OUT OUT
 # nothing_left FOLDER...: no file of a run that has ended.
 nothing_left() {
     local left
-    left=$(find "$@" \( -name '*.tmp.*' -o -name '*.tmp' -o -name '?*.lock' -o -name .make.log -o -name '.failures*' \) -print)
+    left=$(find "$@" \( -name '*.tmp.*' -o -name '*.tmp' -o -name '?*.lock' \) -print)
     [[ -z $left ]] || fail "left behind: $left"
+}
+
+# victims KIND SESSION: of a run in a session of its own: all, the front end, a job of a batch, or a stage.
+victims() {
+    case $1 in
+    all) pgrep -s "$2" || true ;;
+    front_end) echo "$2" ;;
+    job) pgrep -s "$2" job | head -n 1 || true ;;
+    stage) pgrep -s "$2" varimap- | head -n 1 || true ;;
+    esac
 }
 
 # printable_only FILE...: no byte that a terminal would obey.

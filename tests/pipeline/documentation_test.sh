@@ -21,8 +21,9 @@ links_lead_somewhere() {
 
 # Rows of the table `| paper | computed by | file |`: each name in the first backquoted file of its row, or the others.
 names_are_in_their_files() {
-    local row names files sources name missing=0
+    local row names files sources name missing=0 rows=0
     while IFS= read -r row; do
+        ((++rows))
         names=$(cut -d'|' -f3 <<<"$row" | grep -o '`[A-Za-z_:]*`' | tr -d '`' | sed 's/.*:://') || continue
         mapfile -t files < <(cut -d'|' -f4 <<<"$row" | grep -o '`[^`]*`' | tr -d '`')
         for name in $names; do
@@ -31,6 +32,7 @@ names_are_in_their_files() {
                 { echo "common/README.md: $name is not in ${files[*]}" >&2; missing=1; }
         done
     done < <(sed -n '/^| paper | computed by/,/^$/p' common/README.md | tail -n +3 | grep '|')
+    ((rows)) || { echo "common/README.md: no table of what is computed where" >&2; return 1; }
     return $missing
 }
 
@@ -41,11 +43,16 @@ places() {  # FILES as the table names them: of common/varimap, or of the projec
     done
 }
 
+# is_stage STAGE WORD: whether there is one whose parameters can be asked for.
+is_stage() {
+    [[ -x $VARIMAP_BIN/varimap-$1 ]] || { echo "pipelines/help/parameters.md: $2: there is no stage $1" >&2; return 1; }
+}
+
 parameters_exist() {
     local word stage name missing=0
-    for word in $(grep -oh '`[a-z]*\.[a-z_]*`' pipelines/help/parameters.md | tr -d '`' | sort -u); do
+    for word in $(grep -oh '`[a-z][a-z]*\.[a-z_]*`' pipelines/help/parameters.md | tr -d '`' | sort -u); do
         stage=${word%%.*} name=${word#*.}
-        [[ -x $VARIMAP_BIN/varimap-$stage ]] || continue
+        is_stage "$stage" "$word" || { missing=1; continue; }
         grep -q -- "--$name " <<<"$("$VARIMAP_BIN/varimap-$stage" --help)" ||
             { echo "pipelines/help/parameters.md: $word is no parameter" >&2; missing=1; }
     done
@@ -54,17 +61,19 @@ parameters_exist() {
 
 # Rows of the table `| parameter | default | meaning |`: one default for all parameters of the row, or one for each.
 defaults_are_those_of_the_stages() {
-    local names said name i default wrong=0
+    local names said name i default wrong=0 rows=0
     while IFS='|' read -r _ names said _; do
         said=$(sed 's/(.*//; s/[` ]//g; s/^[.]/0./; s/,[.]/,0./g' <<<"$said") i=0
+        ((++rows))
         while read -r name; do
             ((++i))
-            [[ -x $VARIMAP_BIN/varimap-${name%.*} ]] || continue
+            is_stage "${name%.*}" "$name" || { wrong=1; continue; }
             default=$("$VARIMAP_BIN/varimap-${name%.*}" --help | sed -n "/^  --${name#*.} VALUE/{/(default/!N; s/.*(default \([^;]*\);.*/\1/p}")
             [[ $default == "$(cut -d, -f$i <<<"$said")" ]] ||
                 { echo "pipelines/help/parameters.md: the default of $name is $default" >&2; wrong=1; }
         done < <(grep -o '[a-z]*[.][a-z_]*' <<<"$names")
     done < <(sed -n '/^| parameter | default/,/^$/p' pipelines/help/parameters.md | grep '`[a-z]*[.]')
+    ((rows)) || { echo "pipelines/help/parameters.md: no table of defaults" >&2; return 1; }
     return $wrong
 }
 

@@ -34,14 +34,18 @@ for moment in .002 .005 .01 .02 .03 .05 .08 .12 .2; do
     rm -f killed/new.diffusion
 done
 
-# The whole pipeline, ended by an interrupt (which it answers) and by a kill (which it cannot).
-for moment in .1 .4 .8 1.2; do
+# The whole pipeline, ended by an interrupt, which it answers, while some stage runs.
+for stage in preprocess eigen explore diffuse; do
+    signal=TERM expected=143
+    [[ $stage != eigen ]] || signal=HUP expected=129
+    : >log
     "$varimap" map -v "${small_picture[@]}" a.off b.off -o out -j 2 >/dev/null 2>log &
-    front_end=$!
-    sleep $moment
-    kill -TERM $front_end 2>/dev/null || true
-    wait $front_end 2>/dev/null || true
-    [[ -d out ]] || continue  # ended before it began
+    front_end=$! code=0
+    until grep -q "^\[$stage\]" log || ! kill -0 $front_end 2>/dev/null; do sleep .02; done
+    kill -$signal $front_end 2>/dev/null || true
+    wait $front_end 2>/dev/null || code=$?
+    ((code == expected)) || fail "exit $code after SIG$signal while $stage ran"
+    [[ $(tail -n 1 log) == 'varimap: error: interrupted; what is finished is kept' ]] || fail "an interrupt is not said"
     find out -name '*.surface' -o -name '*.coarse' -o -name '*.basis' -o -name '*.hierarchy' -o -name '*.candidates' -o -name '*.diffusion' -o -name '*.plan' \
         -o -name '*.map' -o -name '*.quality' | while read -r artifact; do
         "$inspect" --check "$artifact" &>/dev/null || fail "$artifact is damaged after an interrupt"

@@ -16,15 +16,7 @@ start=$EPOCHREALTIME
 "${command[@]}" whole >out.txt 2>log || fail "a batch (exit $?)"
 milliseconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 1000))
 
-victims() {  # KIND SESSION
-    case $1 in
-    0) pgrep -s "$2" || true ;;
-    1) echo "$2" ;;
-    2) pgrep -s "$2" job | head -n 1 || true ;;
-    3) pgrep -s "$2" varimap- | head -n 1 || true ;;
-    esac
-}
-
+kinds=(all front_end job stage)
 # Half of the bytes of some artifact that was not damaged already; its name goes to the list.
 damage() {
     local files file
@@ -58,7 +50,7 @@ for ((killed = 1; killed <= kills; ++killed)); do
     moment=$((RANDOM % milliseconds))
     sleep "$((moment / 1000)).$(printf '%03d' $((moment % 1000)))"
     # shellcheck disable=SC2046
-    kill -9 $(victims $((RANDOM % 4)) $session) 2>/dev/null || true
+    kill -9 $(victims "${kinds[RANDOM % 4]}" $session) 2>/dev/null || true
     wait $session 2>/dev/null || true
     # Where the front end alone was killed its jobs go on, and are waited for by whoever comes next.
     ((RANDOM % 2)) || pgrep -s "$session" >/dev/null || damage

@@ -85,7 +85,7 @@ TEXT
 fi
 
 frame=$VARIMAP_BIN/../view/frame.html
-[[ -s $frame ]] || { echo "skipped the browser: build $frame with pipelines/view/build"; exit 0; }
+[[ -s $frame ]] || { echo "skipped the browser: build $frame with pipelines/view/build"; exit 77; }
 # The front end tells the page what the map was made of, and in which axes.
 printf '[diffuse]\nlandmark_space = "as-is"\n[explore]\nlandmark_space = "as-is"\n[render]\nlandmark_space = "as-is"\n' >as-is.toml
 for how in --landmark-space=as-is --config=as-is.toml; do
@@ -105,7 +105,7 @@ mv kept.off a.off
 "$varimap" view spaced >out.txt 2>log || fail "view of the mesh as it was (exit $?)"
 
 for tool in node chromium; do
-    command -v $tool >/dev/null || { echo "skipped the browser: $tool is missing"; exit 0; }
+    command -v $tool >/dev/null || { echo "skipped the browser: $tool is missing"; exit 77; }
 done
 "$VARIMAP_BIN/varimap-view" a.off b.off good/{source_to_target,target_to_source}.csv "$frame" view.html >out.txt 2>log ||
     fail "view (exit $?)"
