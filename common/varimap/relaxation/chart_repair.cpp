@@ -159,16 +159,6 @@ std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std:
     return int(disc.size()) > 2 * most ? std::vector<int>() : disc;
 }
 
-PointMap ChartRepair::points_of(const std::vector<int>& vertices) const {
-    PointMap points;
-    for (const int v : vertices) points.push_back(map_.point(v));
-    return points;
-}
-
-void ChartRepair::place(const std::vector<int>& vertices, const PointMap& points) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) map_.place(vertices[i], points[i]);
-}
-
 VertexData<bool> ChartRepair::all_but(const std::vector<int>& vertices) const {
     VertexData<bool> marks(map_.source().vertex_count(), true);
     for (const int v : vertices) marks[v] = false;
@@ -181,7 +171,7 @@ void ChartRepair::polish(std::vector<int> vertices) {
 }
 
 void ChartRepair::relax(const std::vector<int>& vertices, const std::vector<int>& around, double most) {
-    const PointMap kept = points_of(vertices);
+    const PointMap kept = map_.points_of(vertices);
     GlobalRelaxation global(map_, all_but(vertices), relief_);
     LocalRelaxation local(map_, 7);
     std::vector<int> shuffled = vertices;
@@ -190,7 +180,7 @@ void ChartRepair::relax(const std::vector<int>& vertices, const std::vector<int>
         local.sweep(shuffled, global_energy.energy);
         if (gain < least_gain) break;
     }
-    if (badness(around) > most) place(vertices, kept);
+    if (badness(around) > most) map_.place(vertices, kept);
 }
 
 void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
@@ -226,9 +216,9 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const PointMap unfolded = part.unfolded(map_, fixed);
     if (unfolded.empty()) return Outcome::folded;
 
-    const PointMap kept = points_of(part.vertices());
+    const PointMap kept = map_.points_of(part.vertices());
     const std::vector<int> free = part.free_vertices(fixed);
-    place(part.vertices(), unfolded);
+    map_.place(part.vertices(), unfolded);
     polish(free);
     if (is_better(around, before)) {
         if (int(free.size()) > most_with_care) {
@@ -240,11 +230,11 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     agreement_.improve(agreement_.disagreeing_among(part.faces()), all_but(free));
     if (is_better(around, before)) return Outcome::repaired;
     if (int(free.size()) <= most_with_care) {
-        place(part.vertices(), unfolded);
+        map_.place(part.vertices(), unfolded);
         polish_with_care(free);
         if (is_better(around, before)) return Outcome::repaired;
     }
-    place(part.vertices(), kept);
+    map_.place(part.vertices(), kept);
     return Outcome::no_gain;
 }
 
@@ -262,12 +252,12 @@ std::vector<int> ChartRepair::free_within(const std::vector<int>& faces, const V
 bool ChartRepair::adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around,
                                 const State& before, const VertexData<bool>& fixed) {
     const std::vector<int> free = free_within(faces, fixed);
-    const PointMap kept = points_of(free);
+    const PointMap kept = map_.points_of(free);
     for (const int v : free)
         if (const SurfacePoint image = inverse_(v); image.face >= 0) map_.place(v, image);
     polish(free);
     if (is_better(around, before)) return true;
-    place(free, kept);
+    map_.place(free, kept);
     return false;
 }
 
@@ -320,14 +310,14 @@ std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
         if (std::ssize(cluster) > most_for_kernels) continue;
         const std::vector<int> faces = source_.widened(cluster, rings_of_kernels),
                                around = source_.widened(faces, 1), free = free_within(faces, fixed);
-        const PointMap kept = points_of(free);
+        const PointMap kept = map_.points_of(free);
         const double before = badness(around);
         std::erase_if(cluster, [&](int f) { return !along_target_.is_reversed(f); });
         kernels_.centre(cluster, free);
         if (badness(around, before) < before)
             touched.insert(touched.end(), around.begin(), around.end());
         else
-            place(free, kept);
+            map_.place(free, kept);
     }
     make_set(touched);
     return touched;

@@ -77,8 +77,6 @@ class ChartRepair {
     void relax(const std::vector<int>& vertices, const std::vector<int>& around, double most);
     /// No vertex moves where more faces would be reversed.
     void polish_with_care(const std::vector<int>& vertices);
-    PointMap points_of(const std::vector<int>& vertices) const;
-    void place(const std::vector<int>& vertices, const PointMap& points);
     VertexData<bool> all_but(const std::vector<int>& vertices) const;
 
     SlidingMap& map_;

@@ -32,17 +32,21 @@ void log_repair(const ChartRepair::Report& report) {
 }  // namespace
 
 void FaultRepair::operator()(const PointMap& back) {
-    if (!options_.align_normals) return;
+    if (options_.align_normals) report_.disagreeing_before = repair_all(back);
+}
+
+int FaultRepair::repair_all(const PointMap& back) {
     AlongTarget along_target(map_);
     NormalAgreement agreement(map_, along_target);
     std::vector<int> left = agreement.disagreeing_faces();
-    report_.disagreeing_before = int(left.size());
+    const int before = int(left.size());
     left = repair(back, along_target, agreement, std::move(left));
     report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
+    return before;
 }
 
 bool FaultRepair::is_done_again() const {
-    return faults_ > 0 && faults_ <= few_faults;
+    return may_be_done_again() && faults_ > 0 && faults_ <= few_faults;
 }
 
 void FaultRepair::again(const PointMap& back) {
@@ -53,21 +57,23 @@ void FaultRepair::again(const PointMap& back) {
     NormalAgreement agreement(map_, along_target);
     repair(back, along_target, agreement, {});
     if (faults_ > faults) {
-        place(kept);
+        map_.restore(kept);
         faults_ = faults;
     }
     report_.disagreeing_after = int(agreement.disagreeing_faces().size());
 }
 
 void FaultRepair::recover(const PointMap& back) {
-    if (!options_.replace_parts || !options_.align_normals) return;
+    if (!may_be_recovered()) return;
     const PointMap kept = map_.points();
+    const UntanglingReport reported = report_;
     const int faults = faults_;
     if (!recover_missed_parts(map_, back, held(), landmarks_, options_.inverse_weight)) return;
-    (*this)(back);
+    repair_all(back);
     if (faults_ <= faults) return;
     log("{} faulty faces more come of them: they are left", faults_ - faults);
-    place(kept);
+    map_.restore(kept);
+    report_ = reported;
     faults_ = faults;
 }
 
@@ -79,9 +85,8 @@ bool FaultRepair::may_be_done_again() const {
     return options_.repair_again && count_used_vertices(map_.source()) <= large_surface;
 }
 
-void FaultRepair::place(const PointMap& points) {
-    for (int v = 0; v < int(points.size()); ++v)
-        if (map_.has_image(v)) map_.place(v, points[std::size_t(v)]);
+bool FaultRepair::may_be_recovered() const {
+    return options_.replace_parts && options_.align_normals;
 }
 
 std::vector<int> FaultRepair::repair(const PointMap& back, AlongTarget& along_target,
@@ -102,7 +107,7 @@ std::vector<int> FaultRepair::repair(const PointMap& back, AlongTarget& along_ta
     if (options_.centre_stars) leave(charts.centre_stars(stays));
     make_set(left);
     log_repair(charts.report());
-    if (may_be_done_again()) faults_ = charts.faulty_faces();
+    if (may_be_done_again() || may_be_recovered()) faults_ = charts.faulty_faces();
     return left;
 }
 

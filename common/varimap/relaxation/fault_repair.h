@@ -36,7 +36,9 @@ class FaultRepair {
     VertexData<bool> held() const;
     /// On a large surface to look at all of it again takes longer than what is won.
     bool may_be_done_again() const;
-    void place(const PointMap& points);
+    bool may_be_recovered() const;
+    /// Returns how many faces disagreed with the target's normals before.
+    int repair_all(const PointMap& back);
     /// `left`: the faces that disagree with the target's normals, ascending. Returns those that may in the
     /// end.
     std::vector<int> repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,

@@ -80,13 +80,8 @@ class Patch {
             sum += map_.rest(faces_[i]).area * energy.value(shapes_[i].q, shapes_[i].D);
         return sum;
     }
-    void keep() {
-        kept_.clear();
-        for (const int v : start_) kept_.push_back(map_.point(v));
-    }
-    void restore() {
-        for (std::size_t i = 0; i < start_.size(); ++i) map_.place(start_[i], kept_[i]);
-    }
+    void keep() { kept_ = map_.points_of(start_); }
+    void restore() { map_.place(start_, kept_); }
 
     SlidingMap& map_;
     std::vector<int> vertices_, start_;  ///< in the order of visits, and of kept_

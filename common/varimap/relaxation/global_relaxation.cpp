@@ -87,8 +87,6 @@ struct GlobalRelaxation::State {
     void add_relief();
     void add_constraints();
     void add(int i, const FaceDerivatives& face, double weight);
-    PointMap images() const;
-    void place(const PointMap& images);
     void set_steps(const Eigen::VectorXd& direction);
     void walk(double share);
     void walk_with_care(const FoldEnergy& energy, const std::vector<double>& before, double share);
@@ -185,19 +183,8 @@ double GlobalRelaxation::State::total(const RobustEnergy& energy) const {
     return sum;
 }
 
-PointMap GlobalRelaxation::State::images() const {
-    PointMap points;
-    points.reserve(free.size());
-    for (const int v : free) points.push_back(map.point(v));
-    return points;
-}
-
-void GlobalRelaxation::State::place(const PointMap& images) {
-    for (int i = 0; i < int(free.size()); ++i) map.place(free[i], images[i]);
-}
-
 void GlobalRelaxation::State::set_steps(const Eigen::VectorXd& direction) {
-    start = images();
+    start = map.points_of(free);
     steps.resize(free.size());
     for (int i = 0; i < int(free.size()); ++i) {
         steps[i] = frames[free[i]] * direction.segment<2>(2 * i);
@@ -276,7 +263,7 @@ double GlobalRelaxation::State::descend(const RobustEnergy& energy, double befor
         walk_with_care(energy.energy, densities_before, share);
         if (const double after = total(energy); after < before) return after;
     }
-    place(start);
+    map.place(free, start);
     return before;
 }
 

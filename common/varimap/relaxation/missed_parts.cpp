@@ -105,8 +105,7 @@ bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexDat
         log("images taken from the other direction enter {:.1f}% more of the other surface", 100 * gain);
         return true;
     }
-    for (int v = 0; v < held.size(); ++v)
-        if (!held[v] && map.has_image(v)) map.place(v, kept[std::size_t(v)]);
+    map.restore(kept);
     return false;
 }
 

@@ -11,7 +11,7 @@ namespace varimap {
 /// 0.05 sqrt(area) from where it began, images are taken from the other direction, inverted, and relaxed;
 /// they are kept if the map then enters more of the target, by 0.4 % of its area and by half of what
 /// disagreed: less is gained where the directions are two different maps. Returns whether they were.
-/// `back`: the other direction. Vertices with fixed[v] stay, `landmarks` hold.
+/// `back`: the other direction, known. Vertices with fixed[v] stay, `landmarks` hold.
 bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexData<bool>& fixed,
                           const std::vector<SoftConstraint>& landmarks, double inverse_weight);
 

@@ -35,6 +35,22 @@ SlidingMap::SlidingMap(const PointMap& map, const TriangleMesh& source, const Tr
         if (map[v].face >= 0) place(v, map[v]);
 }
 
+PointMap SlidingMap::points_of(const std::vector<int>& vertices) const {
+    PointMap points;
+    points.reserve(vertices.size());
+    for (const int v : vertices) points.push_back(points_[v]);
+    return points;
+}
+
+void SlidingMap::place(const std::vector<int>& vertices, const PointMap& points) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) place(vertices[i], points[i]);
+}
+
+void SlidingMap::restore(const PointMap& points) {
+    for (int v = 0; v < points_.size(); ++v)
+        if (has_image(v)) place(v, points[std::size_t(v)]);
+}
+
 std::vector<int> SlidingMap::faces_around(const std::vector<int>& vertices) const {
     std::vector<int> faces;
     for (const int v : vertices) {

@@ -72,6 +72,11 @@ class SlidingMap {
         image_[v] = position(target_, point);
         normal_[v] = position(normals_, point);
     }
+    /// Images of these vertices, and the same laid back.
+    PointMap points_of(const std::vector<int>& vertices) const;
+    void place(const std::vector<int>& vertices, const PointMap& points);
+    /// Lays all images that there are back to those of a copy of points().
+    void restore(const PointMap& points);
     /// Rest areas of faces times `factor`: the relaxations then aim at lengths times its root.
     void scale_rest(const std::vector<int>& faces, double factor) {
         for (const int f : faces) rest_[f].area *= factor;

@@ -164,11 +164,18 @@ UntanglingReport UntangledDirection::finish() {
         report_.replaced_area_percent = replacement_->report().area_percent;
     }
     const Distortion after = measure_distortion(sliding_.points(), source_, target_);
-    if (is_worse(after)) return report_;
+    if (is_worse(after)) return left_as_it_was();
     map_ = sliding_.points();
     report_.flipped_after = after.flipped_count;
     report_.flipped_area_percent_after = after.flipped_area_percent;
     return report_;
+}
+
+UntanglingReport UntangledDirection::left_as_it_was() const {
+    UntanglingReport report = untouched(before_);
+    report.mirrored_parts = report_.mirrored_parts;
+    report.gated_area_percent = report_.gated_area_percent;
+    return report;
 }
 
 std::unique_ptr<RoundRelaxation> UntangledDirection::relaxation(const Round& round, int steps) {

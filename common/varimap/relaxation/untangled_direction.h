@@ -54,6 +54,7 @@ class UntangledDirection {
   private:
     /// Than it was in the beginning.
     bool is_worse(const Distortion& after) const;
+    UntanglingReport left_as_it_was() const;
     /// Of the mapped faces, per area.
     double energy() const;
     std::unique_ptr<RoundRelaxation> relaxation(const Round& round, int steps);

@@ -1,0 +1,63 @@
+#include "varimap/relaxation/fault_repair.h"
+
+#include <gtest/gtest.h>
+
+#include "fixtures/bad_maps.h"
+#include "fixtures/map_shapes.h"
+#include "fixtures/shapes.h"
+
+namespace varimap {
+namespace {
+
+/// A map that has a leg crushed to its root, upright.
+class MissedLeg : public testing::Test {
+  protected:
+    TriangleMesh rest = shapes::figure(0.15), posed = shapes::figure_pose(0.5)(rest);
+    VertexData<bool> fixed{rest.vertex_count()};
+    SlidingMap map{
+        shapes::with_leg(
+            rest, [](const Vec3& p) -> Vec3 { return shapes::leg_origin + .05 * (p - shapes::leg_origin); }),
+        rest, posed};
+    const std::vector<SoftConstraint> landmarks;
+    UntanglingOptions options;
+    UntanglingReport report;
+
+    MissedLeg() { options.repair_again = false; }  // as on coarse meshes
+    void recover() {
+        FaultRepair repair(map, fixed, landmarks, nullptr, options, report);
+        repair.recover(shapes::at_vertices(rest));
+    }
+};
+
+TEST_F(MissedLeg, IsTakenFromTheOtherDirection) {
+    recover();
+    EXPECT_LT(shapes::mean_error(map.points(), posed, shapes::on_leg(rest)), shapes::longest_edge(posed));
+}
+
+TEST_F(MissedLeg, StaysWhereMoreFaultsComeOfIt) {
+    // Some faces of its tip stay as they are, and are reversed.
+    const std::vector<char> leg = shapes::on_leg(rest);
+    int reversed = 0;
+    for (int f = 0; f < rest.face_count() && reversed < 3; ++f) {
+        const auto corners = rest.faces.row(f);
+        if (!leg[std::size_t(corners[0])] || !(rest.vertices(corners[0], 2) < -1.3)) continue;
+        const SurfacePoint first = map.point(corners[0]);
+        map.place(corners[0], map.point(corners[1]));
+        map.place(corners[1], first);
+        mark_corners(rest, f, fixed);
+        ++reversed;
+    }
+    ASSERT_EQ(reversed, 3);
+    const PointMap before = map.points();
+    recover();
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        ASSERT_EQ(map.point(int(v)).face, before[v].face);
+        ASSERT_EQ(map.point(int(v)).barycentric, before[v].barycentric);
+    }
+    EXPECT_EQ(report.sweeps, 0);
+    EXPECT_EQ(report.disagreeing_before, 0);
+    EXPECT_EQ(report.disagreeing_after, 0);
+}
+
+}  // namespace
+}  // namespace varimap
