@@ -13,7 +13,8 @@ struct FinishedMap {
     int start = 0;      ///< which of the starts it was; of several that became the same, the first
     MapPair maps;       ///< per vertex of either mesh, on faces of the other
     double energy = 0;  ///< Eq. (3) on the last level, of every vertex
-    std::vector<double> rough_scores{};  ///< on its way there, level by level
+    /// On its way there: on the first level, and on each Euclidean one.
+    std::vector<double> rough_scores{};
 };
 
 /// What tells the right map from wrong ones, whether they are relaxed or not (shape_agreement.h).

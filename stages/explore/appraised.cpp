@@ -41,8 +41,7 @@ void FinishedPool::add(std::span<const PooledMap> added) {
     const std::size_t before = origins_.size();
     std::vector<MapStart> starts;
     for (const PooledMap& map : added) {
-        starts.push_back(
-            [&images = map.images](const LevelPair& level) { return matching_of(images, level); });
+        starts.push_back(start_of(map));
         origins_.push_back(map.origin);
     }
     for (FinishedMap& map : finish(context_, appraisal_, starts, options_, maps_)) {

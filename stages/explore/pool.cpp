@@ -26,6 +26,10 @@ std::vector<PooledMap> pool_of(Exploration& exploration, ExplorationProgress coa
 
 }  // namespace
 
+MapStart start_of(const PooledMap& map) {
+    return [&images = map.images](const LevelPair& level) { return matching_of(images, level); };
+}
+
 VertexImages vertex_images(const MapPair& maps, const PairContext& context) {
     return {nearest_vertices(maps.A_to_B, context.B().surface.mesh),
             nearest_vertices(maps.B_to_A, context.A().surface.mesh)};

@@ -15,6 +15,9 @@ struct PooledMap {
     Candidate origin;
 };
 
+/// Keeps a reference.
+MapStart start_of(const PooledMap& map);
+
 /// What one exploration finds on the levels too coarse to see orientation (Exploration::coarse_levels).
 ExplorationProgress coarsely_explored(const PairContext& context, const ExplorationOptions& options,
                                       const ExploreParams& params);

@@ -23,7 +23,7 @@ struct Candidate {
     /// mirror image, which the number of its self-map counts.
     bool mirrored_back = false;
     bool turned_about_axis = false;  ///< and then turned about an axis of one of the surfaces
-    /// Of the first: its score, less that of the best map between A and the mirror image of B, if that is
+    /// Its score on sketches, less that of the best map between A and the mirror image of B, if that is
     /// better; 0 where it was not looked for.
     double mirror_gain = 0;
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
