@@ -64,7 +64,7 @@ PointMap on_files(const PointMap& images, const Sides& sides) {
         const Spot spot = spot_of(at, images, sides);
         result.push_back(on_input(spot.place, spot.normal));
     }
-    return to_file(result, sides.part.link, sides.whole.link, sides.whole.input);
+    return to_file(std::move(result), sides.part, sides.whole);
 }
 
 /// Found on the sketches, placed on the surfaces.

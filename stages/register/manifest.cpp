@@ -43,8 +43,7 @@ Answer read_answer(const Json& entry, const std::string& specimen, const Triangl
     const std::string from_first = text_of(entry, "from_first");
     if (!from_first.empty()) {
         answer.from_first = read_csv_map(from_first);
-        if (int(answer.from_first.size()) != first.vertex_count() ||
-            !are_points(answer.from_first, answer.map.from.face_count()))
+        if (!is_map_between(answer.from_first, first, answer.map.from))
             throw InputError(from_first + ": not a map from the template to " + answer.map.from_file);
     } else if (answer.map.from.vertex_count() != first.vertex_count()) {
         throw InputError(answer.map.from_file + ": not the template");

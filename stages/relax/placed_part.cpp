@@ -54,7 +54,7 @@ MapPair placed_maps(const PartRegion& region, const Surface& A, const Surface& B
     MapPair maps = planned;
     PointMap& there = region.part_is_source ? maps.A_to_B : maps.B_to_A;
     PointMap& back = region.part_is_source ? maps.B_to_A : maps.A_to_B;
-    lay_where_placed(there, from_file(region.placed, part.link, whole.link), part, whole);
+    lay_where_placed(there, from_file(region.placed, part, whole), part, whole);
     back = inverse(there, std::move(back), part.mesh, whole.mesh);
     pin_landmarks(maps, record, A, B);
     return maps;

@@ -148,12 +148,14 @@ Json to_json(const std::vector<LandmarkSurroundings>& surroundings) {
     return list;
 }
 
-/// JSON has no infinities: members that are not finite are left out rather than written as null.
+/// JSON has no infinities: members that are not finite are left out rather than written as null. In lists,
+/// where one stands for a landmark, they are null.
 void remove_not_finite(Json& json) {
     if (!json.is_structured()) return;
     for (auto member = json.begin(); member != json.end();) {
         remove_not_finite(*member);
-        const bool keep = !member->is_number_float() || std::isfinite(member->get<double>());
+        const bool keep =
+            json.is_array() || !member->is_number_float() || std::isfinite(member->get<double>());
         member = keep ? std::next(member) : json.erase(member);
     }
 }

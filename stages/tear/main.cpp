@@ -19,7 +19,7 @@ TriangleMesh read_plain(const std::string& path) {
 
 void require_whole(const PointMap& map, const TriangleMesh& from, const TriangleMesh& to,
                    const std::string& path) {
-    if (int(map.size()) != from.vertex_count() || !are_points(map, to.face_count()))
+    if (!is_map_between(map, from, to))
         throw InputError(path + ": is no map between these meshes; give the tables of their own varimap map");
     for (const SurfacePoint& image : map)
         if (image.face < 0)

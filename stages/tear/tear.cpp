@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/topology.h"
@@ -28,12 +29,12 @@ std::vector<char> near_to(const std::vector<int>& torn, const TriangleMesh& mesh
     return near;
 }
 
-double area_percent(const TriangleMesh& mesh, const std::vector<char>& marked) {
+/// Of the faces f with is_marked(f).
+template <class Predicate>
+double area_percent(const TriangleMesh& mesh, const Predicate& is_marked) {
     double area = 0;
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto has = [&](int c) { return marked[std::size_t(mesh.faces(f, c))] != 0; };
-        if (has(0) || has(1) || has(2)) area += face_normal(mesh, f).norm() / 2;
-    }
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (is_marked(f)) area += face_normal(mesh, f).norm() / 2;
     return 100 * area;
 }
 
@@ -49,29 +50,33 @@ TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target
         return (images.row(a) - images.row(b)).norm() /
                (source.vertices.row(a) - source.vertices.row(b)).norm();
     };
+    const auto is_torn = [&](int a, int b) { return stretch_of(a, b) > options.stretch; };
     std::vector<int> torn;
-    std::vector<char> is_torn(std::size_t(source.vertex_count()), 0);
     for (const auto& [a, b] : edges)
-        if (stretch_of(a, b) > options.stretch) {
+        if (is_torn(a, b)) {
             ++report.torn_edges;
-            for (const int end : {a, b})
-                if (!is_torn[std::size_t(end)]) is_torn[std::size_t(end)] = 1, torn.push_back(end);
+            torn.insert(torn.end(), {a, b});
         }
+    make_set(torn);
     const std::vector<char> near = near_to(torn, source, options.distance);
-    report.torn_area_percent = area_percent(source, is_torn);
-    report.near_area_percent = area_percent(source, near);
     const auto is_near = [&](int v) { return near[std::size_t(v)] != 0; };
+    const auto touches_near = [&](const auto& corners) {
+        return is_near(corners[0]) || is_near(corners[1]) || is_near(corners[2]);
+    };
+    report.torn_area_percent = area_percent(source, [&](int f) {
+        const auto c = source.faces.row(f);
+        return is_torn(c[0], c[1]) || is_torn(c[1], c[2]) || is_torn(c[2], c[0]);
+    });
+    report.near_area_percent = area_percent(source, [&](int f) { return touches_near(source.faces.row(f)); });
     for (const auto& [a, b] : edges)
         if (!is_near(a) && !is_near(b))
             report.largest_stretch = std::max(report.largest_stretch, stretch_of(a, b));
     for (const int f : verify_map(there, source, target).reversed_faces)
-        report.reversed_elsewhere +=
-            !is_near(source.faces(f, 0)) && !is_near(source.faces(f, 1)) && !is_near(source.faces(f, 2));
+        report.reversed_elsewhere += !touches_near(source.faces.row(f));
     const Points there_again = pulled_back(images, source, back);
     int elsewhere = 0, returned = 0;
     for (int v = 0; v < target.vertex_count(); ++v) {
-        const auto corners = source.faces.row(back[std::size_t(v)].face);
-        if (is_near(corners[0]) || is_near(corners[1]) || is_near(corners[2])) continue;
+        if (touches_near(source.faces.row(back[std::size_t(v)].face))) continue;
         ++elsewhere;
         returned += (there_again.row(v) - target.vertices.row(v)).norm() < options.distance;
     }

@@ -1,11 +1,13 @@
 #include "stages/transfer/gltf.h"
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/image/png_file.h"
 
@@ -50,6 +52,8 @@ class Glb {
 
   private:
     static std::string word(std::size_t value) {
+        if (value > std::numeric_limits<std::uint32_t>::max())
+            throw IoError("the result is larger than a .glb may be (4 GB): choose another format");
         const auto number = std::uint32_t(value);
         return {reinterpret_cast<const char*>(&number), sizeof number};
     }

@@ -25,17 +25,13 @@ void decode(const std::string& payload, PartRegion& region) {
     require<PartRegion>(!region.faces.empty() && are_distinct_in_range(region.faces, region.face_count) &&
                             std::is_sorted(region.faces.begin(), region.faces.end()),
                         "faces");
-    for (const SurfacePoint& point : region.placed)
-        require<PartRegion>(point.face >= -1 && point.barycentric.allFinite(), "points");
+    require<PartRegion>(are_points(region.placed), "points");
     require<PartRegion>(region.strain >= 0, "strain");
 }
 
 void require_places(const PartRegion& region, const TriangleMesh& part_file, const TriangleMesh& whole_file) {
-    const bool fits = int(region.placed.size()) == part_file.vertex_count() &&
-                      std::all_of(region.placed.begin(), region.placed.end(), [&](const SurfacePoint& point) {
-                          return point.face < whole_file.face_count();
-                      });
-    if (!fits) throw ArtifactError("the region is one of another part or whole; rerun varimap-locate");
+    if (!is_map_between(region.placed, part_file, whole_file))
+        throw ArtifactError("the region is one of another part or whole; rerun varimap-locate");
 }
 
 namespace {

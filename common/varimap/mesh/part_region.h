@@ -29,7 +29,7 @@ template <>
 struct ArtifactType<PartRegion> {
     static constexpr const char* kind = "region";
     static constexpr const char* stage = "varimap-locate";
-    static constexpr int schema = 2;
+    static constexpr int schema = 3;
 };
 std::string encode(const PartRegion& region);
 void decode(const std::string& payload, PartRegion& region);

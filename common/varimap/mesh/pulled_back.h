@@ -4,7 +4,7 @@
 
 namespace varimap {
 
-/// Values of a mesh's vertices, row by row, linear on its faces, at points of it.
+/// Values of a mesh's vertices, row by row, linear on its faces, at points of it, none of them nowhere.
 template <class Values>
 Values pulled_back(const Values& values, const TriangleMesh& mesh, const PointMap& points) {
     Values result(Eigen::Index(points.size()), values.cols());

@@ -23,6 +23,10 @@ bool are_points(const PointMap& points, int faces) {
     });
 }
 
+bool is_map_between(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {
+    return int(map.size()) == source.vertex_count() && are_points(map, target.face_count());
+}
+
 Box bounding_box(const TriangleMesh& mesh) {
     Box box{Vec3::Constant(std::numeric_limits<double>::infinity()),
             Vec3::Constant(-std::numeric_limits<double>::infinity())};

@@ -38,6 +38,8 @@ using PointMap = std::vector<SurfacePoint>;
 /// Whether each is nowhere or has barycentric coordinates in [0, 1] of sum 1; `faces`: their number, if
 /// known.
 bool are_points(const PointMap& points, int faces = -1);
+/// Whether it has a point for each vertex of the source, on faces of the target or nowhere.
+bool is_map_between(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
 
 /// Points of two surfaces that belong together.
 using PointPairs = std::vector<std::pair<SurfacePoint, SurfacePoint>>;

@@ -252,7 +252,7 @@ PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const S
 }
 
 Correspondences correspondences_of(const PointMap& map, const Surface& A, const Surface& B) {
-    const PointMap images = from_file(map, A.link, B.link);
+    const PointMap images = from_file(map, A, B);
     const PointMap vertices = points_at_vertices(A.input);
     Correspondences pairs;
     for (std::size_t v = 0; v < images.size(); ++v) {

@@ -75,7 +75,7 @@ void require_surfaces(const Candidates& candidates, const TriangleMesh& input_A,
 
 void require_previews(const Candidates& candidates, const TriangleMesh& source, const TriangleMesh& target) {
     for (const PointMap& preview : candidates.previews)
-        if (int(preview.size()) != target.vertex_count() || !are_points(preview, source.face_count()))
+        if (!is_map_between(preview, target, source))
             throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
 }
 

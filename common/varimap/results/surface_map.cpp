@@ -107,10 +107,6 @@ bool is_finite(const UntanglingReport& report) {
            std::isfinite(report.gated_area_percent);
 }
 
-bool is_between(const PointMap& map, const Surface& source, const Surface& target) {
-    return int(map.size()) == file_of(source).vertex_count() && are_points(map, file_of(target).face_count());
-}
-
 }  // namespace
 
 std::string encode(const SurfaceMap& map) {
@@ -127,7 +123,8 @@ void decode(const std::string& payload, SurfaceMap& map) {
 }
 
 void require_surfaces(const SurfaceMap& map, const Surface& A, const Surface& B) {
-    if (!is_between(map.A_to_B, A, B) || !is_between(map.B_to_A, B, A))
+    const TriangleMesh &file_A = file_of(A), &file_B = file_of(B);
+    if (!is_map_between(map.A_to_B, file_A, file_B) || !is_map_between(map.B_to_A, file_B, file_A))
         throw ArtifactError("the map is not one between these surfaces; rerun varimap-relax");
 }
 
@@ -147,12 +144,16 @@ std::string to_csv(const PointMap& map) {
     return text;
 }
 
+namespace {
+
 bool is_near_surface(const SurfacePoint& point) {
     const Vec3& b = point.barycentric;
     if (point.face < -1 || !b.allFinite()) return false;
     if (point.face < 0) return true;
     return std::abs(b.sum() - 1) <= barycentric_tolerance && b.minCoeff() >= -barycentric_tolerance;
 }
+
+}  // namespace
 
 void require_near_surface(const SurfacePoint& point, const std::string& place, int faces) {
     const Vec3& b = point.barycentric;

@@ -39,9 +39,8 @@ PointMap read_csv_map(const std::string& path);
 /// Whether the first line is that of such a table.
 bool is_csv_map(std::string_view bytes);
 PointMap parse_csv_map(std::string_view bytes, const std::string& path);
-/// Nowhere, or with barycentric coordinates in [0, 1] of sum 1, to the few digits of other programs.
-bool is_near_surface(const SurfacePoint& point);
-/// Throws InputError, beginning with `place`, for a point that is not; `faces`: their number, if known.
+/// Throws InputError, beginning with `place`, for a point that is neither nowhere nor has barycentric
+/// coordinates in [0, 1] of sum 1, to the few digits of other programs; `faces`: their number, if known.
 void require_near_surface(const SurfacePoint& point, const std::string& place, int faces = -1);
 
 /// The same as an .npz: `face` (int32), `barycentric` (n x 3), `nearest_vertex` (int32; -1 as of faces), and

@@ -3,7 +3,6 @@
 #include <array>
 #include <vector>
 
-#include "varimap/core/enum_names.h"
 #include "varimap/core/linear_algebra.h"
 
 namespace varimap {
@@ -12,10 +11,6 @@ namespace varimap {
 enum class LevelKind : int {
     diffusion = 0,  ///< W of Eq. 7 at one diffusion time
     euclidean = 1,  ///< W = exp(-d^2 / 2 sigma^2) (Eq. 11), d along the surface
-};
-template <>
-struct EnumNames<LevelKind> {
-    static constexpr std::array names{"diffusion", "Euclidean"};
 };
 
 /// One level of a surface's hierarchy (Sec. 4.2, 4.5).

@@ -302,6 +302,15 @@ TEST_F(MeshFile, DoublesAreKeptAndTheLocaleDoesNotMatter) {
     EXPECT_EQ(mesh.vertex(0), Vec3(0.12345678901234567, 0, -150));
 }
 
+TEST_F(MeshFile, NumbersOutOfRangeAreTheNearestOnes) {
+    const std::string tiny = "0." + std::string(400, '0') + "1", large = std::string(400, '9');
+    const TriangleMesh mesh = read("a.obj", "v " + tiny + " -" + tiny + " 1e-400\nv " + large + " -" + large +
+                                                " -1e400\nv 0 1 0\nf 1 2 3\n");
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(mesh.vertex(0), Vec3(0, 0, 0));
+    EXPECT_EQ(mesh.vertex(1), Vec3(infinity, -infinity, -infinity));
+}
+
 TEST_F(MeshFile, NonManifoldFilesAreReadAsTheyStand) {
     const TriangleMesh mesh = read("a.obj",
                                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\n"

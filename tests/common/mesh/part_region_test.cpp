@@ -144,10 +144,12 @@ TEST(PartRegion, OfARepairedMeshKeepsTheWayToTheFile) {
 
 TEST(PartRegion, OfAnotherMeshIsRefused) {
     EXPECT_THROW(cropped({shapes::ellipsoid(2), {}, {}}, {7, {1, 2}, true, {}, 0}), ArtifactError);
+    const PointMap off_its_face{{0, Vec3(7, -3, -3)}};
     PartRegion region;
     for (const PartRegion& bad : {PartRegion{3, {}, true, {}, 0}, PartRegion{3, {1, 3}, true, {}, 0},
                                   PartRegion{3, {-1}, true, {}, 0}, PartRegion{3, {2, 1}, true, {}, 0},
-                                  PartRegion{3, {1, 1}, true, {}, 0}, PartRegion{3, {1}, true, {}, -1}})
+                                  PartRegion{3, {1, 1}, true, {}, 0}, PartRegion{3, {1}, true, {}, -1},
+                                  PartRegion{3, {1}, true, off_its_face, 0}})
         EXPECT_THROW(decode(encode(bad), region), ArtifactError);
 }
 

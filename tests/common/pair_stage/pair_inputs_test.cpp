@@ -67,6 +67,14 @@ TEST_F(PairLandmarks, AtVerticesAreNoPoints) {
     EXPECT_TRUE(landmark_points({pairs, {}}, surface(), surface()).empty());
 }
 
+TEST(InitialMap, OntoAMirroredTargetIsOnItsFile) {
+    const Surface A = preprocess(shapes::ellipsoid(2), {}), B = with_reversed_orientation(A);
+    const TriangleMesh file = input_as_read(B);
+    const PointMap map(std::size_t(A.input.vertex_count()), {3, {.6, .3, .1}});
+    for (const auto& [vertex, image] : correspondences_of(map, A, B).from_A)
+        EXPECT_LT((position(B.input, image) - position(file, map[0])).norm(), 1e-12);
+}
+
 TEST_F(PairLandmarks, MoveTheirVerticesInSpaceAndInTheBasis) {
     const auto pairs = onto_themselves(inside_one_face(2));
     SurfaceData data;

@@ -48,14 +48,25 @@ std::string_view without_byte_order_mark(std::string_view bytes, const std::stri
     return bytes.starts_with(mark) ? bytes.substr(mark.size()) : bytes;
 }
 
+namespace {
+
+/// Of a number out of range: whether it is below the least one, not above the largest.
+bool is_tiny(std::string_view word) {
+    const std::size_t exponent = word.find_first_of("eE");
+    if (exponent != word.npos) return word.substr(exponent).find('-') != word.npos;
+    return word.substr(0, word.find('.')).find_first_of("123456789") == word.npos;
+}
+
+}  // namespace
+
 bool to_number(std::string_view word, double& value) {
     word = without_plus(word);
     const char* end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     if (stop != end || word.empty()) return false;
     if (error == std::errc::result_out_of_range) {
-        const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
-        value = tiny ? 0 : std::numeric_limits<double>::infinity();
+        value = is_tiny(word) ? 0 : std::numeric_limits<double>::infinity();
+        if (word.front() == '-') value = -value;
         return true;
     }
     return error == std::errc();
