@@ -8,6 +8,9 @@ written() {
     wait $! || fail 6 "$1: cannot be written; is the disk full?"
 }
 
+# was_interrupted CODE: whether a script ended so (script.sh): it has neither done what it was asked nor failed.
+was_interrupted() { (($1 == 129 || $1 == 130 || $1 == 143)); }
+
 # handful NAME...: the first five, and how many more there are.
 handful() {
     local text
