@@ -7,15 +7,16 @@
 
 namespace varimap {
 
-std::vector<Appraised> ordered(std::vector<Appraised> list, const PairContext& context) {
-    // Where landmarks lead is given up only for what is better by more than scores err. Chosen by hand on
-    // half of the known pairs; no choice of the other half depends on it. The same for what was found against
-    // what it becomes turned.
+double ranking_score(const Candidate& candidate) {
+    // By more than scores err. Chosen by hand on half of the known pairs; no choice of the other half depends
+    // on it. With 1.5, 5 of 146 other choices change, and two right maps of animals are lost.
     constexpr double preference = 0.5;
-    const auto rank = [](const Candidate& c) {
-        return std::pair(is_mirrored(c), c.score - (c.explored == 0 ? preference : 0) +
-                                             (c.turned_about_axis ? preference : 0));
-    };
+    return candidate.score - (candidate.explored == 0 ? preference : 0) +
+           (candidate.turned_about_axis ? preference : 0);
+}
+
+std::vector<Appraised> ordered(std::vector<Appraised> list, const PairContext& context) {
+    const auto rank = [](const Candidate& c) { return std::pair(is_mirrored(c), ranking_score(c)); };
     std::stable_sort(list.begin(), list.end(), [&](const Appraised& a, const Appraised& b) {
         return rank(a.candidate) < rank(b.candidate);
     });

@@ -14,7 +14,12 @@ struct Appraised {
     Candidate candidate;
 };
 
-/// The best first, mirrored ones last, and what each is to the best. Not for an empty list.
+/// What maps are put in order by: the score, with a preference for the map that landmarks lead to, which is
+/// given up only for what is clearly better, and for what was found over what it becomes turned about an
+/// axis.
+double ranking_score(const Candidate& candidate);
+
+/// The best first by ranking_score, mirrored ones last, and what each is to the best. Not for an empty list.
 std::vector<Appraised> ordered(std::vector<Appraised> list, const PairContext& context);
 
 /// What is known of the maps, without them.

@@ -73,9 +73,9 @@ std::vector<Appraised> compared_on_surfaces(std::vector<Appraised> list, const P
     const PairContext surfaces = ask_surfaces();
     if (!are_quick(surfaces)) return list;
     rate_on(surfaces, rivals, sketches, options);
-    const double first = rivals.front().candidate.score;
+    const double first = ranking_score(rivals.front().candidate);
     const bool another_is_better = std::any_of(rivals.begin(), rivals.end(), [&](const Appraised& one) {
-        return one.candidate.score + better < first;
+        return ranking_score(one.candidate) + better < first;
     });
     if (!another_is_better) return list;
     return ordered(std::move(rivals), sketches);
