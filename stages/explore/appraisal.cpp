@@ -4,6 +4,7 @@
 
 #include "stages/explore/difference.h"
 #include "varimap/core/rotation.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {
@@ -41,15 +42,7 @@ void compare(const MapPair& best, const MapPair& other, const PairContext& conte
     constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
     const Surface &A = context.A().surface, &B = context.B().surface;
     // Where the best map's inverse takes the other's images, linear on B's faces.
-    Points moved(A.mesh.vertex_count(), 3);
-    for (int v = 0; v < A.mesh.vertex_count(); ++v) {
-        const SurfacePoint& image = other.A_to_B[std::size_t(v)];
-        Vec3 x = Vec3::Zero();
-        for (int k = 0; k < 3; ++k)
-            x += image.barycentric[k] *
-                 position(A.mesh, best.B_to_A[std::size_t(B.mesh.faces(image.face, k))]);
-        moved.row(v) = x.transpose();
-    }
+    const Points moved = pulled_back(pulled_back(A.mesh.vertices, A.mesh, best.B_to_A), B.mesh, other.A_to_B);
     candidate.moved_mass = share_elsewhere(moved, A.mesh.vertices, A, elsewhere);
     candidate.turn = degrees(nearest_rotation(A.mesh.vertices, moved, A.mass));
 }

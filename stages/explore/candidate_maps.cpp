@@ -4,6 +4,7 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/input_locator.h"
+#include "varimap/mesh/pulled_back.h"
 
 namespace varimap {
 
@@ -20,18 +21,12 @@ PointPairs on_inputs(const PointMap& map, const Surface& from, const InputLocato
 /// Per vertex of the file of `from` its image on the file of `to`, linear on the mesh's faces.
 PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
     const InputLocator locate(to);
-    const TriangleMesh normals{vertex_normals(to.mesh), to.mesh.faces};
+    const TriangleMesh image{pulled_back(to.mesh.vertices, to.mesh, map), from.mesh.faces},
+        normals{pulled_back(vertex_normals(to.mesh), to.mesh, map), from.mesh.faces};
     PointMap result(from.on_mesh.size());
     parallel_for_each_index(result.size(), std::size_t(64), [&](std::size_t v) {
         const SurfacePoint& at = from.on_mesh[v];
-        if (at.face < 0) return;
-        Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            const SurfacePoint& image = map[std::size_t(from.mesh.faces(at.face, k))];
-            x += at.barycentric[k] * position(to.mesh, image);
-            normal += at.barycentric[k] * position(normals, image);
-        }
-        result[v] = locate(x, normal);
+        if (at.face >= 0) result[v] = locate(position(image, at), position(normals, at));
     });
     return to_file(std::move(result), from, to);
 }

@@ -7,6 +7,7 @@
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/movable_vertices.h"
 #include "varimap/relaxation/rounds.h"
 
 namespace varimap {
@@ -24,9 +25,7 @@ bool has_all_images(const SlidingMap& map) {
 
 void relax(SlidingMap& map, const VertexData<bool>& pinned, const ReliefAgreement* relief, const Round& round,
            const PlacingOptions& options) {
-    std::vector<int> free;
-    for (int v = 0; v < pinned.size(); ++v)
-        if (!pinned[v]) free.push_back(v);
+    std::vector<int> free = free_vertices(map, pinned, {});
     GlobalRelaxation global(map, pinned, relief);
     LocalRelaxation local(map, 99);
     const RobustEnergy energy({1, round.regularisation}, round.robustness_factor * options.robustness);

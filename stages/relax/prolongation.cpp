@@ -4,11 +4,13 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/subdivision.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/movable_vertices.h"
 #include "varimap/relaxation/rounds.h"
 
 namespace varimap {
@@ -36,7 +38,7 @@ void map_folds_anew(SlidingMap& map, const VertexData<bool>& held) {
 Prolongation::Prolongation(const PointMap& images, const Surface& source, const Surface& target)
     : locate_(target),
       target_(normalised_input(target)),
-      normals_{vertex_normals(target_), target_.faces},
+      normals_(vertex_normals(target_)),
       level_(source.mesh),
       images_(images.size()),
       places_(source.on_mesh),
@@ -45,16 +47,18 @@ Prolongation::Prolongation(const PointMap& images, const Surface& source, const 
                             [&](int v) { images_[std::size_t(v)] = locate_(images[std::size_t(v)]); });
 }
 
-SurfacePoint Prolongation::image_of(const SurfacePoint& at) const {
-    if (at.face < 0) return {};
-    if (const int v = vertex_of(level_, at); v >= 0) return images_[std::size_t(v)];
-    Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-        const SurfacePoint& image = images_[std::size_t(level_.faces(at.face, k))];
-        x += at.barycentric[k] * position(target_, image);
-        normal += at.barycentric[k] * position(normals_, image);
-    }
-    return locate_(x, normal, images_[std::size_t(level_.faces(at.face, 0))].face);
+PointMap Prolongation::images_of(const PointMap& points) const {
+    const TriangleMesh image{pulled_back(target_.vertices, target_, images_), level_.faces},
+        normals{pulled_back(normals_, target_, images_), level_.faces};
+    PointMap result(points.size());
+    parallel_for_each_index(int(points.size()), 64, [&](int i) {
+        const SurfacePoint& at = points[std::size_t(i)];
+        if (at.face < 0) return;
+        const int v = vertex_of(level_, at), guess = images_[std::size_t(level_.faces(at.face, 0))].face;
+        result[std::size_t(i)] =
+            v >= 0 ? images_[std::size_t(v)] : locate_(position(image, at), position(normals, at), guess);
+    });
+    return result;
 }
 
 void Prolongation::relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks) {
@@ -73,10 +77,7 @@ bool Prolongation::is_as_fine_as(double share_of_input) const {
 
 void Prolongation::refine() {
     Subdivision finer = subdivide(level_);
-    PointMap images(finer.midpoints.size());
-    parallel_for_each_index(int(images.size()), 64, [&](int e) {
-        images[std::size_t(e)] = image_of(finer.midpoints[std::size_t(e)]);
-    });
+    const PointMap images = images_of(finer.midpoints);
     images_.insert(images_.end(), images.begin(), images.end());
     for (SurfacePoint& place : places_) place = on_subdivision(place);
     level_ = std::move(finer.mesh);
@@ -88,9 +89,7 @@ void Prolongation::relax(const VertexData<bool>& pinned, const std::vector<Surfa
     VertexData<bool> held(level_.vertex_count());
     for (int v = 0; v < pinned.size(); ++v) held[v] = pinned[v];
     for (const SurfacePoint& landmark : landmarks) mark_corners(level_, landmark.face, held);
-    std::vector<int> free;
-    for (int v = 0; v < held.size(); ++v)
-        if (!held[v] && map.has_image(v)) free.push_back(v);
+    std::vector<int> free = free_vertices(map, held, {});
     LocalRelaxation local(map, 99);
     for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, relaxation_rounds.back().regularisation});
     fold_removal(map, held);
@@ -99,10 +98,7 @@ void Prolongation::relax(const VertexData<bool>& pinned, const std::vector<Surfa
 }
 
 PointMap Prolongation::on_input() const {
-    PointMap map(places_.size());
-    parallel_for_each_index(int(map.size()), 64,
-                            [&](int v) { map[std::size_t(v)] = image_of(places_[std::size_t(v)]); });
-    return map;
+    return images_of(places_);
 }
 
 }  // namespace varimap

@@ -30,16 +30,18 @@ class Prolongation {
 
   private:
     bool is_as_fine_as(double share_of_input) const;
-    SurfacePoint image_of(const SurfacePoint& at) const;
+    /// Of points of the level; nowhere where these are.
+    PointMap images_of(const PointMap& points) const;
     void refine();
     void relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks, bool folds_anew);
 
     InputLocator locate_;
-    TriangleMesh target_, normals_;  ///< the target's input; its normals, as a mesh to interpolate on
-    TriangleMesh level_;             ///< the source's mesh, subdivided
-    PointMap images_;                ///< of its vertices
-    PointMap places_;                ///< of the source's input vertices, on it
-    int input_vertices_;             ///< of which faces use so many
+    TriangleMesh target_;  ///< the target's input
+    Points normals_;       ///< of it, at its vertices
+    TriangleMesh level_;   ///< the source's mesh, subdivided
+    PointMap images_;      ///< of its vertices
+    PointMap places_;      ///< of the source's input vertices, on it
+    int input_vertices_;   ///< of which faces use so many
 };
 
 }  // namespace varimap

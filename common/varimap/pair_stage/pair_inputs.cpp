@@ -8,6 +8,7 @@
 
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/input_locator.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/spectral_check.h"
 
@@ -71,19 +72,12 @@ class VertexChoice {
 void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
                    const std::vector<SurfacePoint>& points) {
     const MeshLocator locate(data.surface);
-    RowMatrix places(vertices.size(), 3), functions(vertices.size(), data.basis.functions.cols());
-    for (int i = 0; i < int(vertices.size()); ++i) {
-        const SurfacePoint at = locate(points[std::size_t(i)]);
-        places.row(i) = position(data.surface.mesh, at).transpose();
-        functions.row(i).setZero();
-        for (int k = 0; k < 3; ++k)
-            functions.row(i) +=
-                at.barycentric[k] * data.basis.functions.row(data.surface.mesh.faces(at.face, k));
-    }
-    for (int i = 0; i < int(vertices.size()); ++i) {
-        data.surface.mesh.vertices.row(vertices[std::size_t(i)]) = places.row(i);
-        data.basis.functions.row(vertices[std::size_t(i)]) = functions.row(i);
-    }
+    TriangleMesh& mesh = data.surface.mesh;
+    RowMatrix& functions = data.basis.functions;
+    PointMap at;
+    for (const SurfacePoint& point : points) at.push_back(locate(point));
+    functions(vertices, Eigen::all) = pulled_back(functions, mesh, at);
+    mesh.vertices(vertices, Eigen::all) = pulled_back(mesh.vertices, mesh, at);
 }
 
 /// What the surface was coarsened from, or itself.
