@@ -7,6 +7,7 @@
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {
@@ -19,13 +20,6 @@ void require_mesh(const TriangleMesh& mesh, const char* which) {
     } catch (const InputError&) {
         require<Surface>(false, which);
     }
-}
-
-/// Every vertex of the mesh has a face, so that every one has a mass.
-void require_all_used(const TriangleMesh& mesh) {
-    std::vector<char> used(mesh.vertex_count(), 0);
-    for (const int v : mesh.faces.reshaped()) used[v] = 1;
-    require<Surface>(std::find(used.begin(), used.end(), 0) == used.end(), "vertices");
 }
 
 void require_sizes(const Surface& surface) {
@@ -94,7 +88,8 @@ void require_masses(const Surface& surface) {
 void require_complete(const Surface& surface) {
     require_mesh(surface.mesh, "mesh");
     require_mesh(surface.input, "input mesh");
-    require_all_used(surface.mesh);
+    // Every vertex of the mesh has a face, so that every one has a mass.
+    require<Surface>(count_used_vertices(surface.mesh) == surface.mesh.vertex_count(), "vertices");
     require_sizes(surface);
     require_way_back(surface);
     require_link(surface);

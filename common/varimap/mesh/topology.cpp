@@ -202,21 +202,11 @@ std::vector<int> vertex_components(const TriangleMesh& mesh) {
 
 TopologySummary summarise_topology(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
-    DisjointSets components(mesh.vertex_count());
-    std::vector<char> used(mesh.vertex_count(), 0);
-    for (const auto& [a, b] : edges.vertices) {
-        used[a] = used[b] = 1;
-        components.join(a, b);
-    }
-    TopologySummary summary;
-    summary.boundary_loops = find_boundary(mesh, edges).loops;
-    int component_count = 0;
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        summary.used_vertices += used[v];
-        component_count += used[v] && components.lowest(v) == v;
-    }
+    const std::vector<int> component = vertex_components(mesh);
+    const int last = component.empty() ? -1 : *std::max_element(component.begin(), component.end());
+    TopologySummary summary{count_used_vertices(mesh), find_boundary(mesh, edges).loops, 0};
     const int euler = summary.used_vertices - edges.size() + mesh.face_count();
-    summary.genus = (2 * component_count - summary.boundary_loops - euler) / 2;
+    summary.genus = (2 * (last + 1) - summary.boundary_loops - euler) / 2;
     return summary;
 }
 
