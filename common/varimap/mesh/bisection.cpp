@@ -1,13 +1,13 @@
 #include "varimap/mesh/bisection.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
 #include <cmath>
 #include <queue>
 #include <tuple>
 #include <vector>
 
-#include "varimap/core/error.h"
+#include "varimap/mesh/private/half_edge_mesh.h"
+#include "varimap/mesh/topology.h"
 
 namespace varimap {
 namespace {
@@ -17,7 +17,7 @@ struct Traits : OpenMesh::DefaultTraitsDouble {
         int origin;  ///< the face before it lies in
     };
 };
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using BisectedMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 /// One edge waiting to be split. Lengths are compared on a logarithmic grid, so that rounding cannot reorder
 /// edges of equal length.
@@ -44,41 +44,24 @@ class Bisector {
     Bisection result() const;
 
   private:
-    void build();
     void offer(OpenMesh::SmartEdgeHandle e);
     void split(OpenMesh::SmartEdgeHandle e);
     Vec3 on_face(int v, int origin) const;
 
     const TriangleMesh& before_;
-    HalfEdgeMesh mesh_;
-    std::vector<SurfacePoint> on_origin_;
+    BisectedMesh mesh_;
+    PointMap on_origin_;
     std::priority_queue<Candidate> queue_;
     double limit_;  ///< squared; edges that exceed the target by rounding only are kept
 };
 
 Bisector::Bisector(const TriangleMesh& mesh, double target_length)
-    : before_(mesh), on_origin_(mesh.vertex_count()), limit_(target_length * target_length * (1 + 1e-9)) {
-    build();
+    : before_(mesh),
+      mesh_(half_edges<BisectedMesh>(mesh)),
+      on_origin_(points_at_vertices(mesh)),
+      limit_(target_length * target_length * (1 + 1e-9)) {
+    for (const auto f : mesh_.faces()) mesh_.data(f).origin = f.idx();
     for (const auto e : mesh_.edges()) offer(e);
-}
-
-/// Vertices and faces keep their numbers. A vertex of the mesh before lies on the first face that uses it.
-void Bisector::build() {
-    omerr().disable();  // a refused face is reported below
-    mesh_.reserve(before_.vertex_count(), before_.vertex_count() + before_.face_count(),
-                  before_.face_count());
-    for (int v = 0; v < before_.vertex_count(); ++v)
-        mesh_.add_vertex(OpenMesh::Vec3d(before_.vertices.row(v).data()));
-    for (int f = 0; f < before_.face_count(); ++f) {
-        const auto vertex = [&](int c) { return mesh_.vertex_handle(before_.faces(f, c)); };
-        const auto face = mesh_.add_face(vertex(0), vertex(1), vertex(2));
-        if (!face.is_valid()) throw Error(ExitCode::internal, "bisection needs a manifold mesh");
-        mesh_.data(face).origin = f;
-        for (int c = 0; c < 3; ++c) {
-            SurfacePoint& point = on_origin_[before_.faces(f, c)];
-            if (point.face < 0) point = {f, Vec3::Unit(c)};
-        }
-    }
 }
 
 void Bisector::offer(OpenMesh::SmartEdgeHandle e) {
