@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "varimap/mesh/private/disjoint_sets.h"
 
@@ -26,6 +27,26 @@ Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges) {
 
 Boundary find_boundary(const TriangleMesh& mesh) {
     return find_boundary(mesh, find_edges(mesh));
+}
+
+std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh, const Edges& edges) {
+    std::vector<int> next(std::size_t(mesh.vertex_count()), -1);
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.sides[e].size() != 1) continue;
+        const int side = edges.sides[e][0], f = side / 3, c = side % 3;
+        next[std::size_t(mesh.faces(f, (c + 1) % 3))] = mesh.faces(f, c);
+    }
+    std::vector<BoundaryLoop> loops;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        if (next[std::size_t(v)] < 0) continue;
+        BoundaryLoop& loop = loops.emplace_back();
+        for (int at = v; at >= 0;) {
+            loop.push_back(at);
+            at = std::exchange(next[std::size_t(at)], -1);
+        }
+        loop.pop_back();  // the first one again
+    }
+    return loops;
 }
 
 std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary) {

@@ -16,6 +16,12 @@ struct Boundary {
 Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges);
 Boundary find_boundary(const TriangleMesh& mesh);
 
+/// A boundary loop: its vertices, in the order in which faces that close it name them.
+using BoundaryLoop = std::vector<int>;
+
+/// All of them, each from its lowest vertex, by these. Of a manifold mesh: where loops touch, some end early.
+std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh, const Edges& edges);
+
 /// Per loop its length.
 std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary);
 

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "varimap/core/plane.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/private/half_edge_mesh.h"
 #include "varimap/mesh/topology.h"
 
@@ -196,7 +197,7 @@ Disc Coarsener::lay_out(VertexHandle v) const {
     for (int i = 0; i < disc.faces(); ++i) {
         const Vec3 a = position(disc.spokes[std::size_t(i)].to()) - centre,
                    b = position(disc.spokes[std::size_t(disc.next(i))].to()) - centre;
-        angle.push_back(angle.back() + std::atan2(a.cross(b).norm(), a.dot(b)));
+        angle.push_back(angle.back() + angle_between(a, b));
     }
     const double scale = (disc.closed ? 2 : 1) * std::numbers::pi / angle.back();
     for (int i = 0; i < disc.size(); ++i) {

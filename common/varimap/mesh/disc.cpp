@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
+#include <utility>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/linear_algebra.h"
+#include "varimap/mesh/boundary.h"
+#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
 
@@ -16,17 +18,6 @@ namespace {
 int index_in(const std::vector<int>& ascending, int value) {
     const auto found = std::lower_bound(ascending.begin(), ascending.end(), value);
     return found != ascending.end() && *found == value ? int(found - ascending.begin()) : -1;
-}
-
-/// Per boundary vertex the next one, with the face to the left; empty if a vertex has two.
-std::unordered_map<int, int> next_on_boundary(const TriangleMesh& mesh, const Edges& edges) {
-    std::unordered_map<int, int> next;
-    for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() != 1) continue;
-        const int side = edges.sides[e][0], f = side / 3, k = side % 3;
-        if (!next.emplace(mesh.faces(f, k), mesh.faces(f, (k + 1) % 3)).second) return {};
-    }
-    return next;
 }
 
 }  // namespace
@@ -48,21 +39,14 @@ SurfacePoint SubMesh::on_part(const SurfacePoint& point) const {
 
 std::vector<int> disc_boundary(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
-    const std::unordered_map<int, int> next = next_on_boundary(mesh, edges);
+    std::vector<BoundaryLoop> loops = boundary_loops(mesh, edges);
     // With one loop, no vertex of which is met twice, Euler's number 1 leaves neither handles nor other
     // parts.
-    if (next.size() < 3 || mesh.vertex_count() - edges.size() + mesh.face_count() != 1) return {};
-    std::vector<int> loop;
-    int v = mesh.vertex_count();
-    for (const auto& [from, to] : next) v = std::min(v, from);
-    do {
-        const auto found = next.find(v);
-        if (found == next.end() || loop.size() == next.size()) return {};
-        loop.push_back(v);
-        v = found->second;
-    } while (v != loop.front());
-    if (loop.size() != next.size()) return {};
-    return loop;
+    if (loops.size() != 1 || mesh.vertex_count() - edges.size() + mesh.face_count() != 1) return {};
+    const int boundary_edges = 2 * edges.size() - 3 * mesh.face_count();
+    if (int(loops[0].size()) != boundary_edges) return {};
+    std::reverse(loops[0].begin() + 1, loops[0].end());
+    return std::move(loops[0]);
 }
 
 namespace {
@@ -89,7 +73,7 @@ std::vector<Spring> mean_value_springs(const TriangleMesh& disc) {
             const int v = disc.faces(f, k);
             const Vec3 a = disc.vertex(disc.faces(f, (k + 1) % 3)) - disc.vertex(v);
             const Vec3 b = disc.vertex(disc.faces(f, (k + 2) % 3)) - disc.vertex(v);
-            const double half = std::tan(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
+            const double half = std::tan(angle_between(a, b) / 2);
             // Bounds keep needles from making the system singular.
             const auto weight = [&](const Vec3& side) {
                 return std::clamp(half, 1e-3, 1e3) / std::max(side.norm(), 1e-12);

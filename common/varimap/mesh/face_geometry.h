@@ -8,6 +8,11 @@
 
 namespace varimap {
 
+/// The angle between two vectors, in [0, pi]; accurate for small and for blunt ones.
+inline double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
 /// Length of a face's longest edge.
 inline double longest_edge(const TriangleMesh& mesh, int f) {
     const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),

@@ -27,28 +27,6 @@ constexpr double area_of_slits = 1e-4;
 using Loop = BoundaryLoop;
 using Triangle = std::array<int, 3>;
 
-/// By their lowest vertices.
-std::vector<Loop> boundary_loops(const TriangleMesh& mesh) {
-    const Edges edges = find_edges(mesh);
-    std::vector<int> next(std::size_t(mesh.vertex_count()), -1);
-    for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() != 1) continue;
-        const int side = edges.sides[e][0], f = side / 3, c = side % 3;
-        next[std::size_t(mesh.faces(f, (c + 1) % 3))] = mesh.faces(f, c);
-    }
-    std::vector<Loop> loops;
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        if (next[std::size_t(v)] < 0) continue;
-        Loop& loop = loops.emplace_back();
-        for (int at = v; at >= 0;) {
-            loop.push_back(at);
-            at = std::exchange(next[std::size_t(at)], -1);
-        }
-        loop.pop_back();  // the first one again
-    }
-    return loops;
-}
-
 /// What it costs to close a loop of one mesh.
 class HoleFilling {
   public:
@@ -210,7 +188,7 @@ int longest_hole(const std::string& words) {
 
 RepairedMesh slits_closed(RepairedMesh repaired) {
     const TriangleMesh& mesh = repaired.mesh;
-    const std::vector<Loop> loops = boundary_loops(mesh);
+    const std::vector<Loop> loops = boundary_loops(mesh, find_edges(mesh));
     if (loops.empty()) return repaired;
     const Adjacency neighbours = vertex_neighbours(mesh);
     HoleFilling filling(mesh, neighbours, 0);  // all of its faces are thin
@@ -229,7 +207,7 @@ RepairedMesh slits_closed(RepairedMesh repaired) {
 
 RepairedMesh holes_filled(RepairedMesh repaired, int edges) {
     if (edges < 3) return repaired;
-    const std::vector<Loop> loops = boundary_loops(repaired.mesh);
+    const std::vector<Loop> loops = boundary_loops(repaired.mesh, find_edges(repaired.mesh));
     if (loops.empty()) return repaired;
     std::vector<Loop> chosen;
     for (const Loop& loop : loops)

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/mesh_repair.h"
 
 namespace varimap {
@@ -23,9 +24,6 @@ RepairedMesh holes_filled(RepairedMesh mesh, int edges);
 /// by a vertex that lies on an edge of other faces (a T-junction), and where the two sides of a seam have
 /// other vertices. Loops of at most 200 edges.
 RepairedMesh slits_closed(RepairedMesh mesh);
-
-/// A boundary loop: its vertices, in the order in which faces that close it name them.
-using BoundaryLoop = std::vector<int>;
 
 /// Closes some boundary loops, as above. Returns which could be closed.
 std::vector<char> close_loops(RepairedMesh& mesh, const std::vector<BoundaryLoop>& loops);

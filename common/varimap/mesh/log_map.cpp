@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/triangle_strip.h"
 
 namespace varimap {
@@ -15,10 +16,6 @@ namespace {
 /// many, and searches for ways between them were most of the time of repair and verification of a skull's.
 constexpr double detour = 6;
 
-double angle(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 int corner_of(const TriangleMesh& mesh, int f, int vertex) {
     return mesh.faces(f, 0) == vertex ? 0 : mesh.faces(f, 1) == vertex ? 1 : 2;
 }
@@ -27,9 +24,7 @@ int corner_of(const TriangleMesh& mesh, int f, int vertex) {
 std::vector<int> fan(const TriangleMesh& mesh, const Edges& edges, int vertex, int face) {
     const auto beyond = [&](int f, int side_of_corner) {
         const int side = 3 * f + (corner_of(mesh, f, vertex) + side_of_corner) % 3;
-        for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
-            if (other / 3 != f) return other / 3;
-        return -1;
+        return face_beyond(edges, edges.of_side[std::size_t(side)], f);
     };
     std::vector<int> faces{face};
     int next = beyond(face, 2);  // the side that enters the corner lies to the left
@@ -78,7 +73,8 @@ LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, co
         if (f == face) {
             const Vec3 away =
                 straight_path(mesh_, *edges_, outside, mesh_.vertex(vertex), to).goal_from_start;
-            at = total + angle(mesh_.vertex(mesh_.faces(f, (k + 1) % 3)) - mesh_.vertex(vertex), away);
+            at =
+                total + angle_between(mesh_.vertex(mesh_.faces(f, (k + 1) % 3)) - mesh_.vertex(vertex), away);
         }
         total += corner_angle(mesh_, f, vertex);
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "varimap/mesh/face_geometry.h"
+
 namespace varimap {
 
 PointPairs swapped(const PointPairs& pairs) {
@@ -52,7 +54,7 @@ Points vertex_normals(const TriangleMesh& mesh) {
             const Vec3 p = mesh.vertex(mesh.faces(f, c));
             const Vec3 a = mesh.vertex(mesh.faces(f, (c + 1) % 3)) - p;
             const Vec3 b = mesh.vertex(mesh.faces(f, (c + 2) % 3)) - p;
-            const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+            const double angle = angle_between(a, b);
             normals.row(mesh.faces(f, c)) += angle * n.normalized().transpose();
         }
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "varimap/core/plane.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/funnel.h"
 
 namespace varimap {
@@ -218,7 +219,7 @@ double corner_angle(const TriangleMesh& mesh, int face, int vertex) {
     while (mesh.faces(face, k) != vertex) ++k;
     const Vec3 p = mesh.vertex(vertex), to_next = mesh.vertex(mesh.faces(face, (k + 1) % 3)) - p,
                to_last = mesh.vertex(mesh.faces(face, (k + 2) % 3)) - p;
-    return std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+    return angle_between(to_next, to_last);
 }
 
 StraightPath straight_path(const TriangleMesh& mesh, const Edges& edges, const TriangleStrip& strip,

@@ -1,7 +1,8 @@
 #include "varimap/quality/image_mesh.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
 
@@ -14,10 +15,7 @@ TriangleMesh unit_area(const TriangleMesh& mesh) {
 }
 
 bool is_degenerate(const TriangleMesh& mesh, int f) {
-    const Vec3 a = mesh.vertex(mesh.faces(f, 0)), b = mesh.vertex(mesh.faces(f, 1)),
-               c = mesh.vertex(mesh.faces(f, 2));
-    const double longest =
-        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    const double longest = longest_edge(mesh, f);
     // Of coordinates of order 1: a height of less than shape * rounding is rounding.
     constexpr double shape = 1e-10, rounding = 1e-4;
     return !(face_normal(mesh, f).norm() > shape * longest * (longest + rounding));

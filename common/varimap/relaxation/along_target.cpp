@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "varimap/mesh/face_geometry.h"
+
 namespace varimap {
 
 namespace {
@@ -83,7 +85,7 @@ Lie AlongTarget::look_at(int f) {
     Lie straight{1, {}};
     for (int k = 0; k < 3; ++k) {
         const auto [to_next, to_last] = map_.image_sides(f, k);
-        straight.turns[std::size_t(k)] = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+        straight.turns[std::size_t(k)] = angle_between(to_next, to_last);
     }
     return straight;
 }
