@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "stages/explore/appraisal.h"
 #include "stages/explore/candidate_maps.h"
 #include "stages/explore/difference.h"
+#include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
 #include "varimap/results/read_out.h"
 
@@ -15,11 +15,8 @@ namespace varimap {
 namespace {
 
 VertexImages identity(const Surface& surface) {
-    VertexImages images;
-    images.A_to_B.resize(std::size_t(surface.mesh.vertex_count()));
-    std::iota(images.A_to_B.begin(), images.A_to_B.end(), 0);
-    images.B_to_A = images.A_to_B;
-    return images;
+    const std::vector<int> own = all_indices(surface.mesh.vertex_count());
+    return {own, own};
 }
 
 std::vector<int> after(const std::vector<int>& first, const std::vector<int>& then) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "stages/explore/starts.h"
+#include "varimap/core/index_set.h"
 
 namespace varimap {
 
@@ -22,8 +22,7 @@ RowMatrix finite_distances(const GeodesicGraph& graph, const std::vector<int>& s
 std::vector<std::pair<double, int>> prominent_maxima(const Eigen::VectorXd& height,
                                                      const GeodesicGraph& graph) {
     const int n = graph.vertex_count();
-    std::vector<int> order(static_cast<std::size_t>(n)), peak(static_cast<std::size_t>(n), -1);
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = all_indices(n), peak(static_cast<std::size_t>(n), -1);
     // Of equal heights the first counts as higher, here and where two peaks meet.
     const auto is_higher = [&](int a, int b) {
         return height[a] != height[b] ? height[a] > height[b] : a < b;

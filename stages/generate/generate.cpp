@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "stages/generate/families.h"
 #include "stages/generate/isometric.h"
@@ -14,6 +13,7 @@
 #include "stages/generate/partner.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/coarsening.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -89,9 +89,8 @@ GeneratedPair isometric_pair(unsigned seed, const GenerateParams& params) {
     const Shape source = draw(), target = draw();
     const Placement placed(random);
     GeneratedPair pair{kind, source.rest, shapes::shuffled(placed(target.posed()), seed), {}};
-    std::vector<int> all(std::size_t(source.rest.vertex_count()));
-    std::iota(all.begin(), all.end(), 0);
-    pair.truth = true_pairs(all, placed(source.posed()).vertices, pair.target);
+    pair.truth =
+        true_pairs(all_indices(source.rest.vertex_count()), placed(source.posed()).vertices, pair.target);
     return pair;
 }
 

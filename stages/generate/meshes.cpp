@@ -1,8 +1,9 @@
 #include "stages/generate/meshes.h"
 
 #include <Eigen/Geometry>
-#include <numeric>
 #include <random>
+
+#include "varimap/core/index_set.h"
 
 namespace varimap::shapes {
 
@@ -18,8 +19,7 @@ TriangleMesh make_mesh(const std::vector<Vec3>& points, const std::vector<std::a
 TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed, std::vector<int>* old_vertex) {
     std::mt19937 random(seed);
     const auto permutation = [&](int n) {
-        std::vector<int> order(n);
-        std::iota(order.begin(), order.end(), 0);
+        std::vector<int> order = all_indices(n);
         for (int i = n - 1; i > 0; --i) std::swap(order[i], order[random() % unsigned(i + 1)]);
         return order;
     };

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/multilevel/sparse_plan.h"
@@ -18,9 +18,7 @@ namespace {
 
 RowMatrix all_distances(const Domain& domain) {
     const GeodesicGraph graph(domain);
-    std::vector<int> vertices(std::size_t(graph.vertex_count()));
-    std::iota(vertices.begin(), vertices.end(), 0);
-    const RowMatrix there = distances_from_each(graph, vertices);
+    const RowMatrix there = distances_from_each(graph, all_indices(graph.vertex_count()));
     return (there + there.transpose()) / 2;
 }
 
@@ -54,16 +52,10 @@ void require_few(const Domain& domain) {
                         domain.mass.size(), most_points));
 }
 
-std::vector<int> all_points(const Domain& domain) {
-    std::vector<int> points(std::size_t(domain.mass.size()));
-    std::iota(points.begin(), points.end(), 0);
-    return points;
-}
-
 Plan to_plan(const Coupling& plan, const Domain& A, const Domain& B, Trace trace) {
     Plan result;
     SamplePlan& samples = result.plan;
-    samples.samples_A = all_points(A), samples.samples_B = all_points(B);
+    samples.samples_A = all_indices(A.mass.size()), samples.samples_B = all_indices(B.mass.size());
     samples.mass_A = A.mass, samples.mass_B = B.mass;
     samples.transported_A = row_sums(plan), samples.transported_B = column_sums(plan);
     samples.entries = to_matrix(plan, A.mass, B.mass);

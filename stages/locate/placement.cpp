@@ -1,8 +1,8 @@
 #include "stages/locate/placement.h"
 
-#include <numeric>
 #include <vector>
 
+#include "varimap/core/index_set.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
@@ -44,9 +44,7 @@ Placement placed(const PointMap& images, const TriangleMesh& part, const Triangl
                  const PlacingOptions& options) {
     SlidingMap map(images, part, whole);
     if (!has_all_images(map)) return {images};
-    std::vector<int> faces(std::size_t(part.face_count()));
-    std::iota(faces.begin(), faces.end(), 0);
-    map.scale_rest(faces, share);
+    map.scale_rest(all_indices(part.face_count()), share);
     const ReliefAgreement relief(map, options.relief_weight * share, reliefs);
     for (const Round& round : relaxation_rounds)
         relax(map, pinned, options.relief_weight > 0 ? &relief : nullptr, round, options);

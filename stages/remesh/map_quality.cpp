@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/thin_faces.h"
@@ -66,8 +67,7 @@ LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A
     for (std::size_t k = 0; k < there.size(); ++k)
         if (times_radius(back[k]) > times_radius(there[k])) found.surroundings[k] = back[k];
     for (const auto& pair : exchanged_landmarks(back, from_B, A)) found.exchanged.push_back(pair);
-    std::sort(found.exchanged.begin(), found.exchanged.end());
-    found.exchanged.erase(std::unique(found.exchanged.begin(), found.exchanged.end()), found.exchanged.end());
+    make_set(found.exchanged);
     return found;
 }
 

@@ -1,10 +1,10 @@
 #include "stages/view/thinning.h"
 
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/coarsening.h"
@@ -22,9 +22,7 @@ struct Shown {
 };
 
 Shown whole(const TriangleMesh& mesh) {
-    Shown shown{mesh, std::vector<int>(std::size_t(mesh.vertex_count()))};
-    std::iota(shown.vertex.begin(), shown.vertex.end(), 0);
-    return shown;
+    return {mesh, all_indices(mesh.vertex_count())};
 }
 
 /// The surface without the vertices that no face uses.

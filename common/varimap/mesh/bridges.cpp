@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
@@ -133,8 +133,7 @@ std::vector<std::vector<int>> components_by_area(const TriangleMesh& mesh) {
         faces[c].push_back(f);
         area[c] += face_normal(mesh, f).norm();
     }
-    std::vector<int> order(count);
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = all_indices(std::ssize(area));
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return area[std::size_t(a)] > area[std::size_t(b)]; });
     std::vector<std::vector<int>> result;

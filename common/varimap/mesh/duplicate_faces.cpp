@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -86,8 +86,7 @@ void Thinning::drop_fins() {
 }
 
 std::vector<char> Thinning::run() {
-    std::vector<int> order(keys_.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = all_indices(mesh_.face_count());
     const auto vertices = [&](int f) -> const std::array<int, 3>& { return keys_[std::size_t(f)].vertices; };
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return vertices(a) < vertices(b); });
     bool any = false;

@@ -1,8 +1,8 @@
 #include "varimap/mesh/file_link.h"
 
-#include <numeric>
 #include <utility>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/closest_point.h"
 
 namespace varimap {
@@ -94,13 +94,10 @@ const char* reason_without_face(VertexFate fate) {
 }
 
 FileLink link_to_itself(const TriangleMesh& mesh) {
-    FileLink link{mesh, std::vector<int>(std::size_t(mesh.vertex_count())), {}, {}, {}, {}};
-    std::iota(link.vertex.begin(), link.vertex.end(), 0);
+    FileLink link{mesh, all_indices(mesh.vertex_count()), {}, {}, all_indices(mesh.face_count()), {}};
     link.origin = link.vertex;
     link.fate.assign(link.vertex.size(), VertexFate::unused);
     for (const int v : mesh.faces.reshaped()) link.fate[std::size_t(v)] = VertexFate::kept;
-    link.face.resize(std::size_t(mesh.face_count()));
-    std::iota(link.face.begin(), link.face.end(), 0);
     link.turned.assign(link.face.size(), 0);
     return link;
 }

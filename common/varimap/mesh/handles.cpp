@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 #include "varimap/core/error.h"
 #include "varimap/core/index_set.h"
@@ -205,8 +204,7 @@ std::vector<int> cut_around(const std::vector<int>& vertices, RepairedMesh& mesh
 }
 
 void cut_all(RepairedMesh& mesh, Length longest, double unit) {
-    std::vector<int> around(std::size_t(mesh.mesh.vertex_count()));
-    std::iota(around.begin(), around.end(), 0);
+    std::vector<int> around = all_indices(mesh.mesh.vertex_count());
     for (int pass = 0; pass < most_passes && !around.empty(); ++pass)
         around = cut_around(around, mesh, longest, unit);
 }

@@ -9,6 +9,7 @@
 
 #include "varimap/core/counted.h"
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/duplicate_faces.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/sheets.h"
@@ -94,14 +95,11 @@ Repair::Repair(const TriangleMesh& file, const RepairOptions& options, const std
       options_(options),
       path_(path),
       faces_(file.faces),
-      number_(std::size_t(file.face_count())),
+      number_(all_indices(file.face_count())),
       turned_(std::size_t(file.face_count()), 0),
-      welded_(std::size_t(file.vertex_count())),
-      left_out_(std::size_t(file.vertex_count()), 0) {
-    std::iota(number_.begin(), number_.end(), 0);
-    std::iota(welded_.begin(), welded_.end(), 0);
-    origin_ = welded_;
-}
+      welded_(all_indices(file.vertex_count())),
+      origin_(welded_),
+      left_out_(std::size_t(file.vertex_count()), 0) {}
 
 /// By the vertices that faces_ names.
 TriangleMesh Repair::current() const {

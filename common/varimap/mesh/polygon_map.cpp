@@ -1,9 +1,9 @@
 #include "varimap/mesh/polygon_map.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/plane.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/disc.h"
@@ -127,8 +127,7 @@ std::optional<std::vector<FanMap>> fans_to(const std::vector<Vec2>& from, const 
 }  // namespace
 
 Faces cut_into_ears(const Points& polygon) {
-    std::vector<int> left(std::size_t(polygon.rows()));
-    std::iota(left.begin(), left.end(), 0);
+    std::vector<int> left = all_indices(polygon.rows());
     Faces ears(std::max<Eigen::Index>(0, polygon.rows() - 2), 3);
     for (int count = 0; count < ears.rows(); ++count) {
         std::size_t best = 0;

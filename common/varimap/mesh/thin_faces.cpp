@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/private/half_edge_mesh.h"
 
 namespace varimap {
@@ -34,10 +34,10 @@ class Repairer {
 };
 
 Repairer::Repairer(const TriangleMesh& mesh, double thinnest)
-    : mesh_(half_edges(mesh)), thinnest_(thinnest), vertex_(mesh.vertex_count()), origin_(mesh.face_count()) {
-    std::iota(vertex_.begin(), vertex_.end(), 0);
-    std::iota(origin_.begin(), origin_.end(), 0);
-}
+    : mesh_(half_edges(mesh)),
+      thinnest_(thinnest),
+      vertex_(all_indices(mesh.vertex_count())),
+      origin_(all_indices(mesh.face_count())) {}
 
 double Repairer::thinness_of(SmartFaceHandle f) const {
     const auto side = f.halfedge();
@@ -154,11 +154,7 @@ ThinFaceRemoval remove_thin_faces(const TriangleMesh& mesh, double thinnest) {
         repairer.run();
         return repairer.result(mesh);
     }
-    ThinFaceRemoval unchanged{mesh, std::vector<int>(mesh.vertex_count()),
-                              std::vector<int>(mesh.face_count())};
-    std::iota(unchanged.vertex.begin(), unchanged.vertex.end(), 0);
-    std::iota(unchanged.origin.begin(), unchanged.origin.end(), 0);
-    return unchanged;
+    return {mesh, all_indices(mesh.vertex_count()), all_indices(mesh.face_count())};
 }
 
 }  // namespace varimap

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/geodesic_graph.h"
 
 namespace varimap {
@@ -20,9 +20,7 @@ Eigen::MatrixXd distances_between(const std::vector<int>& vertices, const Geodes
 class ExchangeSearch {
   public:
     ExchangeSearch(Eigen::MatrixXd of_A, Eigen::MatrixXd of_B)
-        : of_A_(std::move(of_A)), of_B_(std::move(of_B)), partner_(std::size_t(of_A_.rows())) {
-        std::iota(partner_.begin(), partner_.end(), 0);
-    }
+        : of_A_(std::move(of_A)), of_B_(std::move(of_B)), partner_(all_indices(of_A_.rows())) {}
 
     Exchange best() {
         const double as_they_are = change();

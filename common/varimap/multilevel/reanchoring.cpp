@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "varimap/core/index_set.h"
 
 namespace varimap {
 
@@ -24,9 +25,7 @@ std::vector<int> numbers_at_vertices(const std::vector<int>& samples, const Leve
 }
 
 std::vector<int> all_samples(const LevelSide& side) {
-    std::vector<int> all(side.level.samples.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
+    return all_indices(std::ssize(side.level.samples));
 }
 
 /// Well-oriented samples around the part, nearest first, as many as are wanted.

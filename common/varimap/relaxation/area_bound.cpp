@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "varimap/core/index_set.h"
@@ -46,9 +45,7 @@ bool AreaBound::is_kept(int v) const {
 }
 
 std::vector<int> AreaBound::press() {
-    std::vector<int> all(std::size_t(exempt_.size()));
-    std::iota(all.begin(), all.end(), 0);
-    return press(all);
+    return press(all_indices(exempt_.size()));
 }
 
 std::vector<int> AreaBound::press_again(const std::vector<int>& moved) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
@@ -101,9 +100,7 @@ std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
 }
 
 std::vector<int> ChartRepair::all_defects() {
-    std::vector<int> faces(std::size_t(map_.source().face_count()));
-    std::iota(faces.begin(), faces.end(), 0);
-    return defects_among(faces);
+    return defects_among(all_indices(map_.source().face_count()));
 }
 
 double ChartRepair::badness(const std::vector<int>& faces, double limit) {

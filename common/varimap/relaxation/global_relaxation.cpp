@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
@@ -241,8 +240,7 @@ void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy, const std
                                              double share) {
     std::vector<double> shares(free.size(), share);
     walk(share);
-    std::vector<int> candidates(faces.size());
-    std::iota(candidates.begin(), candidates.end(), 0);
+    std::vector<int> candidates = all_indices(std::ssize(faces));
     for (int trial = 1; trial <= careful_trials; ++trial) {
         const std::vector<int> worse = corners_of_worse(energy, before, candidates);
         if (worse.empty()) return;

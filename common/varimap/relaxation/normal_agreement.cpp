@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
@@ -65,9 +64,7 @@ std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& face
 
 std::vector<int> NormalAgreement::disagreeing_faces() {
     const Timer timer("normals");
-    std::vector<int> all(map_.source().face_count());
-    std::iota(all.begin(), all.end(), 0);
-    return disagreeing_among(all);
+    return disagreeing_among(all_indices(map_.source().face_count()));
 }
 
 double NormalAgreement::strain(int v) const {

@@ -5,10 +5,10 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "varimap/artifact/cereal_eigen.h"
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/spectral/laplacian.h"
 #include "varimap/spectral/spectral_check.h"
 
@@ -101,8 +101,7 @@ int eigenvalues_below(double bound, const Eigen::SparseMatrix<double>& L, const 
 EigenPairs merged(const EigenPairs& a, const EigenPairs& b, Eigen::Index count) {
     Eigen::VectorXd values(a.values.size() + b.values.size());
     values << a.values, b.values;
-    std::vector<int> order(values.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = all_indices(values.size());
     std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return values[i] < values[j]; });
     order.resize(count);
     Eigen::MatrixXd vectors(a.vectors.rows(), values.size());

@@ -1,10 +1,10 @@
 #include "varimap/spectral/level_builder.h"
 
 #include <functional>
-#include <numeric>
 #include <queue>
 #include <tuple>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/spectral/neighbourhoods.h"
 #include "varimap/spectral/sampling.h"
@@ -166,8 +166,7 @@ Level LevelBuilder::full(int neighbours) const {
     Level level;
     level.kind = LevelKind::euclidean;
     level.full = true;
-    level.samples.resize(domain_.mesh.vertex_count());
-    std::iota(level.samples.begin(), level.samples.end(), 0);
+    level.samples = all_indices(domain_.mesh.vertex_count());
     level.cell = level.samples;
     level.mass = domain_.mass;
     level.weights = geodesic_weights(level.samples, domain_, graph_, {0, neighbours, options_.truncation});

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 
 namespace varimap {
@@ -121,9 +122,7 @@ Support::Support(std::vector<std::vector<int>> columns, int column_count)
 }
 
 Support Support::dense(int rows, int columns) {
-    std::vector<int> all(columns);
-    std::iota(all.begin(), all.end(), 0);
-    return Support(std::vector<std::vector<int>>(rows, all), columns);
+    return Support(std::vector<std::vector<int>>(rows, all_indices(columns)), columns);
 }
 
 Eigen::VectorXd row_sums(const Coupling& plan) {

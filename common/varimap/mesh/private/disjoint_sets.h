@@ -1,17 +1,16 @@
 #pragma once
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
+
+#include "varimap/core/index_set.h"
 
 namespace varimap {
 
 /// Sets of numbers that are joined; each is named by its lowest, whatever the order of the joins.
 class DisjointSets {
   public:
-    explicit DisjointSets(int count) : parent_(std::size_t(count)) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
+    explicit DisjointSets(int count) : parent_(all_indices(count)) {}
     /// Halves the path on the way.
     int lowest(int i) {
         while (parent_[std::size_t(i)] != i)
