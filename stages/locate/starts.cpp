@@ -4,7 +4,7 @@
 
 #include "stages/locate/rigid_body.h"
 #include "varimap/mesh/geodesic_graph.h"
-#include "varimap/mesh/topology.h"
+#include "varimap/results/read_out.h"
 
 namespace varimap {
 
@@ -22,11 +22,10 @@ int most_alike(const Eigen::RowVectorXd& x, const RowMatrix& rows) {
 }  // namespace
 
 PointMap images_alike_far(const RowMatrix& of_part, const RowMatrix& of_whole, const TriangleMesh& whole) {
-    const PointMap vertices = points_at_vertices(whole);
-    PointMap images;
+    std::vector<int> vertices;
     for (Eigen::Index v = 0; v < of_part.rows(); ++v)
-        images.push_back(vertices[std::size_t(most_alike(of_part.row(v), of_whole))]);
-    return images;
+        vertices.push_back(most_alike(of_part.row(v), of_whole));
+    return images_at(vertices, whole);
 }
 
 PointMap images_by_landmarks(const Sketches& sketches, const Sides& sides, double share) {

@@ -75,9 +75,8 @@ class FarthestPointSampling {
     }
 
     const std::vector<int>& samples() const { return samples_; }
-    /// Per vertex: index of its sample, and the distance to it.
+    /// Per vertex: index of its sample.
     const std::vector<int>& cell() const { return cell_; }
-    const std::vector<double>& distance() const { return distance_; }
 
   private:
     struct Candidate {

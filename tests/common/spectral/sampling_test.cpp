@@ -94,7 +94,6 @@ TEST(Sampling, CellsAreThoseOfTheNearestSample) {
             nearest = std::min(nearest, (mesh.vertex(v) - mesh.vertex(s)).norm());
         const int own = sampling.samples()[std::size_t(sampling.cell()[std::size_t(v)])];
         EXPECT_NEAR((mesh.vertex(v) - mesh.vertex(own)).norm(), nearest, 1e-8);
-        EXPECT_NEAR(sampling.distance()[std::size_t(v)], nearest, 1e-8);
         EXPECT_LE(nearest, .3);
     }
     // Farthest points are as far from each other as the cover reaches.
