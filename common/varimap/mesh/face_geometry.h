@@ -26,6 +26,19 @@ inline double area_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
     return area;
 }
 
+/// Cotangents of a face's angles, by corner. Its area must be positive.
+inline Vec3 corner_cotangents(const TriangleMesh& mesh, int f) {
+    const double twice_area = face_normal(mesh, f).norm();
+    Vec3 cotangents;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 p = mesh.vertex(mesh.faces(f, k));
+        const Vec3 a = mesh.vertex(mesh.faces(f, (k + 1) % 3)) - p;
+        const Vec3 b = mesh.vertex(mesh.faces(f, (k + 2) % 3)) - p;
+        cotangents[k] = a.dot(b) / twice_area;
+    }
+    return cotangents;
+}
+
 /// The corner of its face with the largest barycentric coordinate of a point; -1 for nowhere.
 inline int nearest_vertex(const TriangleMesh& mesh, const SurfacePoint& point) {
     if (point.face < 0) return -1;

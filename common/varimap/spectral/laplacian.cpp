@@ -1,25 +1,18 @@
 #include "varimap/spectral/laplacian.h"
 
-#include <array>
 #include <vector>
+
+#include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
 
 namespace {
 
-/// Cotangents of the three corner angles of a face; zero for a face without area.
-std::array<double, 3> corner_cotangents(const TriangleMesh& mesh, int f) {
-    std::array<double, 3> cot{};
-    const double twice_area = face_normal(mesh, f).norm();
-    if (twice_area <= 0) return cot;
-    for (int c = 0; c < 3; ++c) {
-        const Vec3 corner = mesh.vertex(mesh.faces(f, c));
-        const Vec3 u = mesh.vertex(mesh.faces(f, (c + 1) % 3)) - corner;
-        const Vec3 v = mesh.vertex(mesh.faces(f, (c + 2) % 3)) - corner;
-        // A needle's cotangent can exceed what the eigensolver can bear; 1e6 is an angle of a microradian.
-        cot[c] = std::clamp(u.dot(v) / twice_area, -1e6, 1e6);
-    }
-    return cot;
+/// Zero for a face without area.
+Vec3 bounded_cotangents(const TriangleMesh& mesh, int f) {
+    if (face_normal(mesh, f).norm() <= 0) return Vec3::Zero();
+    // A needle's cotangent can exceed what the eigensolver can bear; 1e6 is an angle of a microradian.
+    return corner_cotangents(mesh, f).cwiseMax(-1e6).cwiseMin(1e6);
 }
 
 using Entries = std::vector<Eigen::Triplet<double>>;
@@ -44,7 +37,7 @@ Eigen::SparseMatrix<double> cotangent_laplacian(const TriangleMesh& mesh) {
     Entries entries;
     entries.reserve(12 * size_t(mesh.face_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto cot = corner_cotangents(mesh, f);
+        const Vec3 cot = bounded_cotangents(mesh, f);
         for (int c = 0; c < 3; ++c)
             join(mesh.faces(f, (c + 1) % 3), mesh.faces(f, (c + 2) % 3), cot[c] / 2, entries);
     }
