@@ -42,7 +42,7 @@ void compare(const MapPair& best, const MapPair& other, const PairContext& conte
     constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
     const Surface &A = context.A().surface, &B = context.B().surface;
     // Where the best map's inverse takes the other's images, linear on B's faces.
-    const Points moved = pulled_back(pulled_back(A.mesh.vertices, A.mesh, best.B_to_A), B.mesh, other.A_to_B);
+    const Points moved = pulled_back(positions(A.mesh, best.B_to_A), B.mesh, other.A_to_B);
     candidate.moved_mass = share_elsewhere(moved, A.mesh.vertices, A, elsewhere);
     candidate.turn = degrees(nearest_rotation(A.mesh.vertices, moved, A.mass));
 }

@@ -21,7 +21,7 @@ PointPairs on_inputs(const PointMap& map, const Surface& from, const InputLocato
 /// Per vertex of the file of `from` its image on the file of `to`, linear on the mesh's faces.
 PointMap preview(const PointMap& map, const Surface& from, const Surface& to) {
     const InputLocator locate(to);
-    const TriangleMesh image{pulled_back(to.mesh.vertices, to.mesh, map), from.mesh.faces},
+    const TriangleMesh image{positions(to.mesh, map), from.mesh.faces},
         normals{pulled_back(vertex_normals(to.mesh), to.mesh, map), from.mesh.faces};
     PointMap result(from.on_mesh.size());
     parallel_for_each_index(result.size(), std::size_t(64), [&](std::size_t v) {

@@ -208,11 +208,8 @@ PinnedPair pinned(const PairContext& context) {
 bool are_the_same(const MapPair& a, const MapPair& b, const PairContext& context, double distinct) {
     const Surface &A = context.A().surface, &B = context.B().surface;
     constexpr double elsewhere = 0.1;  // units of sqrt(area); chosen by hand, not swept
-    const auto places = [](const PointMap& map, const TriangleMesh& target) {
-        return pulled_back(target.vertices, target, map);
-    };
-    return share_elsewhere(places(a.A_to_B, B.mesh), places(b.A_to_B, B.mesh), A, elsewhere) +
-               share_elsewhere(places(a.B_to_A, A.mesh), places(b.B_to_A, A.mesh), B, elsewhere) <
+    return share_elsewhere(positions(B.mesh, a.A_to_B), positions(B.mesh, b.A_to_B), A, elsewhere) +
+               share_elsewhere(positions(A.mesh, a.B_to_A), positions(A.mesh, b.B_to_A), B, elsewhere) <
            2 * distinct;
 }
 

@@ -143,7 +143,7 @@ int ComponentTurns::turn_as_the_rest(MapPair& maps) const {
     if (A_.count() < 2 || B_.count() < 2 || !counterpart(largest, maps)) return 0;
     const bool opposed = are_opposed(context_.A().surface, context_.B().surface);
     const Laying there(A_, B_, opposed), back(B_, A_, opposed);
-    const Points images = pulled_back(B_.mesh().vertices, B_.mesh(), maps.A_to_B);
+    const Points images = positions(B_.mesh(), maps.A_to_B);
     const Eigen::Matrix3d rest = A_.turn(largest, images, opposed);
     double score = rough_score(appraisal_.cues(maps));
     int turned = 0;

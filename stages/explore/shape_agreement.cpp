@@ -102,8 +102,8 @@ double ShapeAgreement::relief(const PointMap& map, const Side& source, const Sid
 }
 
 double ShapeAgreement::alignment(const PointMap& map, const Side& source, const Side& target) const {
-    return source.patches(pulled_back(target.mesh.vertices, target.mesh, map),
-                          pulled_back(target.normals, target.mesh, map), opposed_);
+    return source.patches(positions(target.mesh, map), pulled_back(target.normals, target.mesh, map),
+                          opposed_);
 }
 
 }  // namespace varimap

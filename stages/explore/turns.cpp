@@ -61,8 +61,8 @@ class TurnedMaps {
     TurnedMaps(const MapPair& maps, const PairContext& context)
         : A_(context.A().surface),
           B_(context.B().surface),
-          A_on_B_(pulled_back(B_.mesh.vertices, B_.mesh, maps.A_to_B)),
-          B_on_A_(pulled_back(A_.mesh.vertices, A_.mesh, maps.B_to_A)),
+          A_on_B_(positions(B_.mesh, maps.A_to_B)),
+          B_on_A_(positions(A_.mesh, maps.B_to_A)),
           on_A_(A_.mesh),
           on_B_(B_.mesh) {}
 
@@ -97,9 +97,7 @@ class TurnedMaps {
 /// Mean distance between the images of two maps, of both directions.
 double apart(const MapPair& a, const MapPair& b, const PairContext& context) {
     const auto mean = [](const PointMap& one, const PointMap& other, const Surface& from, const Surface& to) {
-        const Points& x = to.mesh.vertices;
-        return from.mass.dot(
-                   (pulled_back(x, to.mesh, one) - pulled_back(x, to.mesh, other)).rowwise().norm()) /
+        return from.mass.dot((positions(to.mesh, one) - positions(to.mesh, other)).rowwise().norm()) /
                from.mass.sum();
     };
     const Surface &A = context.A().surface, &B = context.B().surface;

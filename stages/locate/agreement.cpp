@@ -30,7 +30,7 @@ PlacementAgreement::PlacementAgreement(const Sketches& sketches, const Sides& si
 
 double PlacementAgreement::operator()(const Placement& placement) const {
     if (!std::isfinite(placement.strain)) return -std::numeric_limits<double>::infinity();
-    const Points images = pulled_back(whole_.vertices, whole_, placement.images),
+    const Points images = positions(whole_, placement.images),
                  normals = pulled_back(whole_normals_, whole_, placement.images);
     return 0.5 * placement.relief + 2 * patches_(images, normals, opposed_) -
            0.3 * std::min(placement.strain, 1.0);

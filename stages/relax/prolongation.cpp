@@ -48,7 +48,7 @@ Prolongation::Prolongation(const PointMap& images, const Surface& source, const 
 }
 
 PointMap Prolongation::images_of(const PointMap& points) const {
-    const TriangleMesh image{pulled_back(target_.vertices, target_, images_), level_.faces},
+    const TriangleMesh image{positions(target_, images_), level_.faces},
         normals{pulled_back(normals_, target_, images_), level_.faces};
     PointMap result(points.size());
     parallel_for_each_index(int(points.size()), 64, [&](int i) {

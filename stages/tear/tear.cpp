@@ -43,7 +43,7 @@ double area_percent(const TriangleMesh& mesh, const Predicate& is_marked) {
 TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target_mesh, const PointMap& there,
                      const PointMap& back, const TearOptions& options) {
     const TriangleMesh source = of_unit_area(source_mesh), target = of_unit_area(target_mesh);
-    const Points images = pulled_back(target.vertices, target, there);
+    const Points images = positions(target, there);
     TearReport report;
     const auto edges = find_edges(source).vertices;
     const auto stretch_of = [&](int a, int b) {

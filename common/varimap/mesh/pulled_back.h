@@ -17,4 +17,9 @@ Values pulled_back(const Values& values, const TriangleMesh& mesh, const PointMa
     return result;
 }
 
+/// Where points of a mesh, none of them nowhere, lie in space.
+inline Points positions(const TriangleMesh& mesh, const PointMap& points) {
+    return pulled_back(mesh.vertices, mesh, points);
+}
+
 }  // namespace varimap

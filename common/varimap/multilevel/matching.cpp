@@ -81,12 +81,9 @@ Matching matching_of(const VertexImages& images, const LevelPair& pair) {
 }
 
 int first_level_for_a_map(const PairContext& context) {
-    constexpr std::size_t enough = 60;  // chosen by hand, not swept
+    constexpr int enough = 60;  // chosen by hand, not swept
     int level = 0;
-    for (; level + 1 < context.diffusion_levels(); ++level) {
-        const Levels levels = context.diffusion_samples(level);
-        if (std::min(levels.A.samples.size(), levels.B.samples.size()) >= enough) break;
-    }
+    while (level + 1 < context.diffusion_levels() && context.diffusion_sample_count(level) < enough) ++level;
     return level;
 }
 

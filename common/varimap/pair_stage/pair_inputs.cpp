@@ -77,7 +77,7 @@ void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
     PointMap at;
     for (const SurfacePoint& point : points) at.push_back(locate(point));
     functions(vertices, Eigen::all) = pulled_back(functions, mesh, at);
-    mesh.vertices(vertices, Eigen::all) = pulled_back(mesh.vertices, mesh, at);
+    mesh.vertices(vertices, Eigen::all) = positions(mesh, at);
 }
 
 /// What the surface was coarsened from, or itself.
