@@ -1,7 +1,5 @@
 #include "varimap/multilevel/matching.h"
 
-#include <algorithm>
-
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <vector>
 
+#include "varimap/core/parallel.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/image_memory.h"
 #include "varimap/relaxation/laid_out.h"
@@ -63,5 +64,18 @@ class AlongTarget {
     std::array<std::mutex, locks> edge_lock_;  ///< each for many edges: faces side by side ask for the same
     FaceMemory<Lie> known_faces_;
 };
+
+/// Those of `faces` of which `holds(face)` is true, in their order. For what takes long to tell: several are
+/// asked about at a time.
+template <class Predicate>
+std::vector<int> faces_where(const std::vector<int>& faces, const Predicate& holds) {
+    std::vector<char> marks(faces.size(), 0);
+    parallel_for_each_index(faces.size(), std::size_t(64),
+                            [&](std::size_t i) { marks[i] = holds(faces[i]); });
+    std::vector<int> found;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (marks[i]) found.push_back(faces[i]);
+    return found;
+}
 
 }  // namespace varimap

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "varimap/core/index_set.h"
-#include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/triangle_strip.h"
 #include "varimap/relaxation/face_energy.h"
@@ -83,13 +82,7 @@ ChartRepair::ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgree
       strikes_(map.source().face_count(), 0) {}
 
 std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
-    std::vector<char> marks(faces.size(), 0);
-    parallel_for_each_index(int(faces.size()), 64, [&](int i) {
-        marks[std::size_t(i)] = along_target_.is_reversed(faces[std::size_t(i)]);
-    });
-    std::vector<int> defects;
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        if (marks[i]) defects.push_back(faces[i]);
+    std::vector<int> defects = faces_where(faces, [&](int f) { return along_target_.is_reversed(f); });
     for (const int v : vertices_of(map_.source(), faces)) {
         if (!along_target_.is_branch_point(v)) continue;
         const auto star = map_.faces_of_vertex()[v];

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "varimap/core/index_set.h"
-#include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
@@ -50,16 +49,10 @@ bool NormalAgreement::disagrees(int f) const {
 }
 
 std::vector<int> NormalAgreement::disagreeing_among(const std::vector<int>& faces) {
-    std::vector<char> marks(faces.size(), 0);
-    parallel_for_each_index(int(faces.size()), 64, [&](int i) {
-        marks[i] = disagreement_(faces[i], [&](int f) {
-            return map_.is_mapped(f) && (map_.image_triangle(f).D <= 0 || disagrees(f));
-        });
-    });
-    std::vector<int> found;
-    for (int i = 0; i < int(faces.size()); ++i)
-        if (marks[i]) found.push_back(faces[i]);
-    return found;
+    const auto judge = [&](int f) {
+        return map_.is_mapped(f) && (map_.image_triangle(f).D <= 0 || disagrees(f));
+    };
+    return faces_where(faces, [&](int f) { return disagreement_(f, judge); });
 }
 
 std::vector<int> NormalAgreement::disagreeing_faces() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
 #include "varimap/relaxation/along_target.h"
 #include "varimap/relaxation/face_energy.h"
@@ -35,11 +36,11 @@ VertexData<bool> stay(const SlidingMap& map, const VertexData<bool>& pinned, con
     return fixed;
 }
 
-int reversed_along_target(const SlidingMap& map) {
+std::size_t reversed_along_target(const SlidingMap& map) {
     AlongTarget along_target(map);
-    int count = 0;
-    for (int f = 0; f < map.source().face_count(); ++f) count += along_target.is_reversed(f);
-    return count;
+    return faces_where(all_indices(map.source().face_count()),
+                       [&](int f) { return along_target.is_reversed(f); })
+        .size();
 }
 
 }  // namespace
