@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <filesystem>
 
 #include "stages/generate/generate.h"
+#include "varimap/core/parse_number.h"
 #include "varimap/core/printable.h"
 #include "varimap/stage/stage_main.h"
 
@@ -14,9 +14,7 @@ using namespace varimap;
 
 unsigned seed_from(const std::string& text) {
     unsigned number = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    if (error != std::errc() || stop != end)
+    if (!parse_number(text, number))
         throw UsageError(fmt::format("seed '{}': give a whole number from 0 to 4294967295", printable(text)));
     return number;
 }

@@ -1,9 +1,9 @@
 #include "varimap/artifact/header.h"
 
-#include <charconv>
 #include <optional>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/parse_number.h"
 
 namespace varimap {
 namespace {
@@ -15,12 +15,6 @@ std::optional<std::string_view> take(std::string_view& rest, char end) {
     const auto front = rest.substr(0, position);
     rest.remove_prefix(position + 1);
     return front;
-}
-
-template <class Integer>
-bool parse_integer(std::string_view text, Integer& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
 }
 
 bool parse_parameter(std::string_view rest, Header& header) {
@@ -39,7 +33,7 @@ bool parse_input(std::string_view rest, Header& header) {
 bool parse_payload(std::string_view rest, Header& header) {
     const auto bytes = take(rest, ' ');
     header.payload_hash = rest;
-    return bytes && parse_integer(*bytes, header.payload_bytes);
+    return bytes && parse_number(*bytes, header.payload_bytes);
 }
 
 /// One line `KEY REST`. False where it is none of a header's lines.
@@ -47,7 +41,7 @@ bool parse_line(std::string_view line, Header& header) {
     const auto key = take(line, ' ');
     if (!key) return false;
     if (*key == "kind") return header.kind = line, true;
-    if (*key == "schema") return parse_integer(line, header.schema);
+    if (*key == "schema") return parse_number(line, header.schema);
     if (*key == "stage") return header.stage = line, true;
     if (*key == "version") return header.version = line, true;
     if (*key == "parameter") return parse_parameter(line, header);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/parse_number.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/trimmed.h"
 #include "varimap/landmarks/csv_fields.h"
@@ -25,8 +25,7 @@ namespace {
 
 double number(std::string_view text, const std::string& path, int line) {
     double value = 0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    if (!parse_number(text, value) || !std::isfinite(value))
         fail_at(path, line, fmt::format("'{}' is not a coordinate", excerpt(text)));
     return value;
 }

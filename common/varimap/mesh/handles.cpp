@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "varimap/core/error.h"
 #include "varimap/core/index_set.h"
+#include "varimap/core/parse_number.h"
 #include "varimap/mesh/holes.h"
 #include "varimap/mesh/private/short_cycles.h"
 #include "varimap/mesh/topology.h"
@@ -217,9 +217,7 @@ double longest_handle(const std::string& words, const TriangleMesh& mesh) {
     if (words == "none") return 0;
     if (words == "auto") return summarise_topology(mesh).genus > most_handles ? short_ones : 0;
     double length = -1;
-    const char* end = words.data() + words.size();
-    const auto [stop, error] = std::from_chars(words.data(), end, length);
-    if (error != std::errc() || stop != end || !(length >= 0 && length <= 1))
+    if (!parse_number(words, length) || !(length >= 0 && length <= 1))
         throw UsageError(
             "--cut-handles " + words +
             ": give the length of the longest path, at most 1 (in units of sqrt(area)), or auto, or none");

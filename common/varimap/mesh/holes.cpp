@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "varimap/core/error.h"
+#include "varimap/core/parse_number.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
 
@@ -178,9 +178,7 @@ int longest_hole(const std::string& words) {
     if (words == "none" || words == "0") return 0;
     if (words == "all") return std::numeric_limits<int>::max();
     int edges = 0;
-    const char* end = words.data() + words.size();
-    const auto [stop, error] = std::from_chars(words.data(), end, edges);
-    if (error != std::errc() || stop != end || edges < 3)
+    if (!parse_number(words, edges) || edges < 3)
         throw UsageError("--fill-holes " + words +
                          ": give the number of edges of the longest hole, at least 3, or all, or none");
     return edges;

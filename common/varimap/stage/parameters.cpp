@@ -3,23 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "varimap/core/error.h"
+#include "varimap/core/parse_number.h"
 #include "varimap/core/printable.h"
 #include "varimap/stage/parameter_text.h"
 
 namespace varimap {
 namespace {
-
-/// std::from_chars knows no locale, unlike std::stod.
-template <class Number>
-bool parse_number(const std::string& text, Number& value) {
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data(), end, value);
-    return result.ec == std::errc() && result.ptr == end;
-}
 
 std::string limit_text(const Parameter& parameter, double limit) {
     if (std::holds_alternative<int*>(parameter.value)) return fmt::format("{}", std::int64_t(limit));

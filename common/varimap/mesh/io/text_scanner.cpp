@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "varimap/core/error.h"
+#include "varimap/core/parse_number.h"
 #include "varimap/core/printable.h"
 
 namespace varimap {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
 
-/// std::from_chars takes no leading plus.
+/// parse_number takes no leading plus.
 std::string_view without_plus(std::string_view word) {
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     return plus ? word.substr(1) : word;
@@ -73,10 +74,7 @@ bool to_number(std::string_view word, double& value) {
 }
 
 bool to_integer(std::string_view word, long long& value) {
-    word = without_plus(word);
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    return error == std::errc() && stop == end;
+    return parse_number(without_plus(word), value);
 }
 
 bool is_number(std::string_view word) {
