@@ -66,20 +66,33 @@ rm -r all/pairs/a.tmp.b
 mkdir programs
 cat >programs/sbatch <<'TEXT'
 #!/usr/bin/env bash
-# The tasks one after another, each by sh, as SLURM does it.
+# The tasks one after another, each by sh, as SLURM does it. In a log's name it replaces patterns, or, where there are some,
+# drops backslashes; the folder that it works in goes before that as it is.
 tasks=1
-for word in "$@"; do [[ $word != --array=1-* ]] || tasks=${word#--array=1-}; done
-for ((i = 1; i <= tasks; ++i)); do SLURM_ARRAY_TASK_ID=$i sh -c "${!#}" >>"$SBATCH_SAID" 2>&1 || true; done
+for ((i = 1; i < $#; ++i)); do
+    next=$((i + 1))
+    case ${!i} in
+        --array=1-*) tasks=${!i#--array=1-} ;;
+        --chdir=*) cd -- "${!i#--chdir=}" || exit ;;
+        -o) log=${!next} ;;
+    esac
+done
+for ((i = 1; i <= tasks; ++i)); do
+    name=${log//%A/7} name=${name//%a/$i}
+    [[ $log != *\\* ]] || name=${log//\\/}
+    SLURM_ARRAY_TASK_ID=$i sh -c "${!#}" >"$name" 2>&1 || true
+done
 echo 7
 TEXT
 chmod +x programs/sbatch
 mkdir few
 cp meshes/a.off meshes/b.off few
-arrays=$'\xc3\xb6\'s \\tables'
+arrays=$'\xc3\xb6\'s \\tables %A'
 batch --all-pairs few -o "$arrays" --plan
-SBATCH_SAID=$PWD/said PATH=$PWD/programs:$PATH "$VARIMAP_SOURCE/pipelines/batch/slurm" "$arrays" 08 >out.txt 2>log || fail "job arrays (exit $?)"
+PATH=$PWD/programs:$PATH "$VARIMAP_SOURCE/pipelines/batch/slurm" "$arrays" 08 >out.txt 2>log || fail "job arrays (exit $?)"
 [[ $(<out.txt) == "7 7 7" ]] || fail "numbers of the jobs: $(<out.txt)"
-[[ $(column "$arrays/status.csv" status) == "done" ]] || fail "job arrays: $(<said)"
+[[ $(column "$arrays/status.csv" status) == "done" ]] || fail "job arrays: $(cat "$arrays"/batch/*.log)"
+for log in slurm-7_1.log report.log; do [[ -e $arrays/batch/$log ]] || fail "$log of job arrays: $(ls "$arrays/batch")"; done
 same "$arrays/pairs/a--b/source_to_target.csv" all/pairs/a--b/source_to_target.csv
 batch --all-pairs few -o "$arrays" --plan
 ! grep -q . "$arrays/batch/pending" || fail "what job arrays have done is not known"
