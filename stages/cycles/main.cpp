@@ -10,11 +10,11 @@ using namespace varimap;
 namespace {
 
 /// What was added to a pair's maps, as a table for --initial-map.
-void write_composed(const Collection& all, std::size_t pair, const std::string& folder) {
+void write_composed(Stage& stage, const Collection& all, std::size_t pair, const std::string& folder) {
     const auto surface = [&](int s) { return read_artifact<Surface>(all.sketches[std::size_t(s)]).value; };
     const PairOfMaps& maps = all.pairs[pair];
-    write_file_atomically(folder + "/" + all.names[pair] + ".csv",
-                          to_csv(on_files(maps.maps.back(), surface(maps.source), surface(maps.target))));
+    stage.write_file(folder + "/" + all.names[pair] + ".csv",
+                     to_csv(on_files(maps.maps.back(), surface(maps.source), surface(maps.target))));
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
         fmt::print("name,candidate,candidates,loops,closed_before,closed,error_before,error\n");
         for (std::size_t p = 0; p < all.pairs.size(); ++p) {
             const bool is_composed = std::size_t(choice[p]) == candidates[p];
-            if (is_composed && !folder.empty()) write_composed(all, p, folder);
+            if (is_composed && !folder.empty()) write_composed(stage, all, p, folder);
             composed += is_composed;
             others += !is_composed && choice[p] != 0;
             fmt::print("{},{},{},{},{},{},{:.5f},{:.5f}\n", all.names[p],

@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
             warn("{}: the error is the straight distance there",
                  counted(errors.apart, "image is on another component than it should be",
                          "images are on other components than they should be"));
-        if (!curve_path.empty()) write_file_atomically(curve_path, curve_csv(errors));
+        if (!curve_path.empty()) stage.write_file(curve_path, curve_csv(errors));
         fmt::print("{}", json ? as_json(errors) : as_text(errors));
     });
 }
