@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
 
 #include "varimap/core/error.h"
 
@@ -11,8 +12,9 @@ namespace {
 
 template <class T>
 T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, int triples) {
-    return static_cast<T*>(
-        rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(T), std::size_t(triples)));
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(T), std::size_t(triples));
+    if (!buffer) throw std::bad_alloc();
+    return static_cast<T*>(buffer);
 }
 
 }  // namespace
@@ -33,6 +35,7 @@ EmbreeScene::EmbreeScene(const TriangleMesh& mesh, const Vec3& centre, double sc
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
+    if (rtcGetDeviceError(device_) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
 }
 
 EmbreeScene::~EmbreeScene() {
