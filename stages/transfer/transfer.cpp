@@ -8,7 +8,6 @@
 #include <set>
 
 #include "stages/transfer/gltf.h"
-#include "stages/transfer/obj_text.h"
 #include "stages/transfer/points.h"
 #include "stages/transfer/seams.h"
 #include "stages/transfer/shape.h"
@@ -205,8 +204,8 @@ void Transfer::add_mesh(const std::string& path) {
     std::string library;
     if (!model.libraries.empty()) library = add_materials(read_materials_of(model, path), name);
     warn_of_followers(map_.there, path);
-    const std::string carried = with_vertices(bytes, carried_vertices(map_), map_.to.space, library, path);
-    add(name + ".obj", reverses_orientation(map_) ? with_turned_polygons(carried) : carried);
+    add(name + ".obj", with_vertices(bytes, carried_vertices(map_), map_.to.space, library, path,
+                                     reverses_orientation(map_)));
 }
 
 void Transfer::add_texture(const std::string& path) {

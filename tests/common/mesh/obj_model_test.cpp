@@ -134,6 +134,14 @@ TEST(ObjModel, ReadsAndRewritesOddText) {
                  InputError);
 }
 
+TEST(ObjModel, TurnsPolygonsWhenAsked) {
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1 4/1\n";
+    const Points vertices = parse_mesh(square, "a.obj").vertices;
+    EXPECT_EQ(with_vertices(square, vertices, Space::unstated, "", "a.obj"), square);
+    EXPECT_THAT(with_vertices(square, vertices, Space::unstated, "", "a.obj", true),
+                HasSubstr("\nf 1/1 4/1 3/1 2/1\n"));
+}
+
 TEST(ObjModel, TellsImagesByTheirFirstBytes) {
     EXPECT_EQ(media_type("\x89PNG\r\n"), "image/png");
     EXPECT_EQ(media_type("\xff\xd8\xff\xe0"), "image/jpeg");

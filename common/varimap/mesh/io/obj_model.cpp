@@ -69,24 +69,6 @@ Faces uv_of_triangles(const PolygonUv& polygons, std::string_view bytes, const s
     return uv;
 }
 
-/// Lines end with \n, \r\n or \r, as where meshes are read.
-std::string_view take_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
-    return line;
-}
-
-std::vector<std::string_view> words_of(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (std::size_t at = line.find_first_not_of(" \t"); at != line.npos;) {
-        const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = line.find_first_not_of(" \t", end);
-    }
-    return words;
-}
-
 /// 7/2/1 as 7/2, 7//1 as 7.
 std::string without_normal(std::string_view corner) {
     const std::size_t first = corner.find('/');
@@ -101,7 +83,8 @@ std::string vertex_line(const std::vector<std::string_view>& words, const Points
     return line + "\n";
 }
 
-std::string face_line(const std::vector<std::string_view>& words) {
+std::string face_line(std::vector<std::string_view> words, bool turned) {
+    if (turned && words.size() > 2) std::reverse(words.begin() + 2, words.end());
     std::string line = "f";
     for (std::size_t i = 1; i < words.size(); ++i) line += fmt::format(" {}", without_normal(words[i]));
     return line + "\n";
@@ -151,8 +134,9 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path) {
 }
 
 std::string with_vertices(std::string_view obj, const Points& vertices, Space space,
-                          const std::string& library, const std::string& path) {
+                          const std::string& library, const std::string& path, bool turned) {
     std::string text = head_of(space, library);
+    std::vector<std::string_view> words;
     Eigen::Index v = 0;
     obj = without_byte_order_mark(obj, path);
     while (!obj.empty()) {
@@ -160,12 +144,13 @@ std::string with_vertices(std::string_view obj, const Points& vertices, Space sp
         const std::string_view statement = line.substr(0, line.find('#'));
         if (statement.ends_with('\\'))
             throw InputError(path + ": has lines joined by a backslash; save it without");
-        const auto words = words_of(statement);
+        words.clear();
+        add_words(statement, words);
         const std::string_view word = words.empty() ? "" : words[0];
         if (word == "v" && v < vertices.rows()) {
             text += vertex_line(words, vertices, v);
         } else if (word == "f") {
-            text += face_line(words);
+            text += face_line(words, turned);
         } else if (word != "vn" && word != "mtllib" && word != "v" && !states_space(line)) {
             text += std::string(line) + "\n";
         }

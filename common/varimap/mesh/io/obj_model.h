@@ -28,9 +28,10 @@ ObjModel parse_obj_model(std::string_view bytes, const std::string& path);
 
 /// The same file with other vertices: polygons, texture coordinates, materials, groups and all orders stay.
 /// Normals, which would be wrong, are left out; materials are read from `library` (none where it is empty),
-/// and the axes that are stated are those of `space`. Throws InputError where there are not as many vertices.
+/// and the axes that are stated are those of `space`. `turned`: with the corners of every polygon in the
+/// opposite order, the first in front. Throws InputError where there are not as many vertices.
 std::string with_vertices(std::string_view obj, const Points& vertices, Space space,
-                          const std::string& library, const std::string& path);
+                          const std::string& library, const std::string& path, bool turned = false);
 
 /// A surface with texture coordinates.
 struct TexturedMesh {

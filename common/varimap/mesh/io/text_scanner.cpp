@@ -35,6 +35,21 @@ void fail_at(const std::string& path, int line, const std::string& message) {
     throw InputError(fmt::format("{}:{}: {}", path, line, message));
 }
 
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + (text.substr(end, 2) == "\r\n" ? 2 : 1), text.size()));
+    return line;
+}
+
+void add_words(std::string_view line, std::vector<std::string_view>& words) {
+    for (std::size_t begin = line.find_first_not_of(blanks); begin != line.npos;) {
+        const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+        words.push_back(line.substr(begin, end - begin));
+        begin = line.find_first_not_of(blanks, end);
+    }
+}
+
 std::string_view split_off_line(std::string_view& text) {
     const std::size_t end = text.find('\n');
     std::string_view line = text.substr(0, end);
@@ -82,28 +97,18 @@ bool is_number(std::string_view word) {
     return to_number(word, ignored);
 }
 
-std::string_view TextScanner::take_line() {
-    const std::size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
-    const std::string_view line = text_.substr(position_, end - position_);
-    position_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : 1);
-    ++line_;
-    return line;
-}
-
 bool TextScanner::next_line() {
     words_.clear();
     bool joined = false;
     while (position_ < text_.size() && (words_.empty() || joined)) {
-        std::string_view line = take_line();
+        std::string_view rest = text_.substr(position_), line = take_line(rest);
+        position_ = text_.size() - rest.size();
+        ++line_;
         if (words_.empty()) uncut_ = line;
         if (style_ == LineStyle::code) line = line.substr(0, line.find('#'));
         joined = style_ == LineStyle::code && !line.empty() && line.back() == '\\';
         if (joined) line.remove_suffix(1);
-        for (std::size_t begin = line.find_first_not_of(blanks); begin != line.npos;) {
-            const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-            words_.push_back(line.substr(begin, end - begin));
-            begin = line.find_first_not_of(blanks, end);
-        }
+        add_words(line, words_);
     }
     return !words_.empty();
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +28,7 @@ class TextScanner {
     /// Number of the current line, from 1.
     int line() const { return line_; }
     /// Where the next line starts.
-    std::size_t position() const { return std::min(position_, text_.size()); }
+    std::size_t position() const { return position_; }
     /// Word i of the current line as a number. Throws InputError naming file, line and `what`.
     double number(std::size_t i, const char* what) const;
     long long integer(std::size_t i, const char* what) const;
@@ -37,11 +36,10 @@ class TextScanner {
     [[noreturn]] void fail(const std::string& message) const;
 
   private:
-    std::string_view take_line();
     std::string_view text_;
     std::string path_;
     LineStyle style_;
-    std::size_t position_ = 0;
+    std::size_t position_ = 0;  ///< where the next line starts
     int line_ = 0;
     std::vector<std::string_view> words_;
     std::string_view uncut_;  ///< the line that holds the first word, with what `#` starts
@@ -50,6 +48,10 @@ class TextScanner {
 /// Throws InputError "<path>:<line>: <message>".
 [[noreturn]] void fail_at(const std::string& path, int line, const std::string& message);
 
+/// Takes the first line off the text; lines end with \n, \r\n or \r, which it is without.
+std::string_view take_line(std::string_view& text);
+/// Adds what stands between the blanks of a line.
+void add_words(std::string_view line, std::vector<std::string_view>& words);
 /// Takes the first line off the text; lines end with \n or \r\n, which it is without.
 std::string_view split_off_line(std::string_view& text);
 
