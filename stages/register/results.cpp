@@ -7,6 +7,7 @@
 
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
+#include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/surface_map.h"
 
@@ -26,10 +27,7 @@ namespace {
 
 /// A comma-separated field: in quotes, unless it is plain.
 std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
+    return text.find_first_of(",\"\n") == std::string::npos ? text : in_quotes(text);
 }
 
 std::string points_csv(const Points& points) {

@@ -70,12 +70,6 @@ bool needs_quotes(std::string_view word, char separator) {
            (separator == ' ' && (word.empty() || word.find(' ') != word.npos));
 }
 
-std::string quoted(std::string_view word) {
-    std::string text = "\"";
-    for (const char c : word) text += c == '"' ? "\"\"" : std::string(1, c);
-    return text + '"';
-}
-
 }  // namespace
 
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content) {
@@ -115,7 +109,7 @@ std::string join(const std::vector<std::string>& words, char separator) {
         if (i > 0) line += separator;
         // A line with nothing on it is none.
         const bool lost = words.size() == 1 && words[i].empty();
-        line += lost || needs_quotes(words[i], separator) ? quoted(words[i]) : words[i];
+        line += lost || needs_quotes(words[i], separator) ? in_quotes(words[i]) : words[i];
     }
     return line;
 }

@@ -45,6 +45,12 @@ std::optional<std::string> take_quoted(std::string_view& line) {
     }
 }
 
+std::string in_quotes(std::string_view field) {
+    std::string text = "\"";
+    for (const char c : field) text += c == '"' ? "\"\"" : std::string(1, c);
+    return text + '"';
+}
+
 char separator_of(std::string_view line) {
     line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
     for (const char separator : {',', ';', '\t'})

@@ -11,6 +11,9 @@ namespace varimap {
 /// None where the closing quote is missing.
 std::optional<std::string> take_quoted(std::string_view& line);
 
+/// The field in quotes that take_quoted takes.
+std::string in_quotes(std::string_view field);
+
 /// Which of comma, semicolon and tab, the first of these, the line holds outside of quotes and before its
 /// last word; a blank where it holds none.
 char separator_of(std::string_view line);
