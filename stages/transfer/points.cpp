@@ -11,6 +11,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/listed.h"
 #include "varimap/core/log.h"
+#include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -161,11 +162,14 @@ std::string carry_region(const std::string& path, const Correspondence& map, con
             throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
         inside[std::size_t(number_of(row, path, 0, map.from.face_count(), "faces"))] = true;
     }
-    std::string text;
-    for (int f = 0; f < map.to.face_count(); ++f) {
+    std::vector<char> covered(std::size_t(map.to.face_count()));
+    parallel_for_each_index(map.to.face_count(), 256, [&](int f) {
         const SurfacePoint at = back({f, Vec3::Constant(1 / 3.)});
-        if (at.face >= 0 && inside[std::size_t(at.face)]) text += fmt::format("{}\n", f);
-    }
+        covered[std::size_t(f)] = at.face >= 0 && inside[std::size_t(at.face)];
+    });
+    std::string text;
+    for (std::size_t f = 0; f < covered.size(); ++f)
+        if (covered[f]) text += fmt::format("{}\n", f);
     if (text.empty())
         warn(
             "{}: no face of the other mesh has its centroid on this region: it is smaller than faces there, "
