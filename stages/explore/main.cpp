@@ -54,6 +54,16 @@ Candidates read_self_maps(Stage& stage, const PairInputs& inputs, const std::str
     return std::move(self_maps.value);
 }
 
+/// None where there are no files, of A and of B.
+SelfMapsOnDemand given_self_maps(Stage& stage, const PairInputs& inputs,
+                                 const std::vector<std::string>& files, const Surface& A, const Surface& B) {
+    if (files.empty()) return {};
+    const auto of = [&](const std::string& side, const std::string& path, const TriangleMesh& input) {
+        return [maps = read_self_maps(stage, inputs, side, path, input)] { return maps; };
+    };
+    return {of("A", files[0], A.input), of("B", files[1], B.input)};
+}
+
 void require_made_from(const RecordedInput& child, const char* role, const RecordedInput& parent) {
     Stage::require_lineage(child.header(), child.path(), role, parent.header(), parent.path());
 }
@@ -133,14 +143,7 @@ int main(int argc, char** argv) {
             throw UsageError(
                 "--onto_itself looks for maps of one surface: give it twice, with the same basis and "
                 "hierarchy");
-        SelfMapsOnDemand given;
-        if (!self_map_files.empty()) {
-            const auto of = [&](const std::string& side, const std::string& path, const TriangleMesh& input) {
-                return [maps = read_self_maps(stage, inputs, side, path, input)] { return maps; };
-            };
-            given = {of("A", self_map_files[0], A.surface.input),
-                     of("B", self_map_files[1], B.surface.input)};
-        }
+        const SelfMapsOnDemand given = given_self_maps(stage, inputs, self_map_files, A.surface, B.surface);
         std::optional<SketchedSurfaces> surfaces;
         if (!surface_files.empty()) surfaces = record_surfaces(stage, surface_files, inputs);
         const auto landmarks =

@@ -12,6 +12,7 @@
 #include "stages/locate/sides.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
+#include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
@@ -22,6 +23,8 @@
 namespace varimap {
 
 namespace {
+
+constexpr std::size_t grain = 256;  ///< points worth a task
 
 /// A place near the whole's mesh, and the normal there, of any length.
 struct Spot {
@@ -42,28 +45,26 @@ Spot spot_of(const SurfacePoint& at, const PointMap& images, const Sides& sides)
 PointMap on_surfaces(const PointMap& images, const Sides& sketch, const Sides& surface) {
     const MeshLocator on_sketch(sketch.part);
     const ClosestPoint closest(surface.whole.mesh);
-    PointMap result;
-    for (const SurfacePoint& on_input : surface.part.on_input) {
-        const Spot spot = spot_of(on_sketch(on_input), images, sketch);
+    PointMap result(surface.part.on_input.size());
+    parallel_for_each_index(result.size(), grain, [&](std::size_t v) {
+        const Spot spot = spot_of(on_sketch(surface.part.on_input[v]), images, sketch);
         const Vec3 on_whole = spot.place / sketch.whole.scale + sketch.whole.centre;
         const Vec3 place = (on_whole - surface.whole.centre) * surface.whole.scale;
-        result.push_back(closest(place, spot.normal).point);
-    }
+        result[v] = closest(place, spot.normal).point;
+    });
     return result;
 }
 
 /// Images of the vertices of the part's file on the whole's.
 PointMap on_files(const PointMap& images, const Sides& sides) {
     const InputLocator on_input(sides.whole);
-    PointMap result;
-    for (const SurfacePoint& at : sides.part.on_mesh) {
-        if (at.face < 0) {
-            result.emplace_back();
-            continue;
-        }
+    PointMap result(sides.part.on_mesh.size());
+    parallel_for_each_index(result.size(), grain, [&](std::size_t v) {
+        const SurfacePoint& at = sides.part.on_mesh[v];
+        if (at.face < 0) return;
         const Spot spot = spot_of(at, images, sides);
-        result.push_back(on_input(spot.place, spot.normal));
-    }
+        result[v] = on_input(spot.place, spot.normal);
+    });
     return to_file(std::move(result), sides.part, sides.whole);
 }
 
