@@ -221,6 +221,18 @@ void warn_of_exchanged_landmarks(const Appraised& led, const PairContext& contex
             exchanged_in_words(exchange), mirror_advice(context));
 }
 
+/// Whether nothing else need be looked for than the map that landmarks lead to: it is plausible, not
+/// strained, and they decide it. Warns where they look exchanged. Chosen by hand on half of the known pairs.
+bool landmarks_suffice(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
+                       const ExploreParams& params) {
+    constexpr double suffices = 0.995;
+    constexpr int decisive = 3;
+    if (is_isometry_of_sheets(led.candidate, context)) return true;
+    warn_of_exchanged_landmarks(led, context, appraisal, params);
+    return logged_plausibility(led.candidate) >= suffices && is_good(led.candidate, true) &&
+           landmarks_apart(context) >= decisive;
+}
+
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
 /// at full resolution, landmarks may lead elsewhere.
 Candidates led(std::vector<Appraised> list, const PairContext& context) {
@@ -243,10 +255,6 @@ int landmarks_apart(const PairContext& context) {
 }
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
-    // Chosen by hand on half of the known pairs: nothing else is looked for where the map that landmarks lead
-    // to is as plausible, not strained, and they decide it.
-    constexpr double suffices = 0.995;
-    constexpr int decisive = 3;
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
         log("{} landmarks: nothing else is looked for", context.landmarks().size());
@@ -258,11 +266,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     if (if_needed) {
         finished.add_new_of(led_there);
         std::vector<Appraised> alone = finished.appraised();
-        const Candidate& there = alone.front().candidate;
-        if (is_isometry_of_sheets(there, context)) return led(std::move(alone), context);
-        warn_of_exchanged_landmarks(alone.front(), context, appraisal, params);
-        if (logged_plausibility(there) >= suffices && is_good(there, true) &&
-            landmarks_apart(context) >= decisive)
+        if (landmarks_suffice(alone.front(), context, appraisal, params))
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask.self_maps);

@@ -35,6 +35,16 @@ PointPairs read_landmarks_on(const std::vector<std::string>& files, const Repair
     return pairs;
 }
 
+/// The first candidates, which `candidates` has previews of, beside the picture.
+void write_candidates(Stage& stage, const std::string& picture, Candidates candidates, const RepairedMesh& A,
+                      const RepairedMesh& B, RenderParams rough) {
+    const std::string beside = (std::filesystem::path(picture).parent_path() / "candidates.png").string();
+    rough.samples = std::min(rough.samples, 2);  // rough maps need no smooth picture
+    for (PointMap& preview : candidates.previews) preview = from_file(preview, B.link, A.link);
+    stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, rough)));
+    log("the first candidates to {}", beside);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -75,12 +85,6 @@ int main(int argc, char** argv) {
                                                     read_masses(masses[1], B), params);
         stage.write_file(out, to_png(image));
         log("{} x {} pixels to {}", image.width, image.height, out);
-        if (candidates.previews.empty()) return;
-        const std::string beside = (std::filesystem::path(out).parent_path() / "candidates.png").string();
-        RenderParams rough = params;                 // the stamp is to hold those that were asked for
-        rough.samples = std::min(rough.samples, 2);  // rough maps need no smooth picture
-        for (PointMap& preview : candidates.previews) preview = from_file(preview, B.link, A.link);
-        stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, rough)));
-        log("the first candidates to {}", beside);
+        if (!candidates.previews.empty()) write_candidates(stage, out, std::move(candidates), A, B, params);
     });
 }
