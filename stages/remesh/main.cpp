@@ -16,12 +16,6 @@ namespace {
 
 using namespace varimap;
 
-/// What a plan of varimap-refine and one of varimap-diffuse have in common.
-template <class Solved>
-SolvedPair read_solved(Stage& stage, const std::string& path) {
-    return stage.read<Solved>("plan", path).value;
-}
-
 /// Whether these are the mesh's, in their order. Compared to the bit: coordinates may be no numbers.
 bool are_polygons_of(const PolygonSoup& polygons, const TriangleMesh& mesh) {
     const std::vector<Vec3>& points = polygons.points;
@@ -101,8 +95,8 @@ int main(int argc, char** argv) {
         const auto B = stage.read<Surface>("B.surface", surface_B);
         const Header plan = read_header(plan_file);
         const SolvedPair pair = plan.kind == ArtifactType<Diffusion>::kind
-                                    ? read_solved<Diffusion>(stage, plan_file)
-                                    : read_solved<Plan>(stage, plan_file);
+                                    ? SolvedPair(stage.read<Diffusion>("plan", plan_file).value)
+                                    : SolvedPair(stage.read<Plan>("plan", plan_file).value);
         const auto map = stage.read<SurfaceMap>("map", map_file);
         Stage::require_lineage(map.header, map_file, "A.surface", A.header, surface_A);
         Stage::require_lineage(map.header, map_file, "B.surface", B.header, surface_B);

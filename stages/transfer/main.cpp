@@ -31,6 +31,17 @@ struct TransferParams {
     }
 };
 
+/// All files that are read.
+std::vector<std::string> inputs_of(const TransferRequest& request, const MapFiles& map) {
+    std::vector<std::string> inputs{map.source, map.target, map.source_to_target, map.target_to_source};
+    for (const auto* list : {&request.points, &request.values, &request.labels, &request.weights,
+                             &request.regions, &request.shapes})
+        inputs.insert(inputs.end(), list->begin(), list->end());
+    for (const auto* file : {&request.texture, &request.onto, &request.mesh})
+        if (!file->empty()) inputs.push_back(*file);
+    return inputs;
+}
+
 void write_results(Stage& stage, const std::string& folder, const NamedFiles& files,
                    const std::vector<std::string>& inputs) {
     std::error_code failure;
@@ -51,7 +62,6 @@ void write_results(Stage& stage, const std::string& folder, const NamedFiles& fi
 
 int main(int argc, char** argv) {
     TransferParams params;
-    TransferRequest request;
     Stage stage("transfer", "Carries points, values, textures and shapes through a map");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
     const auto& source = stage.input("source-mesh", "mesh the map starts from");
@@ -79,31 +89,27 @@ int main(int argc, char** argv) {
     const auto& target_hash = stage.option("target-hash", "content hash that the target's mesh must have");
     return stage.main(argc, argv, [&] {
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
-        request = {points,
-                   values,
-                   labels,
-                   weights,
-                   regions,
-                   shapes,
-                   texture,
-                   onto,
-                   mesh,
-                   params.reading,
-                   {params.bake, params.padding},
-                   params.influences,
-                   out};
+        const TransferRequest request{points,
+                                      values,
+                                      labels,
+                                      weights,
+                                      regions,
+                                      shapes,
+                                      texture,
+                                      onto,
+                                      mesh,
+                                      params.reading,
+                                      {params.bake, params.padding},
+                                      params.influences,
+                                      out};
         if (request.empty())
             throw UsageError(
                 "nothing to carry: give --points, --values, --labels, --weights, --regions, --shape, "
                 "--texture or --mesh");
         require_unchanged(source, source_hash);
         require_unchanged(target, target_hash);
-        const Correspondence map = read_correspondence({source, target, there, back}, reverse);
-        std::vector<std::string> inputs{source, target, there, back};
-        for (const auto* list : {&points, &values, &labels, &weights, &regions, &shapes})
-            inputs.insert(inputs.end(), list->begin(), list->end());
-        for (const auto* file : {&texture, &onto, &mesh})
-            if (!file->empty()) inputs.push_back(*file);
-        write_results(stage, out, transfer(request, map, reverse), inputs);
+        const MapFiles files{source, target, there, back};
+        const Correspondence map = read_correspondence(files, reverse);
+        write_results(stage, out, transfer(request, map, reverse), inputs_of(request, files));
     });
 }
