@@ -9,6 +9,7 @@
 #include "stages/inspect/formats.h"
 #include "stages/inspect/lineage.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/artifact/file_status.h"
 #include "varimap/mesh/io/mesh_file.h"
 
 namespace varimap {
@@ -134,9 +135,7 @@ std::optional<Error> check(const std::string& path) {
 }
 
 void export_contents(const std::string& path, const std::string& folder) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
+    make_folder(folder);
     Export writer(folder);
     visit_artifact(path, writer);
 }

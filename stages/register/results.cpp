@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <system_error>
 
+#include "varimap/artifact/file_status.h"
 #include "varimap/artifact/npy.h"
-#include "varimap/core/error.h"
 #include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/surface_map.h"
@@ -14,9 +13,8 @@
 namespace varimap {
 
 ResultFolder::ResultFolder(Stage& stage, const std::string& path) : stage_(stage), path_(path) {
-    std::error_code failure;
-    std::filesystem::create_directories(path_ / "specimens", failure);
-    if (failure) throw IoError("cannot make the folder '" + path + "': " + failure.message());
+    make_folder(path);
+    make_folder((path_ / "specimens").string());
 }
 
 void ResultFolder::write(const std::string& name, const std::string& bytes) const {

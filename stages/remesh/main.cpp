@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstring>
-#include <filesystem>
 
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/remesh.h"
+#include "varimap/artifact/file_status.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
@@ -49,9 +49,7 @@ std::string remeshed_ply(const PointMap& map, const Surface& source, const Surfa
 void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, const SamplePlan& plan,
                 const Surface& A, const Surface& B, const std::array<PolygonSoup, 2>& polygons,
                 PlyFormat format) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
+    make_folder(folder);
     stage.write_file(folder + "/source_to_target.csv", to_csv(map.A_to_B));
     stage.write_file(folder + "/target_to_source.csv", to_csv(map.B_to_A));
     stage.write_file(folder + "/source_to_target.npz", to_npz(map.A_to_B, file_as_read(B)));

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "stages/transfer/transfer.h"
-#include "varimap/artifact/artifact.h"
+#include "varimap/artifact/file_status.h"
 #include "varimap/core/error.h"
 #include "varimap/stage/stage_main.h"
 
@@ -44,13 +44,12 @@ std::vector<std::string> inputs_of(const TransferRequest& request, const MapFile
 
 void write_results(Stage& stage, const std::string& folder, const NamedFiles& files,
                    const std::vector<std::string>& inputs) {
-    std::error_code failure;
+    std::error_code ignored;
     for (const auto& [name, bytes] : files)
         for (const std::string& input : inputs)
-            if (fs::equivalent(input, fs::path(folder) / name, failure))
+            if (fs::equivalent(input, fs::path(folder) / name, ignored))
                 throw UsageError(input + ": would be written over; give another folder");
-    fs::create_directories(folder, failure);
-    if (failure) throw IoError("cannot make the folder '" + folder + "': " + failure.message());
+    make_folder(folder);
     for (const auto& [name, bytes] : files) {
         const std::string path = (fs::path(folder) / name).string();
         stage.write_file(path, bytes);
