@@ -35,7 +35,8 @@ PointPairs read_landmarks_on(const std::vector<std::string>& files, const Repair
     return pairs;
 }
 
-/// The first candidates, which `candidates` has previews of, beside the picture.
+/// The first candidates, which there are previews of, beside the picture. `rough`: a copy, since the stamp is
+/// to hold the parameters that were asked for.
 void write_candidates(Stage& stage, const std::string& picture, Candidates candidates, const RepairedMesh& A,
                       const RepairedMesh& B, RenderParams rough) {
     const std::string beside = (std::filesystem::path(picture).parent_path() / "candidates.png").string();
