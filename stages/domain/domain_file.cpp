@@ -13,6 +13,7 @@
 #include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
@@ -40,7 +41,7 @@ std::string read_rows(const std::string& path) {
 std::string plain_heading(std::string_view word) {
     std::string heading;
     for (const char c : word)
-        if (c != '"') heading += char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+        if (c != '"') heading += lower_case(c);
     return heading;
 }
 
@@ -50,8 +51,7 @@ class Rows {
     Rows(std::string_view text, const std::string& path) : scanner(text, path) {}
     bool next() {
         if (!scanner.next_line()) return false;
-        double number;
-        const bool names = first_ && !to_number(scanner.words()[0], number);
+        const bool names = first_ && !is_number(scanner.words()[0]);
         first_ = false;
         if (!names) return true;
         for (const std::string_view word : scanner.words()) headings.push_back(plain_heading(word));
