@@ -93,9 +93,12 @@ void warn_of_unknown_materials(const ObjModel& model, const Materials& materials
     if (!names.empty()) warn("{}: no library (mtllib) describes the materials {}", path, names);
 }
 
-bool any_transparent(const Materials& materials) {
-    return std::any_of(materials.list.begin(), materials.list.end(), [](const Material& material) {
-        return !material.texture.empty() && read_gltf_image(material.texture).transparent;
+/// Of those in use: a library may hold others.
+bool any_transparent(const Texture& texture) {
+    const std::vector<std::string>& names = texture.model.materials;
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        const Material* material = texture.materials.find(name);
+        return material && !material->texture.empty() && read_gltf_image(material->texture).transparent;
     });
 }
 
@@ -272,7 +275,7 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
     const Material material{.name = "baked", .texture = name + ".png"};
     // The image is transparent beside the patches as well, where nothing is drawn.
     const auto drawn = [&](const std::string&) {
-        return GltfImage{image, any_transparent(texture.materials)};
+        return GltfImage{image, any_transparent(texture)};
     };
     add(name + ".obj", to_obj(target, name + ".mtl"));
     add(name + ".mtl", fmt::format("newmtl baked\nKd 1 1 1\nmap_Kd {}.png\n", name));

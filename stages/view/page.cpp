@@ -158,7 +158,9 @@ Eigen::Matrix3d target_to_source(const Correspondence& map) {
     for (int v = 0; v < map.from.vertex_count(); ++v) {
         const SurfacePoint& image = map.there[std::size_t(v)];
         if (image.face < 0) continue;
-        const Vec3 from = map.from.vertex(v), to = position(map.to, image);
+        // Far from the origin the means' products would leave few digits of the differences.
+        const Vec3 from = map.from.vertex(v) - map.from.vertex(0);
+        const Vec3 to = position(map.to, image) - map.to.vertex(0);
         from_mean += from, to_mean += to, ++count;
         products += from * to.transpose();
     }

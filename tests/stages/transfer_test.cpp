@@ -1024,7 +1024,7 @@ TEST_F(Transfer, AGlbHoldsEveryImageOnceAndValidText) {
 
 TEST_F(Transfer, AGlbIsBakedToo) {
     const TriangleMesh square = shapes::square(2);
-    write("skin.mtl", "newmtl skin\nmap_Kd skin.png\n");
+    write("skin.mtl", "newmtl skin\nmap_Kd skin.png\nnewmtl unused\nmap_Kd glass.png\n");
     Correspondence map = identity(square);
     map.to_file = write("square.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
     TransferRequest request;
@@ -1033,6 +1033,7 @@ TEST_F(Transfer, AGlbIsBakedToo) {
     // As transparent as what is baked, whatever lies beside the patches.
     TextureImage glass = gradient(8);
     glass.rgba[3] = 100;
+    write("glass.png", to_png(glass));
     for (const bool transparent : {false, true}) {
         write("skin.png", to_png(transparent ? glass : gradient(8)));
         const auto files = carry(request, map);

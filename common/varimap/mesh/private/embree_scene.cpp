@@ -13,7 +13,7 @@ namespace {
 template <class T>
 T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, int triples) {
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(T), std::size_t(triples));
-    if (!buffer) throw std::bad_alloc();
+    if (!buffer && triples > 0) throw std::bad_alloc();
     return static_cast<T*>(buffer);
 }
 
