@@ -274,9 +274,7 @@ void Transfer::add_baked(const Texture& texture, const std::string& name) {
     std::fill(target.model.material.begin(), target.model.material.end(), 0);
     const Material material{.name = "baked", .texture = name + ".png"};
     // The image is transparent beside the patches as well, where nothing is drawn.
-    const auto drawn = [&](const std::string&) {
-        return GltfImage{image, any_transparent(texture)};
-    };
+    const auto drawn = [&](const std::string&) { return GltfImage{image, any_transparent(texture)}; };
     add(name + ".obj", to_obj(target, name + ".mtl"));
     add(name + ".mtl", fmt::format("newmtl baked\nKd 1 1 1\nmap_Kd {}.png\n", name));
     add(name + ".glb", to_glb(target, {.list = {material}, .text = {}, .images = {}}, drawn));
