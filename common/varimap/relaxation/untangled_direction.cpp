@@ -99,8 +99,8 @@ void UntangledDirection::end_relaxation(const Round& round) {
 }
 
 void UntangledDirection::start_settling() {
-    relaxation_ = relaxation(settling_round, options_.settling_steps);
     if (options_.area_bound > 0 && !bound_) keep_bound();
+    relaxation_ = relaxation(settling_round, most_settling_steps());
 }
 
 bool UntangledDirection::is_settled() const {
