@@ -93,7 +93,7 @@ void warn_of_unknown_materials(const ObjModel& model, const Materials& materials
     if (!names.empty()) warn("{}: no library (mtllib) describes the materials {}", path, names);
 }
 
-/// Of those in use: a library may hold others.
+/// Of those that the OBJ names: a library may hold others.
 bool any_transparent(const Texture& texture) {
     const std::vector<std::string>& names = texture.model.materials;
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {

@@ -152,15 +152,17 @@ Json add_side(const Side& side, const TriangleMesh& other, bool mirrored, Packed
 
 /// The rotation that turns the target as the source stands: images on vertices, each in its own unit.
 Eigen::Matrix3d target_to_source(const Correspondence& map) {
+    // Relative to the first pair: far from the origin the means' products would leave few digits.
+    Vec3 from_first = Vec3::Zero(), to_first = Vec3::Zero();
     Vec3 from_mean = Vec3::Zero(), to_mean = Vec3::Zero();
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
     int count = 0;
     for (int v = 0; v < map.from.vertex_count(); ++v) {
         const SurfacePoint& image = map.there[std::size_t(v)];
         if (image.face < 0) continue;
-        // Far from the origin the means' products would leave few digits of the differences.
-        const Vec3 from = map.from.vertex(v) - map.from.vertex(0);
-        const Vec3 to = position(map.to, image) - map.to.vertex(0);
+        const Vec3 at = map.from.vertex(v), there = position(map.to, image);
+        if (count == 0) from_first = at, to_first = there;
+        const Vec3 from = at - from_first, to = there - to_first;
         from_mean += from, to_mean += to, ++count;
         products += from * to.transpose();
     }

@@ -77,15 +77,17 @@ TEST(View, NamesBeginNoElementOfThePage) {
 }
 
 TEST(View, TurnsTheTargetAsTheSourceStands) {
-    const TriangleMesh mesh = shapes::ellipsoid(2, {1, 2, 3});
-    PageContent content = content_of(mesh);
-    content.map.to = shapes::moved(mesh, 2, .7, {5, 6, 7});
-    const auto turn = data_of(viewer_page(content, "<!--varimap-data-->"))["turn"];
-    Eigen::Matrix3d R;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) R(i, k) = turn[i][k].get<double>();
-    const Vec3 edge = content.map.to.vertex(9) - content.map.to.vertex(4);
-    EXPECT_LT((R * edge / 2 - (mesh.vertex(9) - mesh.vertex(4))).norm(), 1e-9);
+    for (const double far : {1., 1e6}) {
+        const TriangleMesh mesh = shapes::moved(shapes::ellipsoid(2, {1, 2, 3}), 1, 0, {far, 0, far});
+        PageContent content = content_of(mesh);
+        content.map.to = shapes::moved(mesh, 2, .7, far * Vec3(5, 6, 7));
+        const auto turn = data_of(viewer_page(content, "<!--varimap-data-->"))["turn"];
+        Eigen::Matrix3d R;
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) R(i, k) = turn[i][k].get<double>();
+        const Vec3 edge = content.map.to.vertex(9) - content.map.to.vertex(4);
+        EXPECT_LT((R * edge / 2 - (mesh.vertex(9) - mesh.vertex(4))).norm(), 1e-9 + 1e-12 * far) << far;
+    }
 }
 
 TEST(View, ThinsLargeSurfacesForTheEye) {
