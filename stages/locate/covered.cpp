@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/disc.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
@@ -92,9 +92,11 @@ FaceData<char> touched_faces(const PointMap& images, const TriangleMesh& part, c
     std::vector<int> found;
     for (const std::vector<int>& faces : along) found.insert(found.end(), faces.begin(), faces.end());
     std::erase(found, -1);
-    FaceSets sets(whole.input, find_shared_edges(whole.input));
+    make_set(found);
     FaceData<char> touched(whole.input.face_count());
-    for (const int f : sets.widened(std::move(found), 1)) touched[f] = 1;
+    const Adjacency faces_of_vertex = vertex_faces(whole.input);
+    for (const int v : vertices_of(whole.input, found))
+        for (const int f : faces_of_vertex[v]) touched[f] = 1;
     return touched;
 }
 

@@ -8,7 +8,6 @@
 #include "stages/locate/covered.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
-#include "varimap/mesh/disc.h"
 #include "varimap/mesh/part_region.h"
 #include "varimap/mesh/topology.h"
 
@@ -19,9 +18,17 @@ namespace {
 /// The faces around each landmark, and those around these: landmarks at the rim hang together with the rest.
 void add_landmarks(const Sides& sides, FaceData<char>& covered) {
     const TriangleMesh& mesh = sides.whole.input;
-    FaceSets sets(mesh, find_shared_edges(mesh));
-    for (const int v : sides.landmarks_whole)
-        for (const int f : sets.widened({sides.whole.on_input[std::size_t(v)].face}, 2)) covered[f] = 1;
+    const Adjacency faces_of_vertex = vertex_faces(mesh);
+    for (const int v : sides.landmarks_whole) {
+        std::vector<int> faces{sides.whole.on_input[std::size_t(v)].face};
+        for (int ring = 0; ring < 2; ++ring) {
+            std::vector<int> around;
+            for (const int u : vertices_of(mesh, faces))
+                around.insert(around.end(), faces_of_vertex[u].begin(), faces_of_vertex[u].end());
+            faces = std::move(around);
+        }
+        for (const int f : faces) covered[f] = 1;
+    }
 }
 
 /// The first landmark around which no marked faces hang together with the region's, numbered from 1; 0 if
