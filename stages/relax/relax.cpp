@@ -150,7 +150,8 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, M
         const bool far = is_far_apart(A) || is_far_apart(B);
         UntanglingOptions coarse_options = options;
         if (far) coarse_options.centre_stars = false;
-        coarse_options.repair_again = false;  // dearer than on the inputs, for hardly fewer faults
+        coarse_options.restore_bound = false;  // the inputs settle in it again
+        coarse_options.repair_again = false;   // dearer than on the inputs, for hardly fewer faults
         on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, coarse_options);
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;

@@ -5,6 +5,7 @@
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
 #include "varimap/relaxation/along_target.h"
+#include "varimap/relaxation/bound_repair.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/movable_vertices.h"
@@ -147,6 +148,13 @@ void UntangledDirection::reconcile(const PointMap& back, bool whole) {
 void UntangledDirection::repair(const PointMap& back) {
     repair_.emplace(sliding_, fixed_, landmarks_, relief_.get(), options_, report_);
     (*repair_)(back);
+}
+
+void UntangledDirection::restore_bound() {
+    if (!options_.restore_bound || options_.settling_steps == 0 || !(options_.area_bound > 0)) return;
+    VertexData<bool> held(source_.vertex_count(), true);
+    for (const int v : free_vertices(sliding_, fixed_, landmarks_)) held[v] = false;
+    BoundRepair(sliding_, options_.area_bound, exempt(), std::move(held))();
 }
 
 bool UntangledDirection::is_worse(const Distortion& after) const {

@@ -47,6 +47,8 @@ class UntangledDirection {
     bool is_repaired_again() const { return repair_->is_done_again(); }
     void repair_again(const PointMap& back) { repair_->again(back); }
     void recover(const PointMap& back) { repair_->recover(back); }
+    /// Brings areas back into the bound where repairs have taken them out of it.
+    void restore_bound();
 
     const PointMap& points() const { return sliding_.points(); }
     UntanglingReport finish();

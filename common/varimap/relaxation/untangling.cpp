@@ -79,6 +79,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
                         [](UntangledDirection& map, const PointMap& inverse) { map.repair_again(inverse); });
     with_each_other(there, back,
                     [](UntangledDirection& map, const PointMap& inverse) { map.recover(inverse); });
+    tbb::parallel_invoke([&] { there.restore_bound(); }, [&] { back.restore_bound(); });
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;
 }
