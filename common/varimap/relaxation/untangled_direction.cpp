@@ -151,10 +151,14 @@ void UntangledDirection::repair(const PointMap& back) {
 }
 
 void UntangledDirection::restore_bound() {
-    if (!options_.restore_bound || options_.settling_steps == 0 || !(options_.area_bound > 0)) return;
+    if (!options_.restore_bound || !options_.align_normals || options_.settling_steps == 0 ||
+        !(options_.area_bound > 0))
+        return;
     VertexData<bool> held(source_.vertex_count(), true);
     for (const int v : free_vertices(sliding_, fixed_, landmarks_)) held[v] = false;
-    BoundRepair(sliding_, options_.area_bound, exempt(), std::move(held))();
+    FaultGuard guard(sliding_);
+    BoundRepair(sliding_, guard, options_.area_bound, exempt(), std::move(held))();
+    report_.disagreeing_after = guard.disagreeing_faces();
 }
 
 bool UntangledDirection::is_worse(const Distortion& after) const {
