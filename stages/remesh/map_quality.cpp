@@ -56,6 +56,12 @@ InTheEnd of_both(const DirectionQuality& there, const DirectionQuality& back) {
             std::min(there.reached().share, back.reached().share), false};
 }
 
+/// Chairs have 5 at most; skulls have 20 left when their small handles are cut.
+bool has_many_handles(const TriangleMesh& mesh) {
+    constexpr int many = 10;
+    return summarise_topology(mesh).genus >= many;
+}
+
 LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A, const PointPairs& from_A,
                                   const TriangleMesh& A, const TriangleMesh& B) {
     if (from_A.empty()) return {};
@@ -98,6 +104,7 @@ MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surfac
     quality.B_to_A = measure_direction(B_to_A, B, A, bound);
     quality.in_the_end = of_both(quality.A_to_B, quality.B_to_A);
     quality.in_the_end.inside_out = one_is_inside_out(A, B);
+    quality.in_the_end.many_handles = has_many_handles(A.input) || has_many_handles(B.input);
     quality.round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     const PointPairs landmarks = landmarks_on_inputs(pair.record, A, B);
     quality.landmarks = measure_landmarks(A_to_B, B_to_A, landmarks, A.input, B.input);

@@ -817,6 +817,9 @@ TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
     EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1, false}),
                 testing::HasSubstr("a Dirichlet energy of 1.35"));
     EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1, false}).probability, found, 1e-3);
+    const InTheEnd of_a_skull{2.5, 1, false, true};
+    EXPECT_NEAR(confidence_of(candidates, of_a_skull).probability, found, 1e-3);
+    EXPECT_EQ(doubt(candidates, of_a_skull), "");
 }
 
 TEST(Confidence, FallsWithWhatTheFinishedMapLeavesOut) {

@@ -112,8 +112,8 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
                              : plausibility(best) * plausibility_of_reversed(best.reversed_mass) *
                                    plausibility_of_handedness(best.mirror_gain) * (1 - doubt);
     if (finished) {
-        probability *=
-            plausibility_when_finished(finished->dirichlet) * plausibility_when_covered(finished->coverage);
+        if (!finished->many_handles) probability *= plausibility_when_finished(finished->dirichlet);
+        probability *= plausibility_when_covered(finished->coverage);
         if (finished->inside_out) probability /= 2;  // as many are mirror images as not
     }
     return {margin, probability, probability >= sure};
@@ -147,7 +147,7 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
     if (finished && finished->inside_out) add("one of the surfaces is inside out");
     if (finished && finished->coverage < covered)
         add(fmt::format("finished, it leaves out {:.0f}% of a surface", 100 * (1 - finished->coverage)));
-    if (finished && finished->dirichlet > strained_in_the_end)
+    if (finished && !finished->many_handles && finished->dirichlet > strained_in_the_end)
         add(fmt::format("finished, it is strained, with a Dirichlet energy of {:.2f}", finished->dirichlet));
     else if (best.dirichlet > strained)
         add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));

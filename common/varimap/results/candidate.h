@@ -64,6 +64,9 @@ struct InTheEnd {
     /// One of the surfaces is inside out (surface.h), so that left and right are exchanged unless it is a
     /// mirror image of the other.
     bool inside_out = false;
+    /// One of the surfaces has many handles, as scans of bones have: its walls tear in any map, whose energy
+    /// then tells nothing.
+    bool many_handles = false;
 };
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
 
