@@ -150,8 +150,8 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, M
         const bool far = is_far_apart(A) || is_far_apart(B);
         UntanglingOptions coarse_options = options;
         if (far) coarse_options.centre_stars = false;
-        // Once: the inputs settle in it again. But where they are as fine it takes a fifth of the time there,
-        // and local sweeps hardly win anything.
+        // Once: the inputs settle in it again. On those that are far finer than their meshes it takes a fifth
+        // of the time, and local sweeps hardly win anything.
         coarse_options.restore_bound = far;
         options.restore_bound = !far;
         coarse_options.repair_again = false;  // dearer than on the inputs, for hardly fewer faults

@@ -27,7 +27,8 @@ class AreaBound {
     /// Raises the weights; returns the corners of the faces that got more, ascending: none where all keep the
     /// bound. Reversed faces get none, whose energy would outweigh all others'.
     std::vector<int> press();
-    /// The same where no vertex has moved since but some of `moved`, the corners that were returned then.
+    /// The same where no vertex has moved since but some of `moved`, which hold all that were returned then
+    /// or at least those that can move.
     std::vector<int> press_again(const std::vector<int>& moved);
 
   private:

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "varimap/core/timing.h"
+#include "varimap/relaxation/fault_guard.h"
 #include "varimap/relaxation/local_relaxation.h"
 
 namespace varimap {
@@ -14,35 +15,35 @@ namespace {
 /// instead of 99.33% of the area, which takes twice as long; with four presses each, on 99.2%. Of tight
 /// bounds there are twice as many.
 constexpr int looks = 10, presses_per_look = 2, sweeps_per_press = 4;
-const FoldEnergy energy{1, 0.1};
 
 }  // namespace
 
-BoundRepair::BoundRepair(SlidingMap& map, FaultGuard& guard, double bound, VertexData<bool> exempt,
-                         VertexData<bool> held)
+BoundRepair::BoundRepair(SlidingMap& map, double bound, VertexData<bool> exempt, VertexData<bool> held)
     : map_(map),
-      guard_(guard),
       bound_(map, bound, std::move(exempt)),
       most_looks_((AreaBound::is_tight(bound) ? 2 : 1) * looks),
       held_(std::move(held)) {}
 
-void BoundRepair::operator()() {
+void BoundRepair::operator()(const FoldEnergy& energy) {
     const Timer timer("area bound");
     std::vector<int> pressed = bound_.press();
+    if (pressed.empty()) return;
+    FaultGuard guard(map_);
     for (int look = 0; look < most_looks_ && !pressed.empty(); ++look) {
         const std::vector<int> free = free_around(pressed);
-        guard_(free, [&] { sweep(free); });
+        guard(free, [&] { sweep(free, energy); });
         pressed = bound_.press_again(free);
     }
 }
 
-std::vector<int> BoundRepair::free_around(const std::vector<int>& vertices) {
-    std::vector<int> free = vertices_of(map_.source(), guard_.widened(map_.faces_around(vertices)));
+std::vector<int> BoundRepair::free_around(const std::vector<int>& vertices) const {
+    const std::vector<int> near = vertices_of(map_.source(), map_.faces_around(vertices));
+    std::vector<int> free = vertices_of(map_.source(), map_.faces_around(near));
     std::erase_if(free, [&](int v) { return held_[v] || !map_.has_image(v); });
     return free;
 }
 
-void BoundRepair::sweep(const std::vector<int>& free) {
+void BoundRepair::sweep(const std::vector<int>& free, const FoldEnergy& energy) {
     LocalRelaxation local(map_, 99);
     std::vector<int> shuffled = free;
     for (int press = 0; press < presses_per_look; ++press) {

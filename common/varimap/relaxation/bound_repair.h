@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "varimap/relaxation/area_bound.h"
-#include "varimap/relaxation/fault_guard.h"
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -13,19 +12,17 @@ namespace varimap {
 /// do not keep it make room for them, without new faults (fault_guard.h).
 class BoundRepair {
   public:
-    /// Keeps references. `exempt`: vertices that need not keep the bound; `held`: those that stay.
-    BoundRepair(SlidingMap& map, FaultGuard& guard, double bound, VertexData<bool> exempt,
-                VertexData<bool> held);
+    /// Keeps a reference. `exempt`: vertices that need not keep the bound; `held`: those that stay.
+    BoundRepair(SlidingMap& map, double bound, VertexData<bool> exempt, VertexData<bool> held);
 
-    void operator()();
+    void operator()(const FoldEnergy& energy);
 
   private:
-    /// Those of these vertices and of the ones next to them that may move; ascending.
-    std::vector<int> free_around(const std::vector<int>& vertices);
-    void sweep(const std::vector<int>& free);
+    /// Those of these vertices, and of two rings around them, that may move; ascending.
+    std::vector<int> free_around(const std::vector<int>& vertices) const;
+    void sweep(const std::vector<int>& free, const FoldEnergy& energy);
 
     SlidingMap& map_;
-    FaultGuard& guard_;
     AreaBound bound_;
     const int most_looks_;
     const VertexData<bool> held_;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int most_rings = 8;
 
-enum Fault : unsigned char { reversed = 1, cutting = 2, around_branch_point = 4 };
+enum Fault : unsigned char { reversed_along_target = 1, reversed_by_normals = 2, cutting = 4 };
 
 }  // namespace
 
@@ -21,12 +21,13 @@ FaultGuard::FaultGuard(SlidingMap& map)
 
 void FaultGuard::operator()(const std::vector<int>& free, const std::function<void()>& move) {
     const PointMap kept = map_.points_of(free);
-    const std::vector<int> around = widened(map_.faces_around(free));
+    const std::vector<int> around = source_.widened(map_.faces_around(free), 1);
     const Faults before = faults_of(around);
     move();
-    for (int rings = 0; rings <= most_rings; ++rings) {
+    for (int rings = 0;; ++rings) {
         const std::vector<int> worse = worse_among(around, before);
         if (worse.empty()) return;
+        if (rings > most_rings) break;
         const std::vector<int> near = vertices_of(map_.source(), source_.widened(worse, rings));
         for (std::size_t i = 0; i < free.size(); ++i)
             if (std::binary_search(near.begin(), near.end(), free[i])) map_.place(free[i], kept[i]);
@@ -35,21 +36,28 @@ void FaultGuard::operator()(const std::vector<int>& free, const std::function<vo
 }
 
 FaultGuard::Faults FaultGuard::faults_of(const std::vector<int>& faces) {
-    Faults faults(map_.source().face_count(), 0);
+    Faults faults{FaceData<unsigned char>(map_.source().face_count(), 0),
+                  VertexData<bool>(map_.source().vertex_count(), false)};
+    for (const int f : faces)
+        if (map_.is_mapped(f) && !(map_.image_triangle(f).D > 0)) faults.of_face[f] |= reversed_by_normals;
     for (const int f : faces_where(faces, [&](int f) { return along_target_.is_reversed(f); }))
-        faults[f] |= reversed;
-    for (const int f : agreement_.disagreeing_among(faces)) faults[f] |= cutting;
+        faults.of_face[f] |= reversed_along_target;
+    for (const int f : agreement_.disagreeing_among(faces)) faults.of_face[f] |= cutting;
     for (const int v : vertices_of(map_.source(), faces))
-        if (along_target_.is_branch_point(v))
-            for (const int f : map_.faces_of_vertex()[v]) faults[f] |= around_branch_point;
+        faults.is_branch_point[v] = along_target_.is_branch_point(v);
     return faults;
 }
 
 std::vector<int> FaultGuard::worse_among(const std::vector<int>& faces, const Faults& before) {
     const Faults now = faults_of(faces);
+    const auto is_worse = [&](int f) {
+        if ((now.of_face[f] & ~before.of_face[f]) != 0) return true;
+        const auto corners = map_.source().faces.row(f);
+        return std::any_of(corners.begin(), corners.end(),
+                           [&](int v) { return now.is_branch_point[v] && !before.is_branch_point[v]; });
+    };
     std::vector<int> worse;
-    std::copy_if(faces.begin(), faces.end(), std::back_inserter(worse),
-                 [&](int f) { return (now[f] & ~before[f]) != 0; });
+    std::copy_if(faces.begin(), faces.end(), std::back_inserter(worse), is_worse);
     return worse;
 }
 

@@ -4,6 +4,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/relaxation/along_target.h"
 #include "varimap/relaxation/bound_repair.h"
 #include "varimap/relaxation/face_energy.h"
@@ -154,11 +155,13 @@ void UntangledDirection::restore_bound() {
     if (!options_.restore_bound || !options_.align_normals || options_.settling_steps == 0 ||
         !(options_.area_bound > 0))
         return;
-    VertexData<bool> held(source_.vertex_count(), true);
-    for (const int v : free_vertices(sliding_, fixed_, landmarks_)) held[v] = false;
-    FaultGuard guard(sliding_);
-    BoundRepair(sliding_, guard, options_.area_bound, exempt(), std::move(held))();
-    report_.disagreeing_after = guard.disagreeing_faces();
+    VertexData<bool> held = fixed_;
+    for (const SoftConstraint& landmark : landmarks_) mark_corners(source_, landmark.from.face, held);
+    // As repairs do: nothing else holds a rim to the target's.
+    for (const auto& edge : find_boundary(source_).edges)
+        for (const int v : edge) held[v] = true;
+    BoundRepair repair(sliding_, options_.area_bound, exempt(), std::move(held));
+    repair({options_.area_weight, settling_round.regularisation});
 }
 
 bool UntangledDirection::is_worse(const Distortion& after) const {

@@ -52,7 +52,8 @@ struct UntanglingOptions {
     bool repair_again = true;
     /// Moves single vertices at the end (star_kernels.h).
     bool centre_stars = true;
-    /// Brings areas back into the bound at the very end (bound_repair.h).
+    /// Brings areas back into the bound at the very end (bound_repair.h), if maps settle in it and are
+    /// repaired.
     bool restore_bound = true;
 };
 

@@ -51,6 +51,24 @@ TEST(AreaBound, ATightOneIsKeptFromTheStart) {
     EXPECT_GT(share_within(maps.B_to_A, spindle, ball, bound), 0.995);
 }
 
+TEST(AreaBound, IsRestoredAfterRepairs) {
+    const TriangleMesh figure = shapes::figure(0.15);
+    TriangleMesh tall = figure;
+    tall.vertices.col(2) *= 3;
+    const double bound = 1.2;
+    const auto share = [&](bool restored) {
+        MapPair maps{shapes::at_vertices(tall), shapes::at_vertices(figure)};
+        UntanglingOptions options;
+        options.area_bound = bound;
+        options.restore_bound = restored;
+        untangle(maps, figure, tall, {none(figure), none(tall)}, options);
+        return std::min(share_within(maps.A_to_B, figure, tall, bound),
+                        share_within(maps.B_to_A, tall, figure, bound));
+    };
+    EXPECT_LT(share(false), 0.99);
+    EXPECT_GT(share(true), 0.998);
+}
+
 TEST(AreaBound, PressesWhereItIsNotKeptAndNowhereElse) {
     const TriangleMesh ball = shapes::ellipsoid(3), egg = shapes::ellipsoid(3, {1, 1, 3});
     SlidingMap map(shapes::at_vertices(egg), ball, egg);

@@ -6,6 +6,8 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/quality/quality.h"
+#include "varimap/relaxation/along_target.h"
+#include "varimap/relaxation/normal_agreement.h"
 
 namespace varimap {
 namespace {
@@ -28,15 +30,14 @@ std::vector<int> faulty_faces(SlidingMap& map) {
 }
 
 void repair_bound(SlidingMap& map, double bound, const VertexData<bool>& held) {
-    FaultGuard guard(map);
-    BoundRepair(map, guard, bound, none(map.source()), held)();
+    BoundRepair(map, bound, none(map.source()), held)({1, 0.1});
 }
 
 TEST(BoundRepair, BringsAreasBackIntoTheBound) {
     const TriangleMesh ball = shapes::ellipsoid(4), egg = shapes::ellipsoid(4, {1, 1, 3});
     SlidingMap map(shapes::at_vertices(egg), ball, egg);
     const double bound = 1.4;
-    EXPECT_LT(share_within(map, bound), 0.9);
+    ASSERT_LT(share_within(map, bound), 0.9);
     repair_bound(map, bound, none(ball));
     EXPECT_GT(share_within(map, bound), 0.995);
     EXPECT_TRUE(faulty_faces(map).empty());
@@ -62,12 +63,15 @@ TEST(BoundRepair, LeavesHeldVerticesAndMapsWithinTheBound) {
     for (int v = 0; v < held.size(); v += 2) held[v] = true;
     repair_bound(map, 1.2, held);
     repair_bound(within, 100, none(ball));
+    const auto is_same = [&](const SlidingMap& now, int v) {
+        const SurfacePoint &a = now.point(v), &b = given[std::size_t(v)];
+        return a.face == b.face && a.barycentric == b.barycentric;
+    };
     int moved = 0;
     for (int v = 0; v < held.size(); ++v) {
-        const bool same = map.point(v).barycentric == given[std::size_t(v)].barycentric;
-        EXPECT_TRUE(same || !held[v]);
-        moved += !same;
-        EXPECT_EQ(within.point(v).barycentric, given[std::size_t(v)].barycentric);
+        EXPECT_TRUE(is_same(map, v) || !held[v]);
+        moved += !is_same(map, v);
+        EXPECT_TRUE(is_same(within, v));
     }
     EXPECT_GT(moved, 10);
 }
