@@ -104,11 +104,13 @@ MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surfac
     quality.B_to_A = measure_direction(B_to_A, B, A, bound);
     quality.in_the_end = of_both(quality.A_to_B, quality.B_to_A);
     quality.in_the_end.inside_out = one_is_inside_out(A, B);
-    quality.in_the_end.many_handles = has_many_handles(A.input) || has_many_handles(B.input);
     quality.round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     const PointPairs landmarks = landmarks_on_inputs(pair.record, A, B);
     quality.landmarks = measure_landmarks(A_to_B, B_to_A, landmarks, A.input, B.input);
-    if (!pair.record.candidates.empty()) quality.choice = measure_choice(pair.record, quality.in_the_end);
+    if (!pair.record.candidates.empty()) {
+        quality.in_the_end.many_handles = has_many_handles(A.input) || has_many_handles(B.input);
+        quality.choice = measure_choice(pair.record, quality.in_the_end);
+    }
     quality.median_thinness_A = median_thinness(A.input);
     quality.median_thinness_B = median_thinness(B.input);
     return quality;

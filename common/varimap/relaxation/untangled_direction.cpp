@@ -155,8 +155,7 @@ void UntangledDirection::restore_bound() {
     if (!options_.restore_bound || !options_.align_normals || options_.settling_steps == 0 ||
         !(options_.area_bound > 0))
         return;
-    VertexData<bool> held = fixed_;
-    for (const SoftConstraint& landmark : landmarks_) mark_corners(source_, landmark.from.face, held);
+    VertexData<bool> held = with_landmarks(fixed_);
     // As repairs do: nothing else holds a rim to the target's.
     for (const auto& edge : find_boundary(source_).edges)
         for (const int v : edge) held[v] = true;
@@ -228,9 +227,12 @@ std::vector<int> UntangledDirection::free_among(std::vector<int> vertices) const
 }
 
 VertexData<bool> UntangledDirection::exempt() const {
-    VertexData<bool> exempt = pinned_;
-    for (const SoftConstraint& landmark : landmarks_) mark_corners(source_, landmark.from.face, exempt);
-    return exempt;
+    return with_landmarks(pinned_);
+}
+
+VertexData<bool> UntangledDirection::with_landmarks(VertexData<bool> marks) const {
+    for (const SoftConstraint& landmark : landmarks_) mark_corners(source_, landmark.from.face, marks);
+    return marks;
 }
 
 }  // namespace varimap

@@ -67,6 +67,8 @@ class UntangledDirection {
     std::vector<int> free_among(std::vector<int> vertices) const;
     /// Vertices whose surroundings cannot keep the area bound: those of landmarks.
     VertexData<bool> exempt() const;
+    /// And the corners of faces that hold landmarks which are points.
+    VertexData<bool> with_landmarks(VertexData<bool> marks) const;
 
     PointMap& map_;
     const TriangleMesh &source_, &target_;
