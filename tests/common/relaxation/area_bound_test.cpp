@@ -13,9 +13,7 @@
 namespace varimap {
 namespace {
 
-VertexData<bool> none(const TriangleMesh& mesh) {
-    return VertexData<bool>(mesh.vertex_count());
-}
+using shapes::none;
 
 /// A ball onto an egg, both ways: an isometry's energy trades areas for angles at the tips.
 MapPair ball_to_egg(const TriangleMesh& ball, const TriangleMesh& egg, double area_bound) {

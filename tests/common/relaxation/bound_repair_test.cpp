@@ -14,9 +14,7 @@ namespace {
 
 using ::testing::IsSupersetOf;
 
-VertexData<bool> none(const TriangleMesh& mesh) {
-    return VertexData<bool>(mesh.vertex_count());
-}
+using shapes::none;
 
 double share_within(const SlidingMap& map, double bound) {
     return share_within_area_bound(measure_triangles(map.points(), map.source(), map.target()), map.source(),

@@ -17,9 +17,7 @@
 namespace varimap {
 namespace {
 
-VertexData<bool> none(const TriangleMesh& mesh) {
-    return VertexData<bool>(mesh.vertex_count());
-}
+using shapes::none;
 
 /// The identity, but the vertices near one are anywhere near it.
 PointMap crumpled(const TriangleMesh& mesh, int centre, double radius) {

@@ -32,9 +32,7 @@ PointMap cut_through(const TriangleMesh& mesh) {
     return map;
 }
 
-VertexData<bool> none(const TriangleMesh& mesh) {
-    return VertexData<bool>(mesh.vertex_count());
-}
+using shapes::none;
 
 int reversed_images(const SlidingMap& map) {
     int count = 0;
