@@ -12,9 +12,6 @@
 namespace varimap {
 namespace {
 
-/// Faces of tubes that are thinner cost more than any others.
-constexpr double thin = 0.02;
-
 /// A tube between two faces: one goes round forward, the other backward, corner i facing corner shift - i.
 struct Tube {
     int here = -1, there = -1, shift = 0;
@@ -34,10 +31,9 @@ Faces faces_of(const Tube& tube, const Faces& faces) {
 
 /// Its area, and more where it has thin faces.
 double cost_of(const Tube& tube, const TriangleMesh& mesh, double total_area) {
-    const TriangleMesh sides{mesh.vertices, faces_of(tube, mesh.faces)};
-    double cost = surface_area(sides);
-    for (int f = 0; f < sides.face_count(); ++f)
-        if (const double t = thinness(sides, f); t < thin) cost += total_area * (2 - t);
+    double cost = 0;
+    for (const auto& side : faces_of(tube, mesh.faces).rowwise())
+        cost += price_of_face(mesh.vertex(side[0]), mesh.vertex(side[1]), mesh.vertex(side[2]), total_area);
     return cost;
 }
 

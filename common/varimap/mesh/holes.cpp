@@ -16,8 +16,6 @@ namespace varimap {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-/// Thinner faces cost more than any others.
-constexpr double thin = 0.02;
 /// Loops of so many edges are triangulated at once.
 constexpr std::size_t at_once = 200;
 /// What closes a slit has no larger share of the square of the loop's length: it is 2500 times longer than
@@ -52,9 +50,7 @@ class HoleFilling {
                neighbours_[loop[2]].size() == 2;
     }
     double cost(int a, int b, int c) const {
-        const Vec3 p = mesh_.vertex(a), q = mesh_.vertex(b), r = mesh_.vertex(c);
-        const double t = thinness(p, q, r);
-        return (q - p).cross(r - p).norm() / 2 + (t < thin ? price_ * (2 - t) : 0);
+        return price_of_face(mesh_.vertex(a), mesh_.vertex(b), mesh_.vertex(c), price_);
     }
     bool cut_ears(Loop& loop);
     bool triangulate(const Loop& loop);
