@@ -33,7 +33,12 @@ struct Sides {
     }
     /// Whether landmarks say where the part is.
     bool landmarks_tell() const { return landmarks_part.size() >= 3; }
-    PartSize size() const { return part_size(part, landmarks_part, whole, landmarks_whole); }
+    /// By the landmarks where there are three, else that of the files: the one path between two may lead
+    /// around what was cut off.
+    PartSize size() const {
+        return landmarks_tell() ? part_size(part, landmarks_part, whole, landmarks_whole)
+                                : part_size(part, {}, whole, {});
+    }
     bool are_opposed() const { return varimap::are_opposed(part, whole); }
     /// What the placements between these sides have in common.
     std::vector<ReliefPair> reliefs() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fixtures/shapes.h"
+#include "stages/locate/sides.h"
 #include "stages/preprocess/preprocess.h"
 
 namespace varimap {
@@ -36,6 +37,27 @@ TEST(PartSize, IsThatOfTheAreas) {
         EXPECT_NEAR(size.scale / expected, 1, .05) << units;
         EXPECT_NEAR(size.share, (units == 1.1 ? 1.21 : 1) * .65, .05) << units;
     }
+}
+
+TEST(Sides, TakeNoSizeFromTheOnePathBetweenTwoLandmarks) {
+    const TriangleMesh ball = shapes::ellipsoid(4);
+    std::vector<int> lower;
+    for (int f = 0; f < ball.face_count(); ++f)
+        if (position(ball, {f, Vec3::Constant(1.0 / 3)}).z() < .6) lower.push_back(f);
+    const Surface whole = preprocess(ball, {}),
+                  part = preprocess(TriangleMesh{ball.vertices, ball.faces(lower, Eigen::all)}, {});
+    // On both sides of what was cut off.
+    VertexPairs<MeshVertex> landmarks;
+    for (const double side : {1., -1.}) {
+        int a, b;
+        (part.mesh.vertices * Vec3(.8 * side, 0, .6)).maxCoeff(&a);
+        (whole.mesh.vertices * Vec3(.8 * side, 0, .6)).maxCoeff(&b);
+        landmarks.emplace_back(MeshVertex{a}, MeshVertex{b});
+    }
+    const Sides sides(part, whole, landmarks, PartSide::source);
+    EXPECT_LT(part_size(part, sides.landmarks_part, whole, sides.landmarks_whole).scale, .8);
+    EXPECT_EQ(sides.size().scale, 1);
+    EXPECT_NEAR(sides.size().share, .8, .02);
 }
 
 /// The larger one is no part.
