@@ -8,6 +8,7 @@
 
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/mass.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/spectral/laplacian.h"
 
 namespace varimap {
@@ -36,11 +37,16 @@ Points smoothed(const TriangleMesh& mesh, double scale) {
     return solver.solve(mass.asDiagonal() * mesh.vertices);
 }
 
+/// Of vertices that faces use: medians are theirs.
+Eigen::VectorXd used(const TriangleMesh& mesh, const Eigen::VectorXd& values) {
+    return values(used_vertices(mesh.faces, mesh.vertex_count()).vertex);
+}
+
 /// Less their median, in units of 1.5 median deviations; zeros where these are rounding.
-Eigen::VectorXd bounded_deviations(Eigen::VectorXd values) {
+Eigen::VectorXd bounded_deviations(const TriangleMesh& mesh, Eigen::VectorXd values) {
     constexpr double rounding = 1e-9;  // units of sqrt(area)
-    values.array() -= upper_median(values);
-    const double deviation = 1.5 * upper_median(values.cwiseAbs());
+    values.array() -= upper_median(used(mesh, values));
+    const double deviation = 1.5 * upper_median(used(mesh, values).cwiseAbs());
     if (!(deviation > rounding)) return Eigen::VectorXd::Zero(values.size());
     return bound * (values / (bound * deviation)).array().tanh();
 }
@@ -49,7 +55,7 @@ Eigen::VectorXd bounded_deviations(Eigen::VectorXd values) {
 
 Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
     const Points height = mesh.vertices - smoothed(mesh, scale);
-    return bounded_deviations(height.cwiseProduct(vertex_normals(mesh)).rowwise().sum());
+    return bounded_deviations(mesh, height.cwiseProduct(vertex_normals(mesh)).rowwise().sum());
 }
 
 double trust_in_relief(double correlation, bool sheets) {

@@ -39,6 +39,16 @@ TEST(Relief, IsHighOnBumpsAndLowInDents) {
     EXPECT_GT(a.dot(b) / (a.norm() * b.norm()), 0.9);
 }
 
+TEST(Relief, IsNotThatOfVerticesThatNoFaceUses) {
+    const TriangleMesh bumpy = bumpy_sphere();
+    TriangleMesh with_more = bumpy;
+    with_more.vertices.conservativeResize(3 * bumpy.vertex_count(), 3);
+    with_more.vertices.bottomRows(2 * bumpy.vertex_count()).setConstant(.5);
+    const Eigen::VectorXd h = relief(bumpy, 0.04);
+    EXPECT_GT(h.cwiseAbs().maxCoeff(), 1);
+    EXPECT_LT((relief(with_more, 0.04).head(h.size()) - h).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST(ReliefAgreement, KnowsSurfacesOfOppositeHandedness) {
     const TriangleMesh outward = bumpy_sphere();
     TriangleMesh inward = outward;
