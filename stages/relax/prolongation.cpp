@@ -21,7 +21,7 @@ namespace {
 /// of a half, twice as many triangles of the input are reversed at first.
 constexpr double last_level = 0.5;
 constexpr int sweeps = 1;
-constexpr FoldRemoval fold_removal{usual_fold_sweeps, 15};
+constexpr double fold_visits = 15;
 
 /// On coarser levels discs of the target take long, and on a finer one those of the source. Measured on a
 /// pair of 320,000 vertices: nowhere, on the last level but one, there and on the one before, on all leave
@@ -61,13 +61,15 @@ PointMap Prolongation::images_of(const PointMap& points) const {
     return result;
 }
 
-void Prolongation::relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks) {
+void Prolongation::relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks,
+                                 const UntanglingOptions& options) {
     const Timer timer("levels");
-    relax(pinned, landmarks, false);
+    relax(pinned, landmarks, options, false);
     while (!is_as_fine_as(last_level)) {
         refine();
         for (SurfacePoint& landmark : landmarks) landmark = on_subdivision(landmark);
-        relax(pinned, landmarks, !is_as_fine_as(last_level) && is_as_fine_as(last_level / 4));
+        relax(pinned, landmarks, options,
+              options.align_normals && !is_as_fine_as(last_level) && is_as_fine_as(last_level / 4));
     }
 }
 
@@ -84,15 +86,16 @@ void Prolongation::refine() {
 }
 
 void Prolongation::relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks,
-                         bool folds_anew) {
+                         const UntanglingOptions& options, bool folds_anew) {
     SlidingMap map(images_, level_, target_);
     VertexData<bool> held(level_.vertex_count());
     for (int v = 0; v < pinned.size(); ++v) held[v] = pinned[v];
     for (const SurfacePoint& landmark : landmarks) mark_corners(level_, landmark.face, held);
     std::vector<int> free = free_vertices(map, held, {});
     LocalRelaxation local(map, 99);
-    for (int i = 0; i < sweeps; ++i) local.sweep(free, {1, relaxation_rounds.back().regularisation});
-    fold_removal(map, held);
+    for (int i = 0; i < sweeps; ++i)
+        local.sweep(free, {options.area_weight, relaxation_rounds.back().regularisation});
+    FoldRemoval{options.fold_sweeps, fold_visits}(map, held);
     if (folds_anew) map_folds_anew(map, held);
     images_ = map.points();
 }

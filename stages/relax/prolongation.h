@@ -5,6 +5,7 @@
 #include "varimap/core/indexed.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/surface.h"
+#include "varimap/relaxation/untangling.h"
 
 namespace varimap {
 
@@ -24,7 +25,9 @@ class Prolongation {
 
     /// Takes the levels between. What stays: pinned vertices of source.mesh, and the corners of faces that
     /// hold one of `landmarks`, points of source.mesh.
-    void relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks);
+    /// Of `options`, area_weight, fold_sweeps and align_normals count.
+    void relax_between(const VertexData<bool>& pinned, std::vector<SurfacePoint> landmarks,
+                       const UntanglingOptions& options);
     /// Per vertex of source.input; nowhere for those that no face uses.
     PointMap on_input() const;
 
@@ -33,7 +36,8 @@ class Prolongation {
     /// Of points of the level; nowhere where these are.
     PointMap images_of(const PointMap& points) const;
     void refine();
-    void relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks, bool folds_anew);
+    void relax(const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks,
+               const UntanglingOptions& options, bool folds_anew);
 
     InputLocator locate_;
     TriangleMesh target_;  ///< the target's input

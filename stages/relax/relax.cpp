@@ -76,24 +76,25 @@ PinnedPair pin_on_inputs(const PairRecord& record, const Surface& A, const Surfa
 }
 
 PointMap on_input(const PointMap& images, const Surface& source, const Surface& target,
-                  const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks, bool relaxed) {
+                  const VertexData<bool>& pinned, const std::vector<SurfacePoint>& landmarks,
+                  const UntanglingOptions& options) {
     Prolongation map(images, source, target);
     const bool is_coarse = source.input_face.empty();
-    if (is_coarse && relaxed) map.relax_between(pinned, landmarks);
+    if (is_coarse && options.enabled) map.relax_between(pinned, landmarks, options);
     return map.on_input();
 }
 
-/// The maps carried over from the meshes to the inputs; `relaxed`: on the way, too.
+/// The maps carried over from the meshes to the inputs, and relaxed on the way if that is enabled.
 MapPair on_inputs(const MapPair& maps, const Surface& A, const Surface& B, const PinnedPair& pinned,
-                  bool relaxed) {
+                  const UntanglingOptions& options) {
     std::vector<SurfacePoint> points_A, points_B;
     for (const auto& [a, b] : pinned.points) {
         points_A.push_back(a);
         points_B.push_back(b);
     }
     MapPair inputs;
-    tbb::parallel_invoke([&] { inputs.A_to_B = on_input(maps.A_to_B, A, B, pinned.A, points_A, relaxed); },
-                         [&] { inputs.B_to_A = on_input(maps.B_to_A, B, A, pinned.B, points_B, relaxed); });
+    tbb::parallel_invoke([&] { inputs.A_to_B = on_input(maps.A_to_B, A, B, pinned.A, points_A, options); },
+                         [&] { inputs.B_to_A = on_input(maps.B_to_A, B, A, pinned.B, points_B, options); });
     return inputs;
 }
 
@@ -162,7 +163,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, M
         options.most_fold_visits = fine_fold_visits;
         options.replace_parts = false;
     }
-    MapPair inputs = on_inputs(maps, A, B, landmarks, options.enabled);
+    MapPair inputs = on_inputs(maps, A, B, landmarks, options);
     const PinnedPair pinned = pin_on_inputs(record, A, B, inputs);
     UntanglingReports reports = untangle(inputs, A.input, B.input, pinned, options);
     if (options.enabled) log_untangling("on the inputs", reports);

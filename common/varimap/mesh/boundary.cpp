@@ -29,6 +29,14 @@ Boundary find_boundary(const TriangleMesh& mesh) {
     return find_boundary(mesh, find_edges(mesh));
 }
 
+VertexData<bool> boundary_vertices(const TriangleMesh& mesh, const Edges& edges) {
+    VertexData<bool> marks(mesh.vertex_count(), false);
+    for (int e = 0; e < edges.size(); ++e)
+        if (edges.sides[e].size() == 1)
+            for (const int v : edges.vertices[e]) marks[v] = true;
+    return marks;
+}
+
 std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh, const Edges& edges) {
     std::vector<int> next(std::size_t(mesh.vertex_count()), -1);
     for (int e = 0; e < edges.size(); ++e) {

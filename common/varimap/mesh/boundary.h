@@ -15,6 +15,8 @@ struct Boundary {
 };
 Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges);
 Boundary find_boundary(const TriangleMesh& mesh);
+/// The vertices of these edges.
+VertexData<bool> boundary_vertices(const TriangleMesh& mesh, const Edges& edges);
 
 /// A boundary loop: its vertices, in the order in which faces that close it name them.
 using BoundaryLoop = std::vector<int>;

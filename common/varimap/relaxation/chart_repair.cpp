@@ -6,6 +6,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/triangle_strip.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/global_relaxation.h"
@@ -25,7 +26,7 @@ constexpr int least_part = 1000;    ///< faces that a disc may have in any case
 constexpr double most_filled = 10;  ///< times the faces around defects that a disc may have besides
 /// Faces in discs that are tried, by all the faces, or so many of them if there are more: bounds the time. A
 /// map of a large mesh has few defects, or is torn beyond repair.
-constexpr double most_tried = 2;
+constexpr double most_tried = 3;
 constexpr int most_counted = 40'000;
 /// Faces of a cluster around which the rings are as wide as that. Tried: none, 200, 100; of a pair of 320,000
 /// vertices 337, 31 and 19 faces end reversed, of 14 pairs of 5,000 to 14,000 25, 34 and 60.
@@ -41,14 +42,6 @@ constexpr int global_steps = 8;
 constexpr double least_gain = 1e-4;
 constexpr double may_spoil = 0.1;
 const RobustEnergy global_energy({1, 0.1}, 0);
-/// A face is crushed whose image has less than this share of its area, and a repair may crush this share of
-/// the faces that it moves. A limb that faults at its root cut off is a spot in a chart, and may come to lie
-/// beside that of the target's limb, or the rim may not enclose the target's limb at all: it is mapped to its
-/// root then, and has fewer faults than before. Of 616 repairs of 10 pairs, 12 crush .38 to .72, all others
-/// less than .15 (all but one, of a limb that was crushed already, less than .06). What the image as a whole
-/// loses in area, or what strain it gains, tells less: both change much where tangles are unfolded.
-constexpr double crushed = 0.1;
-constexpr double may_crush = 0.1;
 constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
 constexpr int rings_of_kernels = 2;  ///< around defects, where vertices may be moved one by one
 /// Faces of a cluster in which that is tried: tangles of a large mesh take long, and gain nothing.
@@ -77,8 +70,10 @@ ChartRepair::ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgree
       relief_(relief),
       inverse_(map, back),
       kernels_(map, along_target),
+      guard_(map),
       source_(map.source(), along_target.source_edges()),
       target_(map.target(), along_target.target_edges()),
+      on_boundary_(boundary_vertices(map.source(), source_.edges())),
       strikes_(map.source().face_count(), 0) {}
 
 std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
@@ -108,23 +103,18 @@ double ChartRepair::badness(const std::vector<int>& faces, double limit) {
     return sum < limit ? sum + double(agreement_.disagreeing_among(faces).size()) : sum;
 }
 
-double ChartRepair::crushed_share(const std::vector<int>& faces) const {
-    double crushed_area = 0, area = 0;
-    for (const int f : faces) {
-        if (!map_.is_mapped(f)) continue;
-        area += map_.rest(f).area;
-        if (map_.image_triangle(f).D < crushed) crushed_area += map_.rest(f).area;
-    }
-    return area > 0 ? crushed_area / area : 0;
-}
-
 ChartRepair::State ChartRepair::state(const std::vector<int>& faces) {
-    return {badness(faces), crushed_share(faces)};
+    return {badness(faces), guard_.crushed_share(faces)};
 }
 
 bool ChartRepair::is_better(const std::vector<int>& faces, const State& before) {
-    return crushed_share(faces) <= before.crushed + may_crush &&
-           badness(faces, before.badness) < before.badness;
+    return guard_.allows(faces, before.crushed) && badness(faces, before.badness) < before.badness;
+}
+
+bool ChartRepair::is_better(const std::vector<int>& faces, const State& before, const ChartedPart& part,
+                            const PointMap& kept) {
+    return badness(faces, before.badness) < before.badness &&
+           (guard_.allows(faces, before.crushed) || guard_.had_no_partner(part.faces(), kept));
 }
 
 std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std::vector<int>& rim) {
@@ -187,13 +177,15 @@ void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
         }
 }
 
-ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int rings,
-                                          const VertexData<bool>& fixed) {
+std::vector<int> ChartRepair::disc_around(const std::vector<int>& cluster, int rings) {
     std::vector<int> faces = source_.widened(cluster, rings);
     const int most = most_faces(map_.source(), double(faces.size()));
     faces = source_.filled(std::move(faces), most);
-    if (int(faces.size()) > most) return Outcome::no_disc;
-    const std::vector<int> around = source_.widened(faces, 2);
+    return int(faces.size()) > most ? std::vector<int>() : faces;
+}
+
+ChartRepair::Outcome ChartRepair::attempt(std::vector<int> faces, const std::vector<int>& around,
+                                          const VertexData<bool>& fixed) {
     const State before = state(around);
     if (adopt_inverse(faces, around, before, fixed)) return Outcome::inverted;
     SubMesh disc(map_.source(), std::move(faces));
@@ -210,7 +202,7 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
     const std::vector<int> free = part.free_vertices(fixed);
     map_.place(part.vertices(), unfolded);
     polish(free);
-    if (is_better(around, before)) {
+    if (is_better(around, before, part, kept)) {
         if (int(free.size()) > most_with_care) {
             const double after = badness(around);
             relax(free, around, after + may_spoil * (before.badness - after));
@@ -218,11 +210,11 @@ ChartRepair::Outcome ChartRepair::attempt(const std::vector<int>& cluster, int r
         return Outcome::repaired;
     }
     agreement_.improve(agreement_.disagreeing_among(part.faces()), all_but(free));
-    if (is_better(around, before)) return Outcome::repaired;
+    if (is_better(around, before, part, kept)) return Outcome::repaired;
     if (int(free.size()) <= most_with_care) {
         map_.place(part.vertices(), unfolded);
         polish_with_care(free);
-        if (is_better(around, before)) return Outcome::repaired;
+        if (is_better(around, before, part, kept)) return Outcome::repaired;
     }
     map_.place(part.vertices(), kept);
     return Outcome::no_gain;
@@ -235,7 +227,7 @@ std::vector<int> ChartRepair::free_within(const std::vector<int>& faces, const V
     const std::vector<int> outside = vertices_of(map_.source(), beyond);
     std::set_difference(inside.begin(), inside.end(), outside.begin(), outside.end(),
                         std::back_inserter(free));
-    std::erase_if(free, [&](int v) { return fixed[v] || !map_.has_image(v); });
+    std::erase_if(free, [&](int v) { return fixed[v] || on_boundary_[v] || !map_.has_image(v); });
     return free;
 }
 
@@ -272,12 +264,16 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
     for (const int rings : ring_counts) {
         touched.clear();
         for (const std::vector<int>& cluster : promising_clusters_of(defects)) {
-            const int wide = rings_around(cluster, rings);
-            const std::vector<int> around = source_.widened(cluster, wide + 2);
+            std::vector<int> faces = disc_around(cluster, rings_around(cluster, rings));
+            if (faces.empty()) {
+                ++report_.outcomes[std::size_t(Outcome::no_disc)];
+                continue;
+            }
+            const std::vector<int> around = source_.widened(faces, 2);
             budget -= double(around.size());
             if (budget < 0) break;
             touched.insert(touched.end(), around.begin(), around.end());
-            const Outcome outcome = attempt(cluster, wide, fixed);
+            const Outcome outcome = attempt(std::move(faces), around, fixed);
             ++report_.outcomes[std::size_t(outcome)];
             if (outcome == Outcome::repaired || outcome == Outcome::inverted)
                 for (const int f : around) strikes_[f] = 0;

@@ -7,6 +7,7 @@
 #include "varimap/mesh/disc.h"
 #include "varimap/relaxation/along_target.h"
 #include "varimap/relaxation/charted_part.h"
+#include "varimap/relaxation/crush_guard.h"
 #include "varimap/relaxation/inverse_map.h"
 #include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/relief_agreement.h"
@@ -52,13 +53,15 @@ class ChartRepair {
     /// What a repair is judged by.
     struct State {
         double badness;
-        double crushed;  ///< share of the area
+        double crushed;  ///< share of the area (crush_guard.h)
     };
     /// Of faces that a repair may move.
     State state(const std::vector<int>& faces);
     bool is_better(const std::vector<int>& faces, const State& before);
-    /// Share of the faces' area whose image is reversed or hardly has an area.
-    double crushed_share(const std::vector<int>& faces) const;
+    /// Of a part among these that is mapped anew, whose images were `kept`: it may be crushed where it had no
+    /// partner.
+    bool is_better(const std::vector<int>& faces, const State& before, const ChartedPart& part,
+                   const PointMap& kept);
     /// A set of faces of the target that holds what the images of a disc's rim enclose; none if they enclose
     /// too much.
     std::vector<int> enclosed_on_target(const SubMesh& part, const std::vector<int>& rim);
@@ -66,8 +69,12 @@ class ChartRepair {
     std::vector<std::vector<int>> clusters_of(const std::vector<int>& defects);
     /// But for those that were tried in vain often enough.
     std::vector<std::vector<int>> promising_clusters_of(const std::vector<int>& defects);
-    Outcome attempt(const std::vector<int>& cluster, int rings, const VertexData<bool>& fixed);
-    /// The vertices of faces of which all lie among these, but for fixed ones.
+    /// What is mapped anew for a cluster: it and so many rings around it, and what these cut off; none if
+    /// that is too much.
+    std::vector<int> disc_around(const std::vector<int>& cluster, int rings);
+    /// `around`: the faces that may move, and those around them.
+    Outcome attempt(std::vector<int> faces, const std::vector<int>& around, const VertexData<bool>& fixed);
+    /// The vertices of faces of which all lie among these, but for fixed ones and those on the boundary.
     std::vector<int> free_within(const std::vector<int>& faces, const VertexData<bool>& fixed);
     /// `before`: of `around`, the faces that may move, which are to become better.
     bool adopt_inverse(const std::vector<int>& faces, const std::vector<int>& around, const State& before,
@@ -85,8 +92,10 @@ class ChartRepair {
     const ReliefAgreement* relief_;
     InverseMap inverse_;
     StarKernels kernels_;
+    CrushGuard guard_;
     FaceSets source_, target_;
-    FaceData<int> strikes_;  ///< attempts without gain
+    VertexData<bool> on_boundary_;  ///< of the source
+    FaceData<int> strikes_;         ///< attempts without gain
     Report report_;
 };
 

@@ -5,7 +5,6 @@
 #include "varimap/core/plane.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/polygon_map.h"
-#include "varimap/relaxation/fold_removal.h"
 
 namespace varimap {
 
@@ -24,6 +23,11 @@ double twice_area(const Points& polygon) {
         area += cross(Vec2(polygon.row(i).leftCols<2>()), Vec2(polygon.row(j).leftCols<2>()));
     }
     return area;
+}
+
+TriangleMesh of_area(TriangleMesh mesh, double area) {
+    mesh.vertices *= std::sqrt(area / surface_area(mesh));
+    return mesh;
 }
 
 bool is_upright(const SlidingMap& flat) {
@@ -97,25 +101,33 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
         held[v] = true;
         pins.push_back({v, position(chart_, present.back())});
     }
-    // Two starts: where the images are, and a homeomorphism, which straight faces may fold.
     const TriangleMesh flat = circular_chart(part_.mesh, rim_);
     const Points positions = map_onto_polygon(flat, rim_, corners_, pins);
     if (positions.rows() == 0) return {};
-    // As large as the polygon: faces much smaller than at rest would all count as collapsed.
-    TriangleMesh rest = flat;
-    rest.vertices *= std::sqrt(twice_area(corners_) / twice_area(flat.vertices(rim_, Eigen::all)));
-    const ClosestPoint closest(chart_);
-    for (const bool anew : {false, true}) {
-        PointMap images = present;
+    const auto images = [&](bool anew) {
+        PointMap result = present;
+        const ClosestPoint closest(chart_);
         for (int v = 0; v < n; ++v)
-            if (SurfacePoint& image = images[std::size_t(v)]; !held[v] && (anew || image.face < 0))
+            if (SurfacePoint& image = result[std::size_t(v)]; !held[v] && (anew || image.face < 0))
                 image = closest(positions.row(v).transpose()).point;
-        SlidingMap in_chart(images, rest, chart_);
-        FoldRemoval{anew ? 150 : 60, 1000, anew ? 4 : 2}(in_chart, held);
-        if (!is_upright(in_chart)) continue;
-        if (PointMap whole = on_whole(in_chart); !whole.empty()) return whole;
-    }
-    return {};
+        return result;
+    };
+    // As large as the polygon: faces much smaller than at rest would all count as collapsed.
+    const double area = twice_area(corners_) / 2;
+    const TriangleMesh flat_rest = of_area(flat, area), rest = of_area(part_.mesh, area);
+    // From where the images are, and from a homeomorphism, which straight faces may fold. In the layout of a
+    // long limb its tip is so small that nothing is felt there: then with the faces' own shapes, too.
+    PointMap whole = unfolded_from(images(false), flat_rest, held, {60, 1000, 2});
+    if (whole.empty()) whole = unfolded_from(images(true), flat_rest, held, {150, 1000, 4});
+    if (whole.empty()) whole = unfolded_from(images(true), rest, held, {150, 1000, 4});
+    return whole;
+}
+
+PointMap ChartedPart::unfolded_from(const PointMap& images, const TriangleMesh& rest,
+                                    const VertexData<bool>& held, const FoldRemoval& remove_folds) const {
+    SlidingMap in_chart(images, rest, chart_);
+    remove_folds(in_chart, held);
+    return is_upright(in_chart) ? on_whole(in_chart) : PointMap();
 }
 
 VertexData<bool> ChartedPart::rim_vertices() const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "varimap/mesh/disc.h"
+#include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -31,6 +32,10 @@ class ChartedPart {
     PointMap unfolded(const SlidingMap& map, const VertexData<bool>& fixed) const;
 
   private:
+    /// Images on the whole once these, in the chart, are unfolded towards the shapes of `rest`; none where
+    /// faces stay reversed.
+    PointMap unfolded_from(const PointMap& images, const TriangleMesh& rest, const VertexData<bool>& held,
+                           const FoldRemoval& remove_folds) const;
     VertexData<bool> rim_vertices() const;  ///< of part_.mesh
     /// None where the walks in the chart made no sense.
     PointMap on_whole(const SlidingMap& in_chart) const;

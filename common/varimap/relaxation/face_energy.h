@@ -6,12 +6,12 @@
 
 namespace varimap {
 
-/// What `density` says of an image triangle, and the more of the area term that its face has.
+/// What `density` says of an image triangle of these q and D, and the more of the area term that its face
+/// has.
 template <class Density>
-double density_with_area_weight(const Density& density, const RestTriangle& rest,
-                                const ImageTriangle& image) {
-    const double value = density.value(image.q, image.D);
-    return rest.area_weight > 0 ? value + rest.area_weight * density.area_value(image.D) : value;
+double density_with_area_weight(const Density& density, const RestTriangle& rest, double q, double D) {
+    const double value = density.value(q, D);
+    return rest.area_weight > 0 ? value + rest.area_weight * density.area_value(D) : value;
 }
 
 /// Energy of a mapped face: its rest area times what `density` (FoldEnergy or RobustEnergy) says of its image
@@ -19,7 +19,7 @@ double density_with_area_weight(const Density& density, const RestTriangle& rest
 template <class Density>
 double face_energy(const SlidingMap& map, int f, const Density& density) {
     const ImageTriangle image = map.image_triangle(f);
-    return map.rest(f).area * density_with_area_weight(density, map.rest(f), image);
+    return map.rest(f).area * density_with_area_weight(density, map.rest(f), image.q, image.D);
 }
 
 /// The sum over those of `faces` (a range of int) that are mapped. Once it gets to `limit`, faces that follow

@@ -38,10 +38,10 @@ void FaultRepair::operator()(const PointMap& back) {
 int FaultRepair::repair_all(const PointMap& back) {
     AlongTarget along_target(map_);
     NormalAgreement agreement(map_, along_target);
-    std::vector<int> left = agreement.disagreeing_faces();
-    const int before = int(left.size());
-    left = repair(back, along_target, agreement, std::move(left));
-    report_.disagreeing_after = int(agreement.disagreeing_among(left).size());
+    std::vector<int> disagreeing = agreement.disagreeing_faces();
+    const int before = int(disagreeing.size());
+    repair(back, along_target, agreement, std::move(disagreeing));
+    report_.disagreeing_after = int(agreement.disagreeing_faces().size());
     return before;
 }
 
@@ -89,26 +89,22 @@ bool FaultRepair::may_be_recovered() const {
     return options_.replace_parts && options_.align_normals;
 }
 
-std::vector<int> FaultRepair::repair(const PointMap& back, AlongTarget& along_target,
-                                     NormalAgreement& agreement, std::vector<int> left) {
+void FaultRepair::repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
+                         std::vector<int> disagreeing) {
     const VertexData<bool> stays = held();
     ChartRepair charts(map_, along_target, agreement, back, relief_);
-    const auto leave = [&](const std::vector<int>& touched) {
-        left.insert(left.end(), touched.begin(), touched.end());
-    };
-    leave(charts(stays));
-    make_set(left);
-    left = agreement.improve(agreement.disagreeing_among(left), stays);
+    const std::vector<int> touched = charts(stays);
+    disagreeing.insert(disagreeing.end(), touched.begin(), touched.end());
+    make_set(disagreeing);
+    agreement.improve(agreement.disagreeing_among(disagreeing), stays);
     // What is upright along the target may still be reversed by the normals at its corners.
     report_.sweeps +=
         FoldRemoval{options_.fold_sweeps, std::min(last_fold_visits, options_.most_fold_visits)}(map_, stays);
     // What was no disc, or had no simple rim, may be one now.
-    leave(charts(stays));
-    if (options_.centre_stars) leave(charts.centre_stars(stays));
-    make_set(left);
+    charts(stays);
+    if (options_.centre_stars) charts.centre_stars(stays);
     log_repair(charts.report());
     if (may_be_done_again() || may_be_recovered()) faults_ = charts.faulty_faces();
-    return left;
 }
 
 }  // namespace varimap

@@ -39,10 +39,10 @@ class FaultRepair {
     bool may_be_recovered() const;
     /// Returns how many faces disagreed with the target's normals before.
     int repair_all(const PointMap& back);
-    /// `left`: the faces that disagree with the target's normals, ascending. Returns those that may in the
-    /// end.
-    std::vector<int> repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
-                            std::vector<int> left);
+    /// `disagreeing`: faces that disagree with the target's normals, ascending; turned, too, where they still
+    /// do.
+    void repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
+                std::vector<int> disagreeing);
 
     SlidingMap& map_;
     const VertexData<bool>& fixed_;

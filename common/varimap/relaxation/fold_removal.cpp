@@ -76,8 +76,10 @@ class Patch {
     }
     double total(const FoldEnergy& energy) const {
         double sum = 0;
-        for (std::size_t i = 0; i < faces_.size(); ++i)
-            sum += map_.rest(faces_[i]).area * energy.value(shapes_[i].q, shapes_[i].D);
+        for (std::size_t i = 0; i < faces_.size(); ++i) {
+            const RestTriangle& rest = map_.rest(faces_[i]);
+            sum += rest.area * density_with_area_weight(energy, rest, shapes_[i].q, shapes_[i].D);
+        }
         return sum;
     }
     void keep() { kept_ = map_.points_of(start_); }

@@ -205,7 +205,8 @@ std::vector<double> GlobalRelaxation::State::densities(const FoldEnergy& energy)
 
 double GlobalRelaxation::State::density(int i, const FoldEnergy& energy) const {
     const int f = faces[std::size_t(i)];
-    return density_with_area_weight(energy, map.rest(f), map.image_triangle(f));
+    const ImageTriangle image = map.image_triangle(f);
+    return density_with_area_weight(energy, map.rest(f), image.q, image.D);
 }
 
 /// The faces, by their places, of the free vertices at those places.

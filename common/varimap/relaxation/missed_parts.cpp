@@ -20,7 +20,6 @@ namespace {
 /// list of 36, where the directions are two different maps on some pairs: these enter .04 to .48 of it.
 constexpr double elsewhere = 0.05, least_gain = 0.004, gained_share = 0.5;
 constexpr int rings_replaced = 2, rings_relaxed = 3;
-constexpr double cell_radius = 2;  ///< edges of the source
 constexpr int global_steps = 10, fold_sweeps = 60;
 constexpr double fold_visits = 60;  ///< of the vertices that move, in the mean
 constexpr double least_step_gain =
@@ -88,8 +87,8 @@ bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexDat
     const double disagreeing = area_of(open, map.source());
     if (disagreeing < least_gain) return false;
     const Timer timer("missed parts");
-    const TargetCells cells(map, GeodesicGraph(map.target()), cell_radius * equilateral_edge(map.source()));
-    const std::vector<char> before = cells.occupied(map);
+    const TargetCells cells(map, GeodesicGraph(map.target()), usual_cell_radius(map));
+    const std::vector<char> before = cells.occupied(map.points());
     const PointMap kept = map.points();
     widen(open, map.source(), rings_replaced);
     InverseMap(map, back).place(map, movable(open, fixed));
@@ -99,7 +98,7 @@ bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexDat
     std::vector<SoftConstraint> constraints = inverse_constraints(map, back, inverse_weight);
     constraints.insert(constraints.end(), landmarks.begin(), landmarks.end());
     relax(map, held, constraints);
-    const std::vector<char> after = cells.occupied(map);
+    const std::vector<char> after = cells.occupied(map.points());
     const double gain = cells.lost_area(after, before) - cells.lost_area(before, after);
     if (gain >= std::max(least_gain, gained_share * disagreeing)) {
         log("images taken from the other direction enter {:.1f}% more of the other surface", 100 * gain);

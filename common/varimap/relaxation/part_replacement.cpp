@@ -22,7 +22,6 @@ constexpr std::array<double, 2> widenings{1.6, 4};
 /// Of the energy to beat: where no proposal comes as near, a part is not widened further. Measured on six
 /// pairs: of 27 parts for which a wider one was mapped anew, 26 had come within 1.35.
 constexpr double within_reach = 1.4;
-constexpr double cell_radius = 2;  ///< edges of the source
 /// Of the other direction, which may be wrong where a part is to be mapped anew.
 constexpr double doubt = 0.1;
 constexpr double noticeable = 0.03;  ///< difference of scales
@@ -37,7 +36,7 @@ PartReplacement::PartReplacement(SlidingMap& map, const VertexData<bool>& fixed,
       edges_(find_edges(map.source())),
       source_graph_(map.source()),
       target_graph_(map.target()),
-      cells_(map, target_graph_, cell_radius * equilateral_edge(map.source())),
+      cells_(map, target_graph_, usual_cell_radius(map)),
       context_{map, fixed, cells_, {}, landmarks, options.rules},
       rejected_(map.source().face_count()) {}
 

@@ -56,7 +56,7 @@ void PartTrial::set_standard() {
     for (int i = 0; i < relaxations; ++i) relax();
     strain_before_ = strain();
     energy_to_beat_ = (1 - context_.rules.gain) * energy();
-    occupied_before_ = context_.cells.occupied(context_.map);
+    occupied_before_ = context_.cells.occupied(context_.map.points());
 }
 
 bool PartTrial::run(const Proposal& propose) {
@@ -104,7 +104,7 @@ bool PartTrial::untwists() {
 
 bool PartTrial::enters_the_same() const {
     const double few = lost_vertices / double(part_.open.size());
-    const std::vector<char> now = context_.cells.occupied(context_.map);
+    const std::vector<char> now = context_.cells.occupied(context_.map.points());
     return context_.cells.lost_area(occupied_before_, now) <= few &&
            context_.cells.lost_area(now, occupied_before_) <= few;
 }
@@ -114,7 +114,7 @@ double PartTrial::tolerated_loss() const {
 }
 
 bool PartTrial::covers_as_much() const {
-    return context_.cells.lost_area(occupied_before_, context_.cells.occupied(context_.map)) <=
+    return context_.cells.lost_area(occupied_before_, context_.cells.occupied(context_.map.points())) <=
            tolerated_loss();
 }
 

@@ -5,7 +5,7 @@
 namespace varimap {
 
 TargetCells::TargetCells(const SlidingMap& map, const GeodesicGraph& target_graph, double radius)
-    : cell_of_vertex_(target_graph.vertex_count(), -1) {
+    : faces_(map.target().faces), cell_of_vertex_(target_graph.vertex_count(), -1) {
     const Eigen::VectorXd area = voronoi_masses(map.target());
     GeodesicBall ball(target_graph);
     for (int seed = 0; seed < target_graph.vertex_count(); ++seed) {
@@ -23,12 +23,26 @@ TargetCells::TargetCells(const SlidingMap& map, const GeodesicGraph& target_grap
     }
 }
 
-std::vector<char> TargetCells::occupied(const SlidingMap& map) const {
+std::vector<char> TargetCells::occupied(const PointMap& points) const {
     std::vector<char> occupied(area_.size(), 0);
-    for (const SurfacePoint& image : map.points())
+    for (const SurfacePoint& point : points)
         for (int k = 0; k < 3; ++k)
-            if (image.face >= 0) occupied[cell_of_vertex_[map.target().faces(image.face, k)]] = 1;
+            if (point.face >= 0) occupied[std::size_t(cell_of_vertex_[faces_(point.face, k)])] = 1;
     return occupied;
+}
+
+bool TargetCells::lies_in(const SurfacePoint& point, const std::vector<char>& marked) const {
+    for (int k = 0; k < 3; ++k)
+        if (point.face >= 0 && marked[std::size_t(cell_of_vertex_[faces_(point.face, k)])]) return true;
+    return false;
+}
+
+double TargetCells::area(const std::vector<char>& marked) const {
+    return lost_area(marked, std::vector<char>(marked.size(), 0));
+}
+
+double usual_cell_radius(const SlidingMap& map) {
+    return 2 * equilateral_edge(map.source());
 }
 
 double TargetCells::lost_area(const std::vector<char>& before, const std::vector<char>& after) const {

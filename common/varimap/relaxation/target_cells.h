@@ -15,14 +15,21 @@ class TargetCells {
     /// Cells of up to `radius` around vertices of the target.
     TargetCells(const SlidingMap& map, const GeodesicGraph& target_graph, double radius);
 
-    /// Per cell, whether an image lies in it.
-    std::vector<char> occupied(const SlidingMap& map) const;
+    /// Per cell, whether one of these points of the target lies in it.
+    std::vector<char> occupied(const PointMap& points) const;
+    /// Whether a point lies in one of the marked cells.
+    bool lies_in(const SurfacePoint& point, const std::vector<char>& marked) const;
+    double area(const std::vector<char>& marked) const;
     /// Area of the cells that are occupied before, but not after.
     double lost_area(const std::vector<char>& before, const std::vector<char>& after) const;
 
   private:
+    const Faces& faces_;  ///< of the target
     VertexData<int> cell_of_vertex_;
     std::vector<double> area_;
 };
+
+/// Of cells: two edges of the source.
+double usual_cell_radius(const SlidingMap& map);
 
 }  // namespace varimap

@@ -10,6 +10,7 @@
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/movable_vertices.h"
+#include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/rounds.h"
 
 namespace varimap {
@@ -36,6 +37,11 @@ VertexData<bool> stay(const SlidingMap& map, const VertexData<bool>& pinned, con
         for (const int f : patch.faces) mark_corners(map.source(), f, fixed);
     }
     return fixed;
+}
+
+int disagreeing_faces(SlidingMap map) {
+    AlongTarget along_target(map);
+    return int(NormalAgreement(map, along_target).disagreeing_faces().size());
 }
 
 std::size_t reversed_along_target(const SlidingMap& map) {
@@ -157,8 +163,8 @@ void UntangledDirection::restore_bound() {
         return;
     VertexData<bool> held = with_landmarks(fixed_);
     // As repairs do: nothing else holds a rim to the target's.
-    for (const auto& edge : find_boundary(source_).edges)
-        for (const int v : edge) held[v] = true;
+    const VertexData<bool> rim = boundary_vertices(source_, find_edges(source_));
+    for (int v = 0; v < held.size(); ++v) held[v] = held[v] || rim[v];
     BoundRepair repair(sliding_, options_.area_bound, exempt(), std::move(held));
     repair({options_.area_weight, settling_round.regularisation});
 }
@@ -188,6 +194,8 @@ UntanglingReport UntangledDirection::finish() {
 
 UntanglingReport UntangledDirection::left_as_it_was() const {
     UntanglingReport report = untouched(before_);
+    if (options_.align_normals)
+        report.disagreeing_before = report.disagreeing_after = disagreeing_faces({map_, source_, target_});
     report.mirrored_parts = report_.mirrored_parts;
     report.gated_area_percent = report_.gated_area_percent;
     return report;

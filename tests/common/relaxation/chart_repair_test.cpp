@@ -10,6 +10,7 @@
 #include "fixtures/bad_maps.h"
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/subdivision.h"
 #include "varimap/verification/verification.h"
@@ -147,6 +148,23 @@ TEST(ChartRepair, LeavesFaultsAtTheRootOfALimbRatherThanCrushIt) {
     EXPECT_GT(farthest, 4);
 }
 
+TEST(ChartRepair, CrushesALimbThatHasNoPartner) {
+    const TriangleMesh sphere = shapes::ellipsoid(4), source = with_limb(sphere, Vec3::UnitX());
+    // The limb lies crumpled, in faces that are not small, where the target has none.
+    int centre;
+    sphere.vertices.col(0).maxCoeff(&centre);
+    PointMap images = crumpled(sphere, centre, 0.25);
+    EXPECT_GT(verify_map(images, source, sphere).reversed_faces.size(), 10u);
+    SlidingMap map(images, source, sphere);
+    AlongTarget along_target(map);
+    NormalAgreement agreement(map, along_target);
+    const PointMap back;
+    ChartRepair(map, along_target, agreement, back)(none(source));
+    const Verification after = verify_map(map.points(), source, sphere);
+    EXPECT_TRUE(after.reversed_faces.empty()) << after.reversed_faces.size();
+    EXPECT_TRUE(after.branch_vertices.empty()) << after.branch_vertices.size();
+}
+
 TEST(InverseMap, LeadsBackWhereTheOtherDirectionCameFrom) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
     const PointMap there = shapes::turned_identity(sphere, 0.3), back = shapes::turned_identity(sphere, -0.3);
@@ -165,9 +183,18 @@ TEST(InverseMap, LeadsBackWhereTheOtherDirectionCameFrom) {
 
 TEST(ChartRepair, DoesNoHarmAtABoundary) {
     const TriangleMesh square = shapes::square(20);
-    PointMap images = crumpled(square, 10, 0.2);  // on its boundary, whose vertices stay
-    const std::size_t before = verify_map(images, square, square).reversed_faces.size();
-    EXPECT_LE(repaired(images, square, none(square)).reversed_faces.size(), before);
+    const PointMap given = crumpled(square, 10, 0.2);  // on its boundary
+    const std::size_t before = verify_map(given, square, square).reversed_faces.size();
+    const VertexData<bool> rim = boundary_vertices(square, find_edges(square));
+    for (const PointMap& back : {PointMap(), shapes::at_vertices(square)}) {
+        PointMap images = given;
+        EXPECT_LE(repaired(images, square, none(square), back).reversed_faces.size(), before);
+        for (int v = 0; v < rim.size(); ++v) {
+            if (!rim[v]) continue;
+            EXPECT_EQ(images[std::size_t(v)].face, given[std::size_t(v)].face) << v;
+            EXPECT_EQ(images[std::size_t(v)].barycentric, given[std::size_t(v)].barycentric) << v;
+        }
+    }
 }
 
 TEST(ChartRepair, LeavesAGoodMapAsItIs) {
