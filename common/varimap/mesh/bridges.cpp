@@ -31,8 +31,9 @@ Faces faces_of(const Tube& tube, const Faces& faces) {
 
 /// Its area, and more where it has thin faces.
 double cost_of(const Tube& tube, const TriangleMesh& mesh, double total_area) {
+    const Faces sides = faces_of(tube, mesh.faces);
     double cost = 0;
-    for (const auto& side : faces_of(tube, mesh.faces).rowwise())
+    for (const auto& side : sides.rowwise())
         cost += price_of_face(mesh.vertex(side[0]), mesh.vertex(side[1]), mesh.vertex(side[2]), total_area);
     return cost;
 }
