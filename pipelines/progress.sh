@@ -15,6 +15,7 @@ declare -A progress_words=([import]="importing" [preprocess]="reading and repair
 # written stops nothing.
 show_progress() {
     local kind=$2 line='' piece log fd_open=yes
+    local -A open=()
     local begun=$SECONDS stage='' stage_begun=$SECONDS told=$SECONDS at=0 all=0 before=0 name shown='' colour='' plain=''
     [[ $3 ]] || progress_share[explore]=0
     [[ ${4:-} ]] || progress_share[locate]=0
@@ -43,13 +44,9 @@ show_progress() {
 note_line() {
     [[ $line =~ ^\[([a-z]+)\]\ (done:)? ]] || return 0
     name=${BASH_REMATCH[1]}
-    [[ -n ${progress_words[$name]:-} && ($name != "$stage" || -n ${BASH_REMATCH[2]}) ]] || return 0
-    if [[ $kind == json ]]; then
-        say_event
-        [[ -z ${BASH_REMATCH[2]} ]] || return 0
-    elif [[ -n ${BASH_REMATCH[2]} ]]; then
-        return 0
-    fi
+    [[ -n ${progress_words[$name]:-} ]] || return 0
+    if [[ $kind == json ]]; then say_event; return; fi
+    [[ $name != "$stage" && -z ${BASH_REMATCH[2]} ]] || return 0
     # The two surfaces' stages run side by side, and sketches have them once more: only what is further on counts.
     local i reached=0
     for i in "${!progress_stages[@]}"; do [[ ${progress_stages[i]} != "$name" ]] || reached=$i; done
@@ -59,11 +56,16 @@ note_line() {
     for ((i = 0; i < at; ++i)); do ((before += progress_share[${progress_stages[i]}])) || true; done
 }
 
+# Beginnings and ends of a stage take turns: of one that runs for both surfaces at once, the second beginning is told once the
+# first has ended.
 say_event() {
-    local what=begins
-    [[ -z ${BASH_REMATCH[2]} ]] || what=ends
-    printf '{"stage": "%s", "event": "%s", "seconds": %d}\n' "$name" "$what" $((SECONDS - begun)) >&2 || true
+    [[ ${open[$name]:-} ]] || tell_event begins
+    open[$name]=yes
+    [[ ${BASH_REMATCH[2]} ]] || return 0
+    tell_event ends
+    open[$name]=''
 }
+tell_event() { printf '{"stage": "%s", "event": "%s", "seconds": %d}\n' "$name" "$1" $((SECONDS - begun)) >&2 || true; }
 
 # Per mille of the run that is done; within a stage as time passes, as far as the stages before tell.
 done_so_far() {

@@ -190,7 +190,7 @@ require_repairs() {  # OPTION...
         options+=("$1")
         shift
     done
-    folder=$(mktemp -d) || fail 6 "no folder for temporary files can be written to"
+    folder=$(mktemp -d 2>/dev/null) || fail 6 "no folder for temporary files can be written to"
     printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >"$folder/a.off"
     said=$("$varimap" map "$folder/a.off" "$folder/a.off" "${options[@]}" --until preprocess -q -j 1 -o "$folder/out" 2>&1 >/dev/null) || code=$?
     rm -rf -- "$folder"

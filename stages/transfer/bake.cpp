@@ -34,7 +34,9 @@ class Paint {
         const Entry none, &entry = material < 0 ? none : paints_[std::size_t(material)];
         if (entry.image.width == 0) return entry.colour;
         const Vec2 uv = entry.scale.cwiseProduct(atlas_(point)) + entry.offset;
-        return sample_image(entry.image, uv);
+        Rgba colour = sample_image(entry.image, uv);
+        colour[3] *= entry.colour[3] / 255;
+        return colour;
     }
 
   private:
@@ -45,7 +47,7 @@ class Paint {
     };
     static Entry entry_of(const Material& material) {
         const Vec3 rgb = 255 * material.colour.cwiseMax(0).cwiseMin(1);
-        Entry entry{{rgb[0], rgb[1], rgb[2], 255}, {}, material.texture_scale, material.texture_offset};
+        Entry entry{{rgb[0], rgb[1], rgb[2], 255 * material.opacity}, {}, material.texture_scale, material.texture_offset};
         if (material.texture.empty()) return entry;
         entry.image = read_png(material.texture);
         if (material.colour.maxCoeff() - material.colour.minCoeff() > grey_tolerance)

@@ -11,6 +11,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/listed.h"
 #include "varimap/core/log.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/face_geometry.h"
@@ -88,7 +89,7 @@ std::string carry_picked(const std::string& path, const std::string& bytes, Land
 /// A list of numbers may have a name.
 bool has_name(const TextRows& list) {
     const std::string& first = list.rows[0].words[0];
-    return list.rows.size() > 1 && !first.empty() && is_index_name(first);
+    return !first.empty() && is_index_name(first);
 }
 
 /// The name of a list as a line, if it has one.
@@ -126,6 +127,11 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, int fi
 std::string carry_rows(TextRows rows, const std::string& path, const Correspondence& map,
                        const PointCarrier& there) {
     const auto [columns, first] = coordinate_columns(rows, path);
+    if (first > 0 && std::ranges::any_of(rows.rows[0].words,
+                                         [](const std::string& word) { return lower_case(word) == "vertex"; }))
+        fail_at(path, rows.rows[0].line,
+                "the numbers of the column 'vertex' are those of this mesh, not of the other one; leave out "
+                "that column, or the coordinates");
     std::vector<Vec3> positions;
     for (std::size_t i = first; i < rows.rows.size(); ++i)
         positions.push_back(coordinates(rows.rows[i], columns, path));

@@ -76,10 +76,16 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
     bytes = without_byte_order_mark(bytes, path);
     const bool blanks_belong = content == Content::words && has_ending(path, ".csv");
     TextRows text;
+    std::vector<int> empty;  // lines since the last row
     for (int number = 1; !bytes.empty(); ++number) {
         const std::string_view line = split_off_line(bytes);
         const std::string_view start = trimmed(line);
+        if (start.empty()) empty.push_back(number);
         if (start.empty() || start.starts_with('#')) continue;
+        // Between the words of one column they are words left empty, as tables have them.
+        if (blanks_belong && !text.rows.empty() && text.rows[0].words.size() == 1)
+            for (const int blank : empty) text.rows.push_back({blank, {""}});
+        empty.clear();
         LineSplitter splitter(line, number, path);
         if (text.rows.empty()) text.separator = separator_of(line);
         if (text.separator == ' ' && blanks_belong) text.separator = ',';

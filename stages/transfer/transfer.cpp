@@ -98,7 +98,8 @@ bool any_transparent(const Texture& texture) {
     const std::vector<std::string>& names = texture.model.materials;
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
         const Material* material = texture.materials.find(name);
-        return material && !material->texture.empty() && read_gltf_image(material->texture).transparent;
+        return material && (material->opacity < 1 ||
+                            (!material->texture.empty() && read_gltf_image(material->texture).transparent));
     });
 }
 

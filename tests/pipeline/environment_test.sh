@@ -80,7 +80,7 @@ exits 6 "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o plain >&- 2>l
 [[ $(tail -n 1 log) == "varimap: error: cannot write to standard output" && $(grep -c 'write error' log) == 0 ]] || fail "a closed stdout: $(<log)"
 exits 6 "$varimap" map "${small_picture[@]}" "${options[@]}" -o plain -q >/dev/full 2>log || fail "$(cat codes)"
 [[ $(<log) == "varimap: error: cannot write to standard output" ]] || fail "a full stdout: $(<log)"
-for words in "help map" "map --help" "help" "--help" "--version" "batch --help" "transfer --help" "report --help" "report plain"; do
+for words in "help map" "map --help" "help" "--help" "--version" "batch --help" "transfer --help" "report --help" "report plain" "survey a.off"; do
     # shellcheck disable=SC2086
     exits 6 "$varimap" $words >/dev/full 2>log || fail "$(cat codes)"
     [[ $(<log) == *": error: cannot write to standard output" && $(wc -l <log) == 1 ]] || fail "$words: $(<log)"

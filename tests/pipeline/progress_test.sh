@@ -20,6 +20,8 @@ run -o quiet -q
 grep -q '^\[refine\] done' quiet/log.txt || fail "log.txt lacks what -q hides"
 run -o json --json
 jq -es 'map(select(.event == "ends") | .stage) | index("refine") != null and index("render") != null' log >/dev/null || fail "--json: progress"
+jq -es 'group_by(.stage) | all(map(.event) as $all | ($all | length) % 2 == 0 and all(range(0; $all | length); $all[.] == ["begins", "ends"][. % 2]))' log >/dev/null ||
+    fail "--json: a stage's beginnings and ends do not take turns"
 jq -e '.verdict and .quality == "json/quality.json" and (.times | length > 5)' out.txt >/dev/null || fail "--json: summary"
 # The same results, whatever is shown.
 for out in verbose quiet json; do same plain/source_to_target.csv $out/source_to_target.csv; done

@@ -210,6 +210,9 @@ expect_exit 2 "$varimap" register out/mean.ply meshes -o out
 expect_exit 2 "$varimap" register template.off -o none
 expect_exit 2 "$varimap" register template.off meshes
 expect_exit 6 "$varimap" register absent.off meshes -o none
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n' >flat.off
+expect_exit 3 "$varimap" register "${small_picture[@]}" flat.off meshes/s1.off meshes/s2.off -o broken -q
+grep -q 'no specimen could be mapped; the first: .*flat' log || fail "a broken template: $(<log)"
 expect_exit 6 "$varimap" register template.off meshes -o none --points-from absent
 expect_exit 3 "$VARIMAP_BIN/varimap-register" template.off --out none
 echo '{"template": "template.off", "specimens": []}' >empty.json

@@ -50,13 +50,15 @@ finish q $two
 same p/source_to_target.csv good/source_to_target.csv
 same q/source_to_target.csv back/source_to_target.csv
 
-# Two runs that disagree on a parameter of a shared artifact: both finish with what they asked for, or one gives up.
+# Two runs that disagree on a parameter of a shared artifact: both finish with what they asked for, one after the other, or
+# one gives up.
 settled() {  # PROCESS OUT OUT OF ONE ALONE
     local code=0 file
     wait "$1" || code=$?
     ((code == 0 || code == 4)) || { cat "$2.log"; fail "$2: exit $code"; }
     if ((code == 4)); then
         [[ ! -e $2/quality.json ]] || fail "$2: gave up, and left a quality.json"
+        grep -q 'other runs make the same files there' "$2.log" || fail "$2: $(<"$2.log")"
         return
     fi
     for file in source_to_target.csv target_to_source.csv; do same "$2/$file" "$3/$file"; done
@@ -68,6 +70,7 @@ run right a.off b.off --artifacts disputed --set eigen.count=30
 two=$!
 settled $one left good
 settled $two right good_30
+[[ -e left/quality.json || -e right/quality.json ]] || fail "both runs that disagree gave up"
 map a.off b.off -o left --artifacts disputed
 same_results good left
 map a.off b.off -o right --artifacts disputed --set eigen.count=30

@@ -35,6 +35,13 @@ TEST(TextRows, CommentsBeginLinesAndStandBehindNumbers) {
                 ElementsAre(Words{"nose #1", "0", "0", "1"}));
 }
 
+TEST(TextRows, WordsOfOneColumnMayBeLeftEmpty) {
+    EXPECT_THAT(rows("part\na\n\nb\n\n\n"), ElementsAre(Words{"part"}, Words{"a"}, Words{""}, Words{"b"}));
+    EXPECT_THAT(rows("\nname,part\n\n1,a\n"), ElementsAre(Words{"name", "part"}, Words{"1", "a"}));
+    EXPECT_THAT(rows("a\n\nb\n", "a.txt"), ElementsAre(Words{"a"}, Words{"b"}));
+    EXPECT_THAT(rows("1\n\n2\n", "a.csv", Content::numbers), ElementsAre(Words{"1"}, Words{"2"}));
+}
+
 TEST(TextRows, AnIndexMayBeAFloatThatIsExact) {
     const auto index = [](std::string_view word) {
         long long found = -1;

@@ -297,6 +297,8 @@ TEST_F(Transfer, RefusesPointsOfAnotherMesh) {
     TransferRequest request;
     request.points = {write("p.txt", "100 0 0\n0 100 0\n")};
     EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("2 of 2 points lie farther than 0.02"));
+    request.points = {write("n.csv", "vertex,x,y,z\n5,0,0,1\n")};
+    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("n.csv:1: the numbers of the column 'vertex'"));
     request.points = {write("v.txt", "3\n162\n")};
     EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("v.txt:2: '162' is not one of the mesh's 162"));
 }
@@ -1043,6 +1045,12 @@ TEST_F(Transfer, AGlbIsBakedToo) {
         EXPECT_EQ(material.at("name"), "baked");
         EXPECT_EQ(material.contains("alphaMode"), transparent);
     }
+    write("skin.mtl", "newmtl skin\nmap_Kd skin.png\nd 0.5\n");
+    write("skin.png", to_png(gradient(8)));
+    const auto files = carry(request, map);
+    EXPECT_TRUE(description_of(files.at("square_textured.glb")).at("materials")[0].contains("alphaMode"));
+    const TextureImage drawn = read_png(write("drawn.png", files.at("square_textured.png")));
+    EXPECT_EQ(drawn.rgba[4 * (4 * 8 + 4) + 3], 128) << "half of what is drawn in the middle";
 }
 
 TEST_F(Transfer, MaterialsStayApartWhateverTheirNames) {

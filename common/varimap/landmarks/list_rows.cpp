@@ -1,6 +1,7 @@
 #include "varimap/landmarks/list_rows.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -43,6 +44,26 @@ std::vector<std::string> fields_of(const TextScanner& scanner, char separator) {
 bool is_heading_of_names(const std::string& heading) {
     constexpr std::array headings{"", "name", "label", "id", "landmark", "point"};
     return std::ranges::find(headings, lower_case(heading)) != headings.end();
+}
+
+/// Columns are read in their order: those that the heading names in another one would be exchanged.
+void require_order(const std::vector<std::string>& headings, std::span<const char* const> names,
+                   const TextScanner& scanner) {
+    std::size_t last = 0;
+    for (const char* name : names) {
+        const auto found =
+            std::ranges::find_if(headings, [&](const std::string& h) { return lower_case(h) == name; });
+        if (found == headings.end()) return;
+        const auto place = std::size_t(found - headings.begin()) + 1;
+        if (place < last)
+            scanner.fail(fmt::format("columns have to stand in the order {}", fmt::join(names, ",")));
+        last = place;
+    }
+}
+
+void require_order(const std::vector<std::string>& headings, const TextScanner& scanner) {
+    require_order(headings, std::array{"source", "target"}, scanner);
+    require_order(headings, std::array{"x", "y", "z"}, scanner);
 }
 
 std::vector<double> numbers_of(std::span<const std::string> fields, const TextScanner& scanner) {
@@ -88,10 +109,12 @@ std::vector<ListRow> read_list_rows(const std::string& path) {
             continue;
         }
         const std::vector<std::string> fields = fields_of(scanner, separator);
-        if (first && std::ranges::none_of(fields, is_number))
+        if (first && std::ranges::none_of(fields, is_number)) {
+            require_order(fields, scanner);
             first_is_name = is_heading_of_names(fields.front());
-        else
+        } else {
             rows.push_back(row_of_table(fields, first_is_name, scanner));
+        }
     }
     if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
     return rows;

@@ -186,6 +186,10 @@ TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
                 HasSubstr(":1: target vertex 10 belongs to no face that is mapped"));
     EXPECT_THAT(error_of({write("a", "1 10\n")}), HasSubstr("no face of the file names it; choose another"));
     EXPECT_THAT(error_of({write("a", "1\n")}), HasSubstr(":1: expected two vertex numbers"));
+    EXPECT_THAT(error_of({write("a.csv", "Target,Source\n7,4\n")}),
+                HasSubstr(":1: columns have to stand in the order source,target"));
+    EXPECT_THAT(error_of({write("a.csv", "z,y,x\n.4,0,2\n"), write("b.csv", "x,y,z\n2,0,.4\n")}),
+                HasSubstr("in the order x,y,z"));
     EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
 }
 
