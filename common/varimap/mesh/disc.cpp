@@ -115,8 +115,10 @@ class Embedding {
         }
         Eigen::SparseMatrix<double> system(count_, count_);
         system.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(system);
-        const Eigen::MatrixXd solution = solver.solve(right);
+        // The same entries every time.
+        if (solver_.rows() == 0) solver_.analyzePattern(system);
+        solver_.factorize(system);
+        const Eigen::MatrixXd solution = solver_.solve(right);
         for (int v = 0; v < unknown_.size(); ++v)
             if (unknown_[v] >= 0) positions_.row(v).leftCols<2>() = solution.row(unknown_[v]);
         return positions_;
@@ -125,6 +127,7 @@ class Embedding {
   private:
     VertexData<int> unknown_;  ///< -1 on the rim
     Points positions_;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
     int count_ = 0;
 };
 

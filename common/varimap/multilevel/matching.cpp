@@ -1,5 +1,7 @@
 #include "varimap/multilevel/matching.h"
 
+#include <algorithm>
+
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
 
@@ -23,6 +25,11 @@ std::vector<std::pair<int, int>> at_corners(const PointPairs& pairs, const Neare
                                             const NearestCorner& to) {
     std::vector<std::pair<int, int>> vertices;
     for (const auto& [point, image] : pairs) vertices.emplace_back(from(point), to(image));
+    // An input has many vertices near each one of its mesh: the first counts.
+    const auto by_first = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::ranges::stable_sort(vertices, by_first);
+    const auto repeated = std::ranges::unique(vertices, {}, [](const auto& pair) { return pair.first; });
+    vertices.erase(repeated.begin(), repeated.end());
     return vertices;
 }
 

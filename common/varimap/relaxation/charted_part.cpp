@@ -1,6 +1,8 @@
 #include "varimap/relaxation/charted_part.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "varimap/core/plane.h"
 #include "varimap/mesh/closest_point.h"
@@ -102,14 +104,15 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
         pins.push_back({v, position(chart_, present.back())});
     }
     const TriangleMesh flat = circular_chart(part_.mesh, rim_);
-    const Points positions = map_onto_polygon(flat, rim_, corners_, pins);
-    if (positions.rows() == 0) return {};
+    std::optional<PointMap> homeomorphism;  // once it is asked for; empty where there is none
     const auto images = [&](bool anew) {
-        PointMap result = present;
-        const ClosestPoint closest(chart_);
-        for (int v = 0; v < n; ++v)
-            if (SurfacePoint& image = result[std::size_t(v)]; !held[v] && (anew || image.face < 0))
-                image = closest(positions.row(v).transpose()).point;
+        const auto is_wanting = [](const SurfacePoint& image) { return image.face < 0; };
+        if (!anew && std::ranges::none_of(present, is_wanting)) return present;
+        if (!homeomorphism) homeomorphism = on_chart(map_onto_polygon(flat, rim_, corners_, pins));
+        PointMap result = homeomorphism->empty() ? PointMap() : present;
+        for (int v = 0; v < int(result.size()); ++v)
+            if (SurfacePoint& image = result[std::size_t(v)]; !held[v] && (anew || is_wanting(image)))
+                image = (*homeomorphism)[std::size_t(v)];
         return result;
     };
     // As large as the polygon: faces much smaller than at rest would all count as collapsed.
@@ -123,8 +126,16 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
     return whole;
 }
 
+PointMap ChartedPart::on_chart(const Points& positions) const {
+    const ClosestPoint closest(chart_);
+    PointMap points;
+    for (const auto& position : positions.rowwise()) points.push_back(closest(position.transpose()).point);
+    return points;
+}
+
 PointMap ChartedPart::unfolded_from(const PointMap& images, const TriangleMesh& rest,
                                     const VertexData<bool>& held, const FoldRemoval& remove_folds) const {
+    if (images.empty()) return {};
     SlidingMap in_chart(images, rest, chart_);
     remove_folds(in_chart, held);
     return is_upright(in_chart) ? on_whole(in_chart) : PointMap();

@@ -32,6 +32,7 @@ class ChartedPart {
     PointMap unfolded(const SlidingMap& map, const VertexData<bool>& fixed) const;
 
   private:
+    PointMap on_chart(const Points& positions) const;
     /// Images on the whole once these, in the chart, are unfolded towards the shapes of `rest`; none where
     /// faces stay reversed.
     PointMap unfolded_from(const PointMap& images, const TriangleMesh& rest, const VertexData<bool>& held,

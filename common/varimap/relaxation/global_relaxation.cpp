@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
@@ -24,6 +25,26 @@ constexpr double tolerable = 1;
 constexpr int careful_trials = 5;
 constexpr double careful_share = 0.4;  ///< of the step before, where that was too long
 constexpr double shift = 1e-8;         ///< of the diagonal, relative; swept: 1e-10 to 1e-6
+
+/// Collects each of the first `count` integers once.
+class Collector {
+  public:
+    explicit Collector(std::ptrdiff_t count) : marks_(std::size_t(count), 0) {}
+    void add(int i) {
+        if (marks_[std::size_t(i)]) return;
+        marks_[std::size_t(i)] = 1;
+        taken_.push_back(i);
+    }
+    /// What was added, in that order; it begins anew.
+    std::vector<int> take() {
+        for (const int i : taken_) marks_[std::size_t(i)] = 0;
+        return std::exchange(taken_, {});
+    }
+
+  private:
+    std::vector<char> marks_;
+    std::vector<int> taken_;
+};
 
 /// A tangent frame turned into the plane with unit normal `up` the shortest way.
 TangentFrame turned(const TangentFrame& frame, const Vec3& up) {
@@ -76,8 +97,13 @@ struct GlobalRelaxation::State {
     std::unique_ptr<TriangleSystem> system;  ///< its nodes are the free vertices, its triangles the faces
     VertexData<TangentFrame> frames;
     Eigen::VectorXd gradient;
-    PointMap start;           ///< images of the free vertices before a step
-    std::vector<Vec3> steps;  ///< of the free vertices
+    struct Shape {
+        double q, D;
+    };
+    std::vector<Shape> shapes;            ///< of the images of `faces`, as last measured
+    PointMap start;                       ///< images of the free vertices before a step
+    std::vector<Vec3> steps;              ///< of the free vertices
+    Collector some_faces, some_vertices;  ///< by their places
 
     State(SlidingMap& m, const VertexData<bool>& fixed, const ReliefAgreement* r);
     void find_faces(const VertexData<bool>& fixed);
@@ -88,12 +114,13 @@ struct GlobalRelaxation::State {
     void add(int i, const FaceDerivatives& face, double weight);
     void set_steps(const Eigen::VectorXd& direction);
     void walk(double share);
+    void measure(const std::vector<int>& places);
     void walk_with_care(const FoldEnergy& energy, const std::vector<double>& before, double share);
     std::vector<double> densities(const FoldEnergy& energy) const;
     double density(int i, const FoldEnergy& energy) const;
-    std::vector<int> around(const std::vector<int>& vertices) const;
+    std::vector<int> around(const std::vector<int>& vertices);
     std::vector<int> corners_of_worse(const FoldEnergy& energy, const std::vector<double>& before,
-                                      const std::vector<int>& candidates) const;
+                                      const std::vector<int>& candidates);
     double descend(const RobustEnergy& energy, double before);
     double total(const RobustEnergy& energy) const;
 };
@@ -103,7 +130,9 @@ GlobalRelaxation::State::State(SlidingMap& m, const VertexData<bool>& fixed, con
       relief(r),
       unknown(fixed.size(), -1),
       place_of(m.source().face_count(), -1),
-      frames(fixed.size(), TangentFrame::Zero()) {
+      frames(fixed.size(), TangentFrame::Zero()),
+      some_faces(m.source().face_count()),
+      some_vertices(m.source().vertex_count()) {
     find_faces(fixed);
     number_unknowns(fixed);
     std::vector<std::array<int, 3>> triangles;
@@ -112,6 +141,7 @@ GlobalRelaxation::State::State(SlidingMap& m, const VertexData<bool>& fixed, con
         triangles.push_back({unknown[corners[0]], unknown[corners[1]], unknown[corners[2]]});
     }
     system = std::make_unique<TriangleSystem>(int(free.size()), triangles);
+    shapes.resize(faces.size());
 }
 
 void GlobalRelaxation::State::find_faces(const VertexData<bool>& fixed) {
@@ -139,6 +169,7 @@ void GlobalRelaxation::State::assemble(const RobustEnergy& energy) {
     gradient = Eigen::VectorXd::Zero(2 * Eigen::Index(free.size()));
     for (int i = 0; i < int(faces.size()); ++i) {
         const ImageTriangle image = map.image_triangle(faces[i]);
+        shapes[std::size_t(i)] = {image.q, image.D};
         const FoldEnergy::Value d = energy.energy.derivatives(image.q, image.D);
         add(i, face_derivatives(map, frames, faces[i], image, d), energy.slope(d.f));
         if (const double more = map.rest(faces[i]).area_weight; more > 0)
@@ -173,7 +204,11 @@ void GlobalRelaxation::State::add_constraints() {
 }
 
 double GlobalRelaxation::State::total(const RobustEnergy& energy) const {
-    double sum = total_energy(map, faces, energy);
+    double sum = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const RestTriangle& rest = map.rest(faces[i]);
+        sum += rest.area * density_with_area_weight(energy, rest, shapes[i].q, shapes[i].D);
+    }
     if (relief)
         for (const int v : free) sum += relief->value(v);
     if (constraints)
@@ -197,6 +232,14 @@ void GlobalRelaxation::State::walk(double share) {
     for (int i = 0; i < int(free.size()); ++i) map.place(free[i], map.walk(start[i], share * steps[i]));
 }
 
+/// Of the faces at these places.
+void GlobalRelaxation::State::measure(const std::vector<int>& places) {
+    for (const int i : places) {
+        const ImageTriangle image = map.image_triangle(faces[std::size_t(i)]);
+        shapes[std::size_t(i)] = {image.q, image.D};
+    }
+}
+
 std::vector<double> GlobalRelaxation::State::densities(const FoldEnergy& energy) const {
     std::vector<double> result(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) result[i] = density(int(i), energy);
@@ -204,34 +247,29 @@ std::vector<double> GlobalRelaxation::State::densities(const FoldEnergy& energy)
 }
 
 double GlobalRelaxation::State::density(int i, const FoldEnergy& energy) const {
-    const int f = faces[std::size_t(i)];
-    const ImageTriangle image = map.image_triangle(f);
-    return density_with_area_weight(energy, map.rest(f), image.q, image.D);
+    const auto& [q, D] = shapes[std::size_t(i)];
+    return density_with_area_weight(energy, map.rest(faces[std::size_t(i)]), q, D);
 }
 
 /// The faces, by their places, of the free vertices at those places.
-std::vector<int> GlobalRelaxation::State::around(const std::vector<int>& vertices) const {
-    std::vector<int> places;
+std::vector<int> GlobalRelaxation::State::around(const std::vector<int>& vertices) {
     for (const int i : vertices)
         for (const int f : map.faces_of_vertex()[free[std::size_t(i)]])
-            if (place_of[f] >= 0) places.push_back(place_of[f]);
-    make_set(places);
-    return places;
+            if (place_of[f] >= 0) some_faces.add(place_of[f]);
+    return some_faces.take();
 }
 
 /// The free vertices, by their places, of those of `candidates` (places of faces) that gained more than is
 /// tolerable.
 std::vector<int> GlobalRelaxation::State::corners_of_worse(const FoldEnergy& energy,
                                                            const std::vector<double>& before,
-                                                           const std::vector<int>& candidates) const {
-    std::vector<int> corners;
+                                                           const std::vector<int>& candidates) {
     for (const int i : candidates)
         if (density(i, energy) > before[std::size_t(i)] + tolerable)
             for (int k = 0; k < 3; ++k)
                 if (const int u = unknown[map.source().faces(faces[std::size_t(i)], k)]; u >= 0)
-                    corners.push_back(u);
-    make_set(corners);
-    return corners;
+                    some_vertices.add(u);
+    return some_vertices.take();
 }
 
 /// Moves all free vertices from the start by that share of their steps, shorter ones where faces would get
@@ -242,6 +280,7 @@ void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy, const std
     std::vector<double> shares(free.size(), share);
     walk(share);
     std::vector<int> candidates = all_indices(std::ssize(faces));
+    measure(candidates);
     for (int trial = 1; trial <= careful_trials; ++trial) {
         const std::vector<int> worse = corners_of_worse(energy, before, candidates);
         if (worse.empty()) return;
@@ -251,6 +290,7 @@ void GlobalRelaxation::State::walk_with_care(const FoldEnergy& energy, const std
             map.place(free[i], map.walk(start[i], shares[i] * steps[i]));
         }
         candidates = around(worse);  // all others are as they were, and were not worse
+        measure(candidates);
     }
 }
 
