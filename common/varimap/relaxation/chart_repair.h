@@ -41,7 +41,7 @@ class ChartRepair {
     /// Returns the faces that may have moved, ascending.
     std::vector<int> centre_stars(const VertexData<bool>& fixed);
     /// Faces that are reversed or around branch points.
-    int faulty_faces() { return int(all_defects().size()); }
+    std::vector<int> faulty_faces() { return all_defects(); }
     const Report& report() const { return report_; }
 
   private:

@@ -77,6 +77,27 @@ void FaultRepair::recover(const PointMap& back) {
     faults_ = faults;
 }
 
+void FaultRepair::adopt(const PointMap& back) {
+    const PointMap kept = map_.points();
+    const UntanglingReport reported = report_;
+    const int faults = faults_;
+    take_from_other_direction(map_, back, faulty_vertices(back), held());
+    repair_all(back);
+    if (faults_ < faults) return;
+    map_.restore(kept);
+    report_ = reported;
+    faults_ = faults;
+}
+
+VertexData<bool> FaultRepair::faulty_vertices(const PointMap& back) {
+    AlongTarget along_target(map_);
+    NormalAgreement agreement(map_, along_target);
+    VertexData<bool> marks(map_.source().vertex_count());
+    for (const int f : ChartRepair(map_, along_target, agreement, back).faulty_faces())
+        mark_corners(map_.source(), f, marks);
+    return marks;
+}
+
 VertexData<bool> FaultRepair::held() const {
     return held_vertices(map_, fixed_, landmarks_);
 }
@@ -104,7 +125,7 @@ void FaultRepair::repair(const PointMap& back, AlongTarget& along_target, Normal
     charts(stays);
     if (options_.centre_stars) charts.centre_stars(stays);
     log_repair(charts.report());
-    if (may_be_done_again() || may_be_recovered()) faults_ = charts.faulty_faces();
+    if (may_be_done_again() || may_be_recovered()) faults_ = int(charts.faulty_faces().size());
 }
 
 }  // namespace varimap

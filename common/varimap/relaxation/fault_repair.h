@@ -31,12 +31,18 @@ class FaultRepair {
     /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where more faults
     /// come of it.
     void recover(const PointMap& back);
+    /// Faulty faces that are left; 0 where they were not counted.
+    int faults() const { return faults_; }
+    /// Takes what is faulty, or leads elsewhere, from the other direction, which has fewer faults, and
+    /// repairs what comes of it; as it was where no fewer come of it.
+    void adopt(const PointMap& back);
 
   private:
     VertexData<bool> held() const;
     /// On a large surface to look at all of it again takes longer than what is won.
     bool may_be_done_again() const;
     bool may_be_recovered() const;
+    VertexData<bool> faulty_vertices(const PointMap& back);
     /// Returns how many faces disagreed with the target's normals before.
     int repair_all(const PointMap& back);
     /// `disagreeing`: faces that disagree with the target's normals, ascending; turned, too, where they still

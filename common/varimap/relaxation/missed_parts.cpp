@@ -19,7 +19,7 @@ namespace {
 /// Chosen by hand on maps that had lost a limb, which enter .67 to .9 of the area that disagreed, and on a
 /// list of 36, where the directions are two different maps on some pairs: these enter .04 to .48 of it.
 constexpr double elsewhere = 0.05, least_gain = 0.004, gained_share = 0.5;
-constexpr int rings_replaced = 2, rings_relaxed = 3;
+constexpr int rings_replaced = 2, rings_relaxed = 3, rings_taken = 4;
 constexpr int global_steps = 10, fold_sweeps = 60;
 constexpr double fold_visits = 60;  ///< of the vertices that move, in the mean
 constexpr double least_step_gain =
@@ -80,6 +80,14 @@ void relax(SlidingMap& map, const VertexData<bool>& held, const std::vector<Soft
 }
 
 }  // namespace
+
+void take_from_other_direction(SlidingMap& map, const PointMap& back, VertexData<bool> open,
+                               const VertexData<bool>& fixed) {
+    const VertexData<bool> led_astray = vertices_elsewhere(map, back);
+    for (int v = 0; v < open.size(); ++v) open[v] = open[v] || led_astray[v];
+    widen(open, map.source(), rings_taken);
+    InverseMap(map, back).place(map, movable(std::move(open), fixed));
+}
 
 bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexData<bool>& fixed,
                           const std::vector<SoftConstraint>& landmarks, double inverse_weight) {

@@ -15,4 +15,9 @@ namespace varimap {
 bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexData<bool>& fixed,
                           const std::vector<SoftConstraint>& landmarks, double inverse_weight);
 
+/// Images from the other direction, inverted, for the `open` vertices, where the way there and back ends as
+/// far from where it began, and a few rings around. Vertices with fixed[v] stay.
+void take_from_other_direction(SlidingMap& map, const PointMap& back, VertexData<bool> open,
+                               const VertexData<bool>& fixed);
+
 }  // namespace varimap

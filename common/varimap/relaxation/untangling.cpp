@@ -79,6 +79,13 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
                         [](UntangledDirection& map, const PointMap& inverse) { map.repair_again(inverse); });
     with_each_other(there, back,
                     [](UntangledDirection& map, const PointMap& inverse) { map.recover(inverse); });
+    // A tangle of one direction may be none of the other: an inverse without faults is a better start for it
+    // than charts, which must not crush what was crushed there.
+    const bool adopt_there = back.faults() < there.faults(), adopt_back = there.faults() < back.faults();
+    if (adopt_there || adopt_back)
+        with_each_other(there, back, [&](UntangledDirection& map, const PointMap& inverse) {
+            if (&map == &there ? adopt_there : adopt_back) map.adopt(inverse);
+        });
     tbb::parallel_invoke([&] { there.restore_bound(); }, [&] { back.restore_bound(); });
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;

@@ -73,7 +73,8 @@ struct PinnedPair {
 ///  3. the first step once more, with less regularisation;
 ///  4. the maps settled into each other's inverse and the area bound (area_bound.h);
 ///  5. what is reversed along the target mapped anew in charts (chart_repair.h), and faces that cut through
-///     thin features turned the target's way (normal_agreement.h); where few faults are left, once more;
+///     thin features turned the target's way (normal_agreement.h); where few faults are left, once more, and
+///     where the other direction has fewer, by its inverse (fault_repair.h);
 ///  6. areas that this has taken out of the bound brought back (bound_repair.h).
 /// Parts that are mirrored in the end stay so: a map that is made flip-free there would be wrong all the
 /// same. A map that would not gain is left as it was. Vertices without an image keep none. Deterministic,

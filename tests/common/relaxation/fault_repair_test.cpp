@@ -59,5 +59,23 @@ TEST_F(MissedLeg, StaysWhereMoreFaultsComeOfIt) {
     EXPECT_EQ(report.disagreeing_after, 0);
 }
 
+TEST(FaultRepair, TakesATangleFromTheOtherDirection) {
+    const TriangleMesh mesh = shapes::figure(0.15);
+    SlidingMap map{shapes::crumpled_leg(mesh), mesh, mesh};
+    const std::vector<char> leg = shapes::on_leg(mesh);
+    VertexData<bool> fixed(mesh.vertex_count());
+    for (int v = 0; v < fixed.size(); ++v) fixed[v] = leg[std::size_t(v)];
+    const std::vector<SoftConstraint> landmarks;
+    const UntanglingOptions options;
+    UntanglingReport report;
+    FaultRepair repair(map, fixed, landmarks, nullptr, options, report);
+    repair(shapes::at_vertices(mesh));  // in vain: all that is faulty is held
+    ASSERT_GT(repair.faults(), 10);
+    fixed = VertexData<bool>(mesh.vertex_count());
+    repair.adopt(shapes::at_vertices(mesh));
+    EXPECT_EQ(repair.faults(), 0);
+    EXPECT_LT(shapes::mean_error(map.points(), mesh, shapes::on_leg(mesh)), shapes::longest_edge(mesh));
+}
+
 }  // namespace
 }  // namespace varimap
