@@ -27,7 +27,7 @@ constexpr double most_filled = 10;  ///< times the faces around defects that a d
 /// Faces in discs that are tried, by all the faces, or so many of them if there are more: bounds the time. A
 /// map of a large mesh has few defects, or is torn beyond repair.
 constexpr double most_tried = 3;
-constexpr int most_counted = 40'000;
+constexpr int most_counted = 20'000;
 /// Faces of a cluster around which the rings are as wide as that. Tried: none, 200, 100; of a pair of 320,000
 /// vertices 337, 31 and 19 faces end reversed, of 14 pairs of 5,000 to 14,000 25, 34 and 60.
 constexpr double usual_cluster = 200;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "varimap/core/plane.h"
@@ -30,6 +31,19 @@ double twice_area(const Points& polygon) {
 TriangleMesh of_area(TriangleMesh mesh, double area) {
     mesh.vertices *= std::sqrt(area / surface_area(mesh));
     return mesh;
+}
+
+/// Of the areas of a layout's faces: a long limb's tip is smaller, and nothing is felt there.
+constexpr double least_ratio = 1e-8;
+
+bool has_collapsed(const TriangleMesh& flat) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (int f = 0; f < flat.face_count(); ++f) {
+        const double twice = face_normal(flat, f).norm();
+        least = std::min(least, twice);
+        most = std::max(most, twice);
+    }
+    return least < least_ratio * most;
 }
 
 bool is_upright(const SlidingMap& flat) {
@@ -118,11 +132,11 @@ PointMap ChartedPart::unfolded(const SlidingMap& map, const VertexData<bool>& fi
     // As large as the polygon: faces much smaller than at rest would all count as collapsed.
     const double area = twice_area(corners_) / 2;
     const TriangleMesh flat_rest = of_area(flat, area), rest = of_area(part_.mesh, area);
-    // From where the images are, and from a homeomorphism, which straight faces may fold. In the layout of a
-    // long limb its tip is so small that nothing is felt there: then with the faces' own shapes, too.
+    // From where the images are, and from a homeomorphism, which straight faces may fold; where the layout
+    // tells nothing, towards the faces' own shapes, too.
     PointMap whole = unfolded_from(images(false), flat_rest, held, {60, 1000, 2});
     if (whole.empty()) whole = unfolded_from(images(true), flat_rest, held, {150, 1000, 4});
-    if (whole.empty()) whole = unfolded_from(images(true), rest, held, {150, 1000, 4});
+    if (whole.empty() && has_collapsed(flat)) whole = unfolded_from(images(true), rest, held, {150, 1000, 4});
     return whole;
 }
 
