@@ -15,7 +15,7 @@ struct Boundary {
 };
 Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges);
 Boundary find_boundary(const TriangleMesh& mesh);
-/// The vertices of these edges.
+/// Marks the vertices that lie on it.
 VertexData<bool> boundary_vertices(const TriangleMesh& mesh, const Edges& edges);
 
 /// A boundary loop: its vertices, in the order in which faces that close it name them.

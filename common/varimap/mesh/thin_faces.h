@@ -19,7 +19,7 @@ struct ThinFaceRemoval {
 double thinness(const Vec3& a, const Vec3& b, const Vec3& c);
 double thinness(const TriangleMesh& mesh, int f);
 
-/// What it costs to close a mesh by a face: its area, and once to twice `price` more where its thinness is
+/// What it costs to close a mesh by a face: its area, and about twice `price` more where its thinness is
 /// below .02.
 double price_of_face(const Vec3& a, const Vec3& b, const Vec3& c, double price);
 

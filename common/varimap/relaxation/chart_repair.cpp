@@ -265,13 +265,14 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
         touched.clear();
         for (const std::vector<int>& cluster : promising_clusters_of(defects)) {
             std::vector<int> faces = disc_around(cluster, rings_around(cluster, rings));
-            if (faces.empty()) {
+            const std::vector<int> around = source_.widened(faces, 2);
+            if (faces.empty() || double(around.size()) > budget) {
+                // What is left of it, or a smaller disc, may do.
+                touched.insert(touched.end(), cluster.begin(), cluster.end());
                 ++report_.outcomes[std::size_t(Outcome::no_disc)];
                 continue;
             }
-            const std::vector<int> around = source_.widened(faces, 2);
             budget -= double(around.size());
-            if (budget < 0) break;
             touched.insert(touched.end(), around.begin(), around.end());
             const Outcome outcome = attempt(std::move(faces), around, fixed);
             ++report_.outcomes[std::size_t(outcome)];

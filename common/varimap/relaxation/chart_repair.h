@@ -20,8 +20,9 @@ namespace varimap {
 /// vertices on the wrong side of a thin part. Defects are faces reversed along the target and
 /// branch points (along_target.h). They are widened, ring by ring; the part takes the images that the other
 /// direction, inverted, has for it, or, where it is a disc, is mapped anew in the plane (charted_part.h).
-/// What comes of it is relaxed on the target and kept if there are fewer defects than before, and no limb was
-/// crushed for that. A large part that was mapped anew is then relaxed as a whole (global_relaxation.h).
+/// What comes of it is relaxed on the target and kept if there are fewer defects than before, and no limb
+/// that has a partner was crushed for that (crush_guard.h). A large part that was mapped anew is then relaxed
+/// as a whole (global_relaxation.h).
 class ChartRepair {
   public:
     enum class Outcome { inverted, repaired, no_disc, no_simple_rim, folded, no_gain };

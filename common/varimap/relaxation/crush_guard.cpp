@@ -64,8 +64,9 @@ double CrushGuard::stretched_over(const std::vector<char>& cells) const {
     for (int f = 0; f < map_.source().face_count(); ++f) {
         if (!map_.is_mapped(f)) continue;
         const double D = map_.image_triangle(f).D;
-        if (D > stretched && cells_->lies_in(map_.point(map_.source().faces(f, 0)), cells))
-            area += D * map_.rest(f).area;
+        for (int k = 0; k < 3 && D > stretched; ++k)
+            if (cells_->lies_in(map_.point(map_.source().faces(f, k)), cells))
+                area += D * map_.rest(f).area / 3;
     }
     return area;
 }

@@ -4,6 +4,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/missed_parts.h"
@@ -18,6 +19,7 @@ constexpr double last_fold_visits = 8;  ///< as in the first round
 /// Faces that may be faulty in the end where faults are mapped anew once more: a torn map has hundreds, for
 /// which that would take long.
 constexpr int few_faults = 100;
+constexpr int few_to_adopt = 300;  ///< by the other direction
 
 void log_repair(const ChartRepair::Report& report) {
     const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
@@ -46,17 +48,17 @@ int FaultRepair::repair_all(const PointMap& back) {
 }
 
 bool FaultRepair::is_done_again() const {
-    return may_be_done_again() && faults_ > 0 && faults_ <= few_faults;
+    return may_be_done_again() && faults_ && *faults_ > 0 && *faults_ <= few_faults;
 }
 
 void FaultRepair::again(const PointMap& back) {
     if (!is_done_again()) return;
     const PointMap kept = map_.points();
-    const int faults = faults_;
+    const int faults = *faults_;
     AlongTarget along_target(map_);
     NormalAgreement agreement(map_, along_target);
     repair(back, along_target, agreement, {});
-    if (faults_ > faults) {
+    if (*faults_ > faults) {
         map_.restore(kept);
         faults_ = faults;
     }
@@ -67,23 +69,30 @@ void FaultRepair::recover(const PointMap& back) {
     if (!may_be_recovered()) return;
     const PointMap kept = map_.points();
     const UntanglingReport reported = report_;
-    const int faults = faults_;
+    const int faults = faults_.value_or(0);
     if (!recover_missed_parts(map_, back, held(), landmarks_, options_.inverse_weight)) return;
     repair_all(back);
-    if (faults_ <= faults) return;
-    log("{} faulty faces more come of them: they are left", faults_ - faults);
+    if (*faults_ <= faults) return;
+    log("{} faulty faces more come of them: they are left", *faults_ - faults);
     map_.restore(kept);
     report_ = reported;
     faults_ = faults;
 }
 
+bool FaultRepair::may_adopt(const FaultRepair& other) const {
+    return faults_ && other.faults_ && *other.faults_ < *faults_ && *faults_ <= few_to_adopt;
+}
+
 void FaultRepair::adopt(const PointMap& back) {
     const PointMap kept = map_.points();
     const UntanglingReport reported = report_;
-    const int faults = faults_;
-    take_from_other_direction(map_, back, faulty_vertices(back), held());
+    const int faults = *faults_;
+    VertexData<bool> stays = held();
+    const VertexData<bool> rim = boundary_vertices(map_.source(), find_edges(map_.source()));
+    for (int v = 0; v < stays.size(); ++v) stays[v] = stays[v] || rim[v];
+    take_from_other_direction(map_, back, faulty_vertices(back), stays);
     repair_all(back);
-    if (faults_ < faults) return;
+    if (*faults_ < faults) return;
     map_.restore(kept);
     report_ = reported;
     faults_ = faults;

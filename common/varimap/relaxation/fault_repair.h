@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "varimap/relaxation/along_target.h"
@@ -31,10 +32,12 @@ class FaultRepair {
     /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where more faults
     /// come of it.
     void recover(const PointMap& back);
-    /// Faulty faces that are left; 0 where they were not counted.
-    int faults() const { return faults_; }
-    /// Takes what is faulty, or leads elsewhere, from the other direction, which has fewer faults, and
-    /// repairs what comes of it; as it was where no fewer come of it.
+    /// Faulty faces that are left, where they were counted.
+    std::optional<int> faults() const { return faults_; }
+    /// Whether the other direction has fewer faults, where they are counted; of torn maps not.
+    bool may_adopt(const FaultRepair& other) const;
+    /// Takes what is faulty, or leads elsewhere, from the other direction, and repairs what comes of it; as
+    /// it was where no fewer faults come of it. Vertices on the boundary stay.
     void adopt(const PointMap& back);
 
   private:
@@ -56,7 +59,7 @@ class FaultRepair {
     const ReliefAgreement* relief_;
     const UntanglingOptions& options_;
     UntanglingReport& report_;
-    int faults_ = 0;  ///< faulty faces after repair; not counted where none follows
+    std::optional<int> faults_;  ///< faulty faces after repair; not counted where none follows
 };
 
 }  // namespace varimap

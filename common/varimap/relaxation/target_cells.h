@@ -12,7 +12,7 @@ namespace varimap {
 /// vertex enters.)
 class TargetCells {
   public:
-    /// Cells of up to `radius` around vertices of the target.
+    /// Cells of up to `radius` around vertices of the target. Keeps a reference to that.
     TargetCells(const SlidingMap& map, const GeodesicGraph& target_graph, double radius);
 
     /// Per cell, whether one of these points of the target lies in it.

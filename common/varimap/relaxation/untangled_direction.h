@@ -47,7 +47,7 @@ class UntangledDirection {
     bool is_repaired_again() const { return repair_->is_done_again(); }
     void repair_again(const PointMap& back) { repair_->again(back); }
     void recover(const PointMap& back) { repair_->recover(back); }
-    int faults() const { return repair_->faults(); }
+    bool may_adopt(const UntangledDirection& other) const { return repair_->may_adopt(*other.repair_); }
     void adopt(const PointMap& back) { repair_->adopt(back); }
     /// Brings areas back into the bound where repairs have taken them out of it.
     void restore_bound();

@@ -81,7 +81,7 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
                     [](UntangledDirection& map, const PointMap& inverse) { map.recover(inverse); });
     // A tangle of one direction may be none of the other: an inverse without faults is a better start for it
     // than charts, which must not crush what was crushed there.
-    const bool adopt_there = back.faults() < there.faults(), adopt_back = there.faults() < back.faults();
+    const bool adopt_there = there.may_adopt(back), adopt_back = back.may_adopt(there);
     if (adopt_there || adopt_back)
         with_each_other(there, back, [&](UntangledDirection& map, const PointMap& inverse) {
             if (&map == &there ? adopt_there : adopt_back) map.adopt(inverse);

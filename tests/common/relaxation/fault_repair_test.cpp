@@ -70,7 +70,7 @@ TEST(FaultRepair, TakesATangleFromTheOtherDirection) {
     UntanglingReport report;
     FaultRepair repair(map, fixed, landmarks, nullptr, options, report);
     repair(shapes::at_vertices(mesh));  // in vain: all that is faulty is held
-    ASSERT_GT(repair.faults(), 10);
+    ASSERT_GT(repair.faults().value(), 10);
     fixed = VertexData<bool>(mesh.vertex_count());
     repair.adopt(shapes::at_vertices(mesh));
     EXPECT_EQ(repair.faults(), 0);
