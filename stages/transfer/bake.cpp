@@ -47,7 +47,10 @@ class Paint {
     };
     static Entry entry_of(const Material& material) {
         const Vec3 rgb = 255 * material.colour.cwiseMax(0).cwiseMin(1);
-        Entry entry{{rgb[0], rgb[1], rgb[2], 255 * material.opacity}, {}, material.texture_scale, material.texture_offset};
+        Entry entry{{rgb[0], rgb[1], rgb[2], 255 * material.opacity},
+                    {},
+                    material.texture_scale,
+                    material.texture_offset};
         if (material.texture.empty()) return entry;
         entry.image = read_png(material.texture);
         if (material.colour.maxCoeff() - material.colour.minCoeff() > grey_tolerance)
