@@ -52,8 +52,12 @@ same q/source_to_target.csv back/source_to_target.csv
 
 # Two runs that disagree on a parameter of a shared artifact: both finish with what they asked for, one after the other, or
 # one gives up.
+same_maps() {  # OUT OUT
+    local file
+    for file in source_to_target.csv target_to_source.csv; do same "$1/$file" "$2/$file"; done
+}
 settled() {  # PROCESS OUT OUT OF ONE ALONE
-    local code=0 file
+    local code=0
     wait "$1" || code=$?
     ((code == 0 || code == 4)) || { cat "$2.log"; fail "$2: exit $code"; }
     if ((code == 4)); then
@@ -61,7 +65,7 @@ settled() {  # PROCESS OUT OUT OF ONE ALONE
         grep -q 'other runs make the same files there' "$2.log" || fail "$2: $(<"$2.log")"
         return
     fi
-    for file in source_to_target.csv target_to_source.csv; do same "$2/$file" "$3/$file"; done
+    same_maps "$2" "$3"
 }
 map a.off b.off -o good_30 --set eigen.count=30
 run left a.off b.off --artifacts disputed
@@ -83,18 +87,19 @@ run left a.off b.off --landmarks tips.txt --artifacts taken --set eigen.count=30
 one=$!
 until grep -qs '^\[explore' left/log.txt || ! kill -0 $one 2>/dev/null; do sleep .02; done
 run right a.off b.off --artifacts taken --until hierarchy -j 1
-wait $! || true  # it may give up
+wait $! || true  # it may give up, or have its turn after the other
 finish left $one
-same_results good_tips left
+same_maps good_tips left
 jq -e '.stages["eigen a"].eigenpairs == 30' left/quality.json >/dev/null || fail "a map of another run's parameters"
 # The one whose own folder it is does not know of the other from its command line.
 run owner a.off b.off --set eigen.count=30 -j 1
 one=$!
 until grep -qs '^\[explore' owner/log.txt || ! kill -0 $one 2>/dev/null; do sleep .02; done
 run right a.off b.off --artifacts owner/artifacts --until hierarchy -j 1
-wait $! || true  # it may give up
+wait $! || true  # it may give up, or have its turn after the other
 finish owner $one
-same_results good_30 owner
+same_maps good_30 owner
+jq -e '.stages["eigen a"].eigenpairs == 30' owner/quality.json >/dev/null || fail "a map of another run's parameters, in its owner's folder"
 # Where that goes on and on, it is said.
 mkdir busy
 until [[ ! -d busy || -e busy/end ]]; do  # this test may end before, and remove its folder
