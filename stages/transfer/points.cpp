@@ -127,8 +127,9 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, int fi
 std::string carry_rows(TextRows rows, const std::string& path, const Correspondence& map,
                        const PointCarrier& there) {
     const auto [columns, first] = coordinate_columns(rows, path);
-    if (first > 0 && std::ranges::any_of(rows.rows[0].words,
-                                         [](const std::string& word) { return lower_case(word) == "vertex"; }))
+    if (first > 0 && std::ranges::any_of(rows.rows[0].words, [](const std::string& word) {
+            return lower_case(word) == "vertex";
+        }))
         fail_at(path, rows.rows[0].line,
                 "the numbers of the column 'vertex' are those of this mesh, not of the other one; leave out "
                 "that column, or the coordinates");
