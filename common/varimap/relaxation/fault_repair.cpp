@@ -65,18 +65,25 @@ void FaultRepair::again(const PointMap& back) {
     report_.disagreeing_after = int(agreement.disagreeing_faces().size());
 }
 
+FaultRepair::State FaultRepair::state() const {
+    return {map_.points(), report_, faults_};
+}
+
+void FaultRepair::restore(const State& state) {
+    map_.restore(state.points);
+    report_ = state.report;
+    faults_ = state.faults;
+}
+
 void FaultRepair::recover(const PointMap& back) {
     if (!may_be_recovered()) return;
-    const PointMap kept = map_.points();
-    const UntanglingReport reported = report_;
-    const int faults = faults_.value_or(0);
+    const State before = state();
     if (!recover_missed_parts(map_, back, held(), landmarks_, options_.inverse_weight)) return;
     repair_all(back);
-    if (*faults_ <= faults) return;
-    log("{} faulty faces more come of them: they are left", *faults_ - faults);
-    map_.restore(kept);
-    report_ = reported;
-    faults_ = faults;
+    const int more = *faults_ - before.faults.value_or(0);
+    if (more <= 0) return;
+    log("{} faulty faces more come of them: they are left", more);
+    restore(before);
 }
 
 bool FaultRepair::may_adopt(const FaultRepair& other) const {
@@ -84,18 +91,13 @@ bool FaultRepair::may_adopt(const FaultRepair& other) const {
 }
 
 void FaultRepair::adopt(const PointMap& back) {
-    const PointMap kept = map_.points();
-    const UntanglingReport reported = report_;
-    const int faults = *faults_;
+    const State before = state();
     VertexData<bool> stays = held();
     const VertexData<bool> rim = boundary_vertices(map_.source(), find_edges(map_.source()));
     for (int v = 0; v < stays.size(); ++v) stays[v] = stays[v] || rim[v];
     take_from_other_direction(map_, back, faulty_vertices(back), stays);
     repair_all(back);
-    if (*faults_ < faults) return;
-    map_.restore(kept);
-    report_ = reported;
-    faults_ = faults;
+    if (*faults_ >= *before.faults) restore(before);
 }
 
 VertexData<bool> FaultRepair::faulty_vertices(const PointMap& back) {

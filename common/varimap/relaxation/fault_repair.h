@@ -41,6 +41,13 @@ class FaultRepair {
     void adopt(const PointMap& back);
 
   private:
+    struct State {
+        PointMap points;
+        UntanglingReport report;
+        std::optional<int> faults;
+    };
+    State state() const;
+    void restore(const State& state);
     VertexData<bool> held() const;
     /// On a large surface to look at all of it again takes longer than what is won.
     bool may_be_done_again() const;
