@@ -17,6 +17,10 @@ install(PROGRAMS pipelines/bench pipelines/bench-list pipelines/debian-meshes pi
   pipelines/selftest pipelines/survey pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/experiments DESTINATION ${share} USE_SOURCE_PERMISSIONS)
 install(DIRECTORY pipelines/help DESTINATION ${share})
+foreach(stage IN LISTS stages)
+  string(REPLACE "varimap-" "" name ${stage})
+  install(FILES stages/${name}/README.md DESTINATION ${share}/stages RENAME ${name}.md)
+endforeach()
 install(DIRECTORY pipelines/batch DESTINATION ${share} USE_SOURCE_PERMISSIONS)
 # The viewer's page, where it has been built: pipelines/view/build build/view/frame.html
 install(FILES ${PROJECT_BINARY_DIR}/view/frame.html DESTINATION ${share}/view OPTIONAL)

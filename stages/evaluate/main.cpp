@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "varimap/core/counted.h"
+#include "varimap/core/enum_names.h"
 #include "varimap/core/error.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
@@ -64,11 +66,20 @@ MapErrors vertex_errors(const RepairedMesh& target, const PointMap& map,
     return map_errors(on_repaired(map, target), target.mesh, source_points, target_points, name);
 }
 
+LandmarkSpace space_from(const std::string& text) {
+    if (text.empty()) return LandmarkSpace::stated;
+    const auto names = names_of<LandmarkSpace>();
+    const auto found = std::ranges::find(names, text);
+    if (found == names.end())
+        throw UsageError("landmark space '" + text + "': use stated, as-is, lps or ras");
+    return LandmarkSpace(found - names.begin());
+}
+
 /// The same at landmarks of any form, which the map carries as points.
 MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const TriangleMesh& source,
-                          const std::vector<std::string>& files, IndexBase base, const std::string& name) {
-    const Landmarks landmarks =
-        read_landmarks(files, source, file_of(target), {.base = base}, Repeats::allow);
+                          const std::vector<std::string>& files, const LandmarkReading& reading,
+                          const std::string& name) {
+    const Landmarks landmarks = read_landmarks(files, source, file_of(target), reading, Repeats::allow);
     const PointCarrier carry(source, map, file_of(target));
     PointMap images, truths;
     for (const auto& [point, truth] : as_points(landmarks, source, file_of(target)))
@@ -80,13 +91,15 @@ MapErrors landmark_errors(const RepairedMesh& target, const PointMap& map, const
 }
 
 MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const TriangleMesh* source,
-                    const std::vector<std::string>& files, IndexBase base, const std::string& name) {
+                    const std::vector<std::string>& files, const LandmarkReading& reading,
+                    const std::string& name) {
     if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
         return vertex_errors(target, map,
-                             read_vertex_pairs(files[0], files[1], base, source, &file_of(target)), name);
+                             read_vertex_pairs(files[0], files[1], reading.base, source, &file_of(target)),
+                             name);
     if (source == nullptr)
         throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
-    return landmark_errors(target, map, *source, files, base, name);
+    return landmark_errors(target, map, *source, files, reading, name);
 }
 
 }  // namespace
@@ -105,6 +118,9 @@ int main(int argc, char** argv) {
     const auto& base_text = stage.option(
         "index-base",
         "number of a list's first vertex: 0, 1 or auto (coordinates in the list decide, else 0)");
+    const auto& space_text = stage.option(
+        "landmark-space",
+        "axes of points: stated by their file (default), as-is (those of the mesh), lps or ras");
     const auto& map_base =
         stage.option("map-base", "number of the first vertex in a vertex-to-vertex map: 0, 1 or auto");
     const auto& source_path = stage.input_option(
@@ -120,8 +136,9 @@ int main(int argc, char** argv) {
         if (!source_path.empty()) source = read_mesh(source_path);
         const PointMap map =
             read_map_file(map_path, index_base_from(map_base), file_of(target), source ? &*source : nullptr);
+        const LandmarkReading reading{space_from(space_text), index_base_from(base_text)};
         const MapErrors errors =
-            errors_of(target, map, source ? &*source : nullptr, lists, index_base_from(base_text), map_path);
+            errors_of(target, map, source ? &*source : nullptr, lists, reading, map_path);
         if (errors.unmapped > 0)
             warn("{} left out: the map has no image there, or the target is not mapped",
                  counted(errors.unmapped, "pair", "pairs"));

@@ -6,7 +6,7 @@ namespace {
 Alignment aligned_wholes(const Registration& all, const Extent& common, bool scale) {
     std::vector<Points> wholes;
     for (std::size_t i = 0; i < all.points.size(); ++i)
-        if (!all.is_part[i]) wholes.push_back(common.of(all.points[i]));
+        if (!all.is_part[i]) wholes.push_back(common.of(all.shape(i)));
     const Points start = common.of(all.first.vertices);
     if (!wholes.empty()) return procrustes(wholes, start, common.weights, scale);
     Alignment none;
@@ -43,7 +43,7 @@ ShapeComparison compare_shapes(const Registration& all, const Extents& extents, 
         }
         const Extent& own = extents.of(i);
         LaidOver part =
-            laid_over(own.of(all.points[i]), rows_of(own, common, wholes.mean), own.weights, scale);
+            laid_over(own.of(all.shape(i)), rows_of(own, common, wholes.mean), own.weights, scale);
         result.aligned.push_back(std::move(part.shape));
         result.sizes.push_back(part.size_ratio * mean_size);
         result.distances.push_back(part.distance);

@@ -102,6 +102,7 @@ void add_specimen(const Json& specimen, const std::string& path, const LandmarkR
     log("{}: {} answers", name, answers.size());
     all.names.push_back(name);
     all.is_part.push_back(specimen.value("part", false));
+    all.is_mirrored.push_back(specimen.value("mirrored", false));
     all.spaces.push_back(answers.front().map.to.space);
     all.points.push_back(corresponding_points(answers));
     if (all.landmarks) all.transferred.push_back(transfer_landmarks(answers, landmarks));
@@ -131,6 +132,12 @@ void with_manifest(const std::string& path, const Read& read) {
 void TemplateLandmarks::add_name(const std::string& name) {
     named = named && !name.empty();
     names.push_back(name.empty() ? std::to_string(names.size() + 1) : name);
+}
+
+Points Registration::shape(std::size_t specimen) const {
+    Points shape = points[specimen];
+    if (is_mirrored[specimen]) shape.col(0) *= -1;
+    return shape;
 }
 
 Registration read_registration(const std::string& path, const LandmarkReading& reading) {

@@ -26,9 +26,13 @@ struct Registration {
     std::optional<TemplateLandmarks> landmarks;  ///< on it, where the manifest has some
     std::vector<std::string> names;
     std::vector<bool> is_part;                      ///< of what the template is
+    std::vector<bool> is_mirrored;                  ///< of the other side of the body than the template
     std::vector<Space> spaces;                      ///< what the specimens' files say of their axes
     std::vector<Points> points;                     ///< where the vertices of `first` lie; NaN: nowhere
     std::vector<TransferredLandmarks> transferred;  ///< none without `landmarks`
+
+    /// The points of a specimen as shapes are compared, which is of one side: mirrored where it is.
+    Points shape(std::size_t specimen) const;
 };
 
 /// Reads the manifest that `varimap register` writes (README.md) and all that it names; at least one

@@ -52,8 +52,11 @@ Points on_template(const Points& points, const Extent& extent, int vertices,
 
 /// A mesh with the template's vertices, of which no face uses those beyond the extent. Their place is that
 /// of another, since many programs take no mesh with places that are not numbers.
-std::string ply_of(const Points& points, const Extent& extent, const Registration& all, Space space) {
-    return to_ply({on_template(points, extent, all.first.vertex_count(), points.row(0)), extent.faces, space},
+std::string ply_of(const Points& points, const Extent& extent, const Registration& all, Space space,
+                   bool mirrored = false) {
+    Faces faces = extent.faces;
+    if (mirrored) faces.col(1).swap(faces.col(2));  // or it would be inside out
+    return to_ply({on_template(points, extent, all.first.vertex_count(), points.row(0)), faces, space},
                   PlyFormat::ascii);
 }
 
@@ -91,13 +94,15 @@ std::string components_csv(const Components& components) {
 /// Parts have no scores.
 std::string specimens_csv(const Registration& all, const ShapeComparison& shapes) {
     const Eigen::MatrixXd& scores = shapes.components.scores;
-    std::string text = "specimen,size,distance,outlier,part";
+    const auto yes_or_no = [](bool is) { return is ? "yes" : "no"; };
+    std::string text = "specimen,size,distance,outlier,part,mirrored";
     for (Eigen::Index k = 0; k < scores.cols(); ++k) text += fmt::format(",pc{}", k + 1);
     text += "\n";
     Eigen::Index whole = 0;
     for (std::size_t i = 0; i < all.names.size(); ++i) {
-        text += fmt::format("{},{},{},{},{}", field(all.names[i]), shapes.sizes[i], shapes.distances[i],
-                            shapes.is_outlier[i] ? "yes" : "no", all.is_part[i] ? "yes" : "no");
+        text += fmt::format("{},{},{},{},{},{}", field(all.names[i]), shapes.sizes[i], shapes.distances[i],
+                            yes_or_no(shapes.is_outlier[i]), yes_or_no(all.is_part[i]),
+                            yes_or_no(all.is_mirrored[i]));
         for (Eigen::Index k = 0; k < scores.cols(); ++k)
             text += all.is_part[i] ? "," : fmt::format(",{}", scores(whole, k));
         if (!all.is_part[i]) ++whole;
@@ -122,7 +127,7 @@ void write_points(const ResultFolder& folder, const Registration& all, const Ext
     for (std::size_t i = 0; i < all.names.size(); ++i) {
         folder.write("specimens/" + all.names[i] + ".csv", points_csv(all.points[i]));
         folder.write("specimens/" + all.names[i] + ".ply",
-                     ply_of(extents.of(i).of(all.points[i]), extents.of(i), all, all.spaces[i]));
+                     ply_of(extents.of(i).of(all.points[i]), extents.of(i), all, all.spaces[i], all.is_mirrored[i]));
     }
 }
 

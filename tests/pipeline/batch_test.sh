@@ -170,10 +170,21 @@ fi
 # As far as a stage, and then on.
 map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse
 [[ -s part/artifacts/a--b.diffusion && ! -e part/artifacts/a--b.plan && ! -e part/quality.json ]] || fail "--until diffuse"
+map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse --json
+jq -e '.until == "diffuse" and (.warnings | type == "array")' out.txt >/dev/null || fail "--until diffuse --json: $(<out.txt)"
 map meshes/a.off meshes/b.off -o part "${coarse[@]}"
 expect_ran "refine relax remesh render"
 same_results alone part
 expect_exit 2 "$varimap" map meshes/a.off meshes/b.off -o part --until plan
+expect_exit 2 "$varimap" batch --all-pairs meshes -o none --plan --landmark-weight .2
+grep -q -- '--landmark-weight: none of the pairs has landmarks' log || fail "an option of landmarks without any: $(<log)"
+printf 'source,target,mirror\na.off,b.off,yes\nb.off,a.off,\n' >meshes/mirrored.csv
+"$varimap" batch meshes/mirrored.csv -o mirrored --plan >/dev/null 2>log || fail "a list with mirrored pairs: $(<log)"
+[[ $(cut -f 1,7 mirrored/batch/pairs.tsv | xargs) == 'a--b yes b--a -' ]] || fail "which pair is mirrored"
+sed -i 's/yes/true/' meshes/mirrored.csv
+expect_exit 3 "$varimap" batch meshes/mirrored.csv -o mirrored --plan
+grep -q 'mirror is true; say yes or no' log || fail "what a column takes"
+rm meshes/mirrored.csv
 
 # One job at a time where memory is for one only, and the same bytes.
 narrow="out of \$HOME & 'more'"

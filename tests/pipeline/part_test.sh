@@ -90,7 +90,9 @@ refused() {  # WORDS ARGUMENTS
 }
 refused 'say source or target' --part whole --landmarks tips.txt
 refused "part '': say source or target" --part '' --landmarks tips.txt
-refused '--until locate needs --part' --until locate --landmarks tips.txt
+refused '--until locate: without --part no part is looked for' --until locate --landmarks tips.txt
+refused '--candidate 2: with --part nothing is explored without landmarks' --part source --candidate 2
+refused '--set preprocess.mirror=true: say --mirror' --landmarks tips.txt --set preprocess.mirror=true
 refused 'locate.part=target: part is not a parameter' --part source --landmarks tips.txt --set locate.part=target
 printf '[locate]\npart = "target"\n[preprocess]\nfill_holes = "all"\n' >bad.toml
 refused 'bad.toml: part is not a parameter' --landmarks tips.txt --config bad.toml
@@ -100,7 +102,13 @@ for all in '--fill-holes all' '--set preprocess.fill_holes=all'; do
     # shellcheck disable=SC2086
     refused "$all: with --part" --part source --landmarks tips.txt $all
 done
+printf '[preprocess]\nmirror = true\n' >mirror.toml
+refused 'mirror.toml: mirror: say --mirror' --landmarks tips.txt --config mirror.toml
 [[ ! -e bad ]] || fail "what is refused left files"
+# Parameters of stages that do not run.
+map part.off whole.off -o idle --landmarks tips.txt --full-resolution --set coarsen.vertices=900 --set locate.enough=.1 --until preprocess
+grep -q 'warning: --set coarsen.vertices=900 has no effect: with --full-resolution' log || fail "coarsen with --full-resolution: $(<log)"
+grep -q 'warning: --set locate.enough=.1 has no effect: without --part' log || fail "locate without --part: $(<log)"
 # A number of edges is taken, and counts more than the file.
 map part.off whole.off -o filled --landmarks tips.txt --part source --config bad.toml --fill-holes 3 --until preprocess
 ! make -f "$VARIMAP_SOURCE/pipelines/Makefile" SOURCE=part.off TARGET=whole.off OUT=made until-locate >log 2>&1 || fail "until-locate without PART"

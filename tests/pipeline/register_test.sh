@@ -38,7 +38,7 @@ done
 # They differ in one thing, how far they are twisted: the first component is that.
 share=$(sed -n 's/^1,[^,]*,//p' out/components.csv)
 at_most .9 "$share" "share of the first component"
-tail -n +2 out/specimens.csv | cut -d , -f 6 | sort -g -c 2>/dev/null || tail -n +2 out/specimens.csv | cut -d , -f 6 | sort -gr -c ||
+tail -n +2 out/specimens.csv | cut -d , -f 7 | sort -g -c 2>/dev/null || tail -n +2 out/specimens.csv | cut -d , -f 7 | sort -gr -c ||
     fail "scores are not in the order of the twists"
 [[ -s out/component_1.png && -s out/mean.png ]] || fail "pictures"
 
@@ -108,6 +108,23 @@ grep -c 'broken,.*,nan,nan,nan,0.0000' partly/landmarks.csv >missing.txt
 (($(<missing.txt) == 2)) || fail "landmarks that a broken specimen lacks"
 expect_exit 2 "$varimap" register "${small_picture[@]}" template.off specimens -o none --parts template.off
 grep -q 'template.off: a template, and among --parts' log || fail "a template that is a part"
+
+# One of the other side: its points lie on it as it is, and its shape is that of its mirror image. (Twisted the other way it would have a
+# score of the other sign.)
+mkdir sides
+cp meshes/s1.off meshes/s2.off meshes/s4.off sides
+awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2 { print -$1, $2, $3; next } NR > n + 2 { print 3, $2, $4, $3; next } { print }' meshes/s2.off >left.off
+register template.off sides -o sided --landmarks-from points --mirrored left.off -j 2
+at_most "$(error sided/specimens/left.csv left.off)" .06 "points of a mirrored specimen"
+[[ $(cut -d , -f 1,6 sided/specimens.csv | xargs) == 'specimen,mirrored s1,no s2,no s4,no left,yes' ]] || fail "which specimen is mirrored"
+awk -F, 'NR > 1 { score[$1] = $7 } END { d = score["left"] - score["s2"]; r = score["s4"] - score["s1"]; exit !(d * d < .01 * r * r) }' sided/specimens.csv ||
+    fail "the shape of a mirrored specimen: $(<sided/specimens.csv)"
+volume() { awk 'NF == 3 && !/[a-z]/ { x[n] = $1; y[n] = $2; z[n++] = $3 } NF == 4 && $1 == 3 { a = $2; b = $3; c = $4
+    sum += x[a] * (y[b] * z[c] - z[b] * y[c]) - y[a] * (x[b] * z[c] - z[b] * x[c]) + z[a] * (x[b] * y[c] - y[b] * x[c]) } END { print (sum > 0) }'; }
+[[ $(sed 1,/end_header/d sided/specimens/left.ply | volume) == $(sed 1,2d left.off | volume) ]] || fail "a mirrored specimen is inside out"
+expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --mirrored template.off
+expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --landmark-weight .2
+grep -q -- '--landmark-weight needs --landmarks-from' log || fail "an option of landmarks without any"
 
 # A specimen of a format that is imported, though its ending makes it no mesh of a folder.
 if [[ -x $VARIMAP_BIN/varimap-import ]]; then

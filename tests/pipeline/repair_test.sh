@@ -189,9 +189,10 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 0 0\n3 0 1 0\n' >nothing.off
 [[ $(wc -l <survey.csv) == 3 ]] || fail "survey: rows"
 grep -q '^"holed.off",taken,.*,0,1,' survey.csv || fail "survey: $(<survey.csv)"
 code=0
-"$varimap" survey nothing.off a-spoiled.off --fill_holes=all >survey.csv 2>log || code=$?
+"$varimap" survey nothing.off a-spoiled.off --fill-holes all >survey.csv 2>log || code=$?
 ((code == 1)) || fail "survey: exit $code"
 for line in '"nothing.off",refused,' '"a-spoiled.off",taken,.*welded'; do
     grep -q "^$line" survey.csv || fail "survey: $(<survey.csv)"
 done
 expect_exit 2 "$varimap" survey a.off --repair=everything
+expect_exit 2 "$varimap" survey a.off --mirror true

@@ -342,6 +342,7 @@ Registration with_a_part() {
         if (body().vertices(v, 0) > 0) part.row(v).setConstant(std::nan(""));
     all.points = {bent(0), part, bent(.01), bent(.02)};
     all.is_part = {false, true, false, false};
+    all.is_mirrored.assign(4, false);
     all.names = {"a", "part", "b", "c"};
     return all;
 }

@@ -37,9 +37,7 @@ std::vector<Named> read_side(const std::string& path, const TriangleMesh& mesh,
         require_count(rows, path, {3}, "the three coordinates of a point, as in the first row");
         return snapped_list(points_of_rows(rows, 0), path, mesh, reading.space);
     }
-    const bool others_start_at_0 = !has_ending(path, ".vts") && !has_ending(path, ".csv");
-    const bool at_0 = reading.base == IndexBase::automatic && others_start_at_0;
-    return vertices_of_list(rows, path, at_0 ? IndexBase::zero : reading.base, &mesh);
+    return vertices_of_list(rows, path, reading.base, &mesh);
 }
 
 /// The rows of a file of pairs: of vertices, or of points (x y z x y z).

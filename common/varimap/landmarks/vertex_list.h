@@ -27,7 +27,7 @@ std::vector<std::pair<int, int>> read_vertex_pairs(const std::string& source_lis
 /// How the numbers in files of landmarks are meant.
 struct LandmarkReading {
     LandmarkSpace space = LandmarkSpace::stated;
-    /// Of the first vertex; automatic: in a .vts or .csv coordinates decide, else 0.
+    /// Of the first vertex; automatic: coordinates beside the numbers of a list decide, else 0.
     IndexBase base = IndexBase::automatic;
 
     template <class List>
@@ -35,8 +35,8 @@ struct LandmarkReading {
         list.add("landmark_space", space,
                  "axes of landmark points: stated by their file, as-is (those of the mesh), lps or ras");
         list.add("landmark_base", base,
-                 "number of the first vertex in landmarks: 0, 1 or auto (coordinates in lists that are "
-                 ".vts or .csv decide, else 0)");
+                 "number of the first vertex in landmarks: 0, 1 or auto (coordinates beside the numbers of a "
+                 "list decide, else 0)");
     }
 };
 

@@ -173,6 +173,8 @@ TEST_F(VertexList, ReadsLandmarksFromPairsOrFromTwoLists) {
     EXPECT_THAT(read_landmarks({sources, targets}, mesh_, mesh_).vertices, expected);
     const auto capitals = write("T.VTS", read_file(targets));
     EXPECT_THAT(read_landmarks({sources, capitals}, mesh_, mesh_).vertices, expected);
+    const auto plain = write("t.txt", read_file(targets));
+    EXPECT_THAT(read_landmarks({sources, plain}, mesh_, mesh_).vertices, expected);
     EXPECT_THROW(read_landmarks({pairs, pairs, pairs}, mesh_, mesh_), UsageError);
 }
 
