@@ -227,7 +227,7 @@ ExplorationProgress Exploration::coarse_levels() {
 std::vector<Trial> Exploration::go_on(ExplorationProgress progress) {
     progress_ = std::move(progress);
     if (const int done = progress_.levels; done > 0) {
-        const Levels levels = context_.diffusion_samples(done - 1);
+        const Levels levels = context_.diffusion_cells(done - 1);
         descent_.resume(levels.A.samples, levels.B.samples, "varimap-explore");
     }
     explore_next_level();

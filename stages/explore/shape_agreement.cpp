@@ -16,7 +16,7 @@ namespace {
 // Lengths are in units of sqrt(area).
 
 /// Of bumps that tell a chest from a back, a knee from a hock.
-constexpr double relief_scales[] = {0.02, 0.04};
+const std::vector<double> relief_scales{0.02, 0.04};
 
 // Of all pairs of .15, .25, .35, .45, .6 and .8 these divide right maps from wrong ones best; single radii
 // from .35 to .45 do about as well.
@@ -48,7 +48,7 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, 
       samples(spread_vertices(data.hierarchy, sample_count)),
       patches(mesh.vertices, normals, mass) {
     const double outward = inward ? -1 : 1;
-    for (const double scale : relief_scales) relief.push_back(outward * varimap::relief(mesh, scale));
+    for (const Eigen::VectorXd& heights : reliefs(mesh, relief_scales)) relief.push_back(outward * heights);
     const RowMatrix to_all = distances_from_each(graph, samples);
     distance = to_all.transpose();
     sample_mass = Eigen::VectorXd::Zero(Eigen::Index(samples.size()));

@@ -19,7 +19,7 @@ Example make_example(int vertices) {
                                            data.hierarchy.options.truncation);
     std::vector<std::vector<int>> identity;
     for (int v = 0; v < data.surface.mesh.vertex_count(); ++v) identity.push_back({v});
-    const RowMatrix centres = side.side.averaging * points;
+    const RowMatrix centres = side.side.averaging.P * points;
     Example example{{side, side, {}},
                     GeodesicGraph(data.surface.mesh),
                     data.surface.mesh,

@@ -52,7 +52,7 @@ int Descent::resume(const std::vector<int>& samples_A, const std::vector<int>& s
     if (index < 0)
         throw ArtifactError("the plan's samples are not those of a level of these hierarchies; rerun " +
                             stage);
-    resumed_ = context_.diffusion_samples(index);
+    resumed_ = context_.diffusion_cells(index);
     return index;
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 /// Mean variance of a side's own neighbourhoods, in its own embedding.
 double neighbourhood_variance(const Side& side) {
-    const Eigen::VectorXd squares = side.averaging * Eigen::VectorXd(side.points.rowwise().squaredNorm());
-    return side.mass.dot(squares - Eigen::VectorXd((side.averaging * side.points).rowwise().squaredNorm()));
+    const Eigen::VectorXd squares = side.averaging.P * Eigen::VectorXd(side.points.rowwise().squaredNorm());
+    return side.mass.dot(squares - Eigen::VectorXd((side.averaging.P * side.points).rowwise().squaredNorm()));
 }
 
 void append(Side& side, const RowMatrix& columns) {

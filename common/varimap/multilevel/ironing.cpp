@@ -103,8 +103,8 @@ Centres Ironing::Run::reflected_centres() const {
         const int opposite = antipodes.of(level_B.samples[size_t(l)]);
         reflected.column.row(l) = centres.column.row(level_B.cell[size_t(opposite)]);
     }
-    reflected.row = level_.A.side.averaging * reflected.row;
-    reflected.column = level_.B.side.averaging * reflected.column;
+    reflected.row = level_.A.side.averaging.P * reflected.row;
+    reflected.column = level_.B.side.averaging.P * reflected.column;
     return reflected;
 }
 

@@ -21,7 +21,7 @@ LevelSide make_level_side(Level level, RowMatrix vertex_points, const Eigen::Vec
     // Euclidean neighbourhoods are rich enough to let the support grow by their nearer members alone.
     side.neighbours =
         level.kind == LevelKind::euclidean ? nearer_part(level.weights, truncation) : level.weights;
-    side.averaging = averaging_operator(level.weights, level.mass);
+    side.averaging = {level.weights, level.mass};
     return {std::move(level), std::move(vertex_points), vertex_mass, truncation, std::move(side)};
 }
 
@@ -52,9 +52,9 @@ LevelSwitch::LevelSwitch(const Level& coarse_A, const Level& coarse_B, const Lev
 
 Start LevelSwitch::hand_down(const Coupling& coarse_plan, double support_threshold) const {
     Start start;
-    start.centres.row = fine_.A.side.averaging * rows_of(row_barycentres(coarse_plan, means_B_), parent_A_);
+    start.centres.row = fine_.A.side.averaging.P * rows_of(row_barycentres(coarse_plan, means_B_), parent_A_);
     start.centres.column =
-        fine_.B.side.averaging * rows_of(column_barycentres(coarse_plan, means_A_), parent_B_);
+        fine_.B.side.averaging.P * rows_of(column_barycentres(coarse_plan, means_A_), parent_B_);
     start.kept =
         inherited(significant_entries(coarse_plan, coarse_mass_A_, coarse_mass_B_, support_threshold),
                   parent_A_, parent_B_);

@@ -74,9 +74,9 @@ Centres centres_of(const LevelPair& pair, const Matching& matching) {
         ++row_count[i];
         ++column_count[j];
     }
-    centres.row = pair.A.side.averaging * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
+    centres.row = pair.A.side.averaging.P * RowMatrix(row_count.cwiseInverse().asDiagonal() * centres.row);
     centres.column =
-        pair.B.side.averaging * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
+        pair.B.side.averaging.P * RowMatrix(column_count.cwiseInverse().asDiagonal() * centres.column);
     return centres;
 }
 

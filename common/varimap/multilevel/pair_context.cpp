@@ -1,5 +1,7 @@
 #include "varimap/multilevel/pair_context.h"
 
+#include <tbb/task_arena.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -37,21 +39,6 @@ RowMatrix principal_coordinates(const RowMatrix& points, const Eigen::VectorXd& 
     return centred * directions.eigenvectors().rightCols(std::min(count, points.cols()));
 }
 
-RowMatrix mixed_points(const SurfaceData& data, double mu) {
-    if (data.surface.coordinates.size() > 0) return data.surface.coordinates;
-    const RowMatrix x = data.surface.mesh.vertices;
-    if (mu == 0) return x;
-    const Level& last = data.hierarchy.last_diffusion_level();
-    // Most of psi's extent lies in few directions; 32 of 100 measured as accurate as all, in two thirds of
-    // the time.
-    constexpr Eigen::Index principal_directions = 32;
-    const RowMatrix psi = principal_coordinates(normalised_embedding(data.basis, last.scale),
-                                                data.surface.mass, principal_directions);
-    RowMatrix points(x.rows(), 3 + psi.cols());
-    points << x, (mu * edge_scale(data.surface, psi)) * psi;
-    return points;
-}
-
 template <class Pair, class Member>
 std::vector<int> indices(const std::vector<Pair>& pairs, Member vertex) {
     std::vector<int> result;
@@ -72,14 +59,35 @@ const Level& PairContext::Side::diffusion_source(int index) const {
     return h.levels[size_t(std::min(index, h.diffusion_levels() - 1))];
 }
 
-Level PairContext::Side::with_landmarks(const Level& source) const {
-    const LevelBuilder builder(data.surface, data.basis, graph, data.hierarchy.options);
-    return builder.with_samples(source, landmarks);
+LevelSide PairContext::Side::joined(Level level, RowMatrix vertex_points) const {
+    return make_level_side(std::move(level), std::move(vertex_points), data.surface.mass,
+                           data.hierarchy.options.truncation);
 }
 
-LevelSide PairContext::Side::embedded(const Level& source, RowMatrix vertex_points) const {
-    return make_level_side(with_landmarks(source), std::move(vertex_points), data.surface.mass,
-                           data.hierarchy.options.truncation);
+const PairContext::Side::Psi& PairContext::Side::psi() const {
+    std::call_once(psi_->once, [&] {
+        // Isolated: a task that this thread took up meanwhile could ask for it again, and wait for itself.
+        tbb::this_task_arena::isolate([&] {
+            // Most of psi's extent lies in few directions; 32 of 100 measured as accurate as all, in two
+            // thirds of the time.
+            constexpr Eigen::Index principal_directions = 32;
+            const Level& last = data.hierarchy.last_diffusion_level();
+            psi_->points = principal_coordinates(normalised_embedding(data.basis, last.scale),
+                                                 data.surface.mass, principal_directions);
+            psi_->scale = edge_scale(data.surface, psi_->points);
+        });
+    });
+    return *psi_;
+}
+
+RowMatrix PairContext::Side::mixed_points(double mu) const {
+    if (data.surface.coordinates.size() > 0) return data.surface.coordinates;
+    const RowMatrix x = data.surface.mesh.vertices;
+    if (mu == 0) return x;
+    const Psi& psi = this->psi();
+    RowMatrix points(x.rows(), 3 + psi.points.cols());
+    points << x, (mu * psi.scale) * psi.points;
+    return points;
 }
 
 PairContext::PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks,
@@ -102,13 +110,29 @@ int PairContext::diffusion_levels() const {
 LevelPair PairContext::diffusion_level(int index) const {
     const auto side = [index](const Side& own) {
         const Level& source = own.diffusion_source(index);
-        return own.embedded(source, diffusion_embedding(own.data.basis, source.scale));
+        RowMatrix embedding = diffusion_embedding(own.data.basis, source.scale);
+        Level level = own.builder().diffusion_with(source, own.landmarks, embedding);
+        return own.joined(std::move(level), std::move(embedding));
     };
     return joined(side(A_), side(B_));
 }
 
 Levels PairContext::diffusion_samples(int index) const {
-    return {A_.with_landmarks(A_.diffusion_source(index)), B_.with_landmarks(B_.diffusion_source(index))};
+    const auto side = [index](const Side& own) {
+        const Level& source = own.diffusion_source(index);
+        return own.builder().diffusion_with(source, own.landmarks,
+                                            diffusion_embedding(own.data.basis, source.scale));
+    };
+    return {side(A_), side(B_)};
+}
+
+Levels PairContext::diffusion_cells(int index) const {
+    const auto side = [index](const Side& own) {
+        const Level& source = own.diffusion_source(index);
+        return own.builder().diffusion_cells_with(source, own.landmarks,
+                                                  diffusion_embedding(own.data.basis, source.scale));
+    };
+    return {side(A_), side(B_)};
 }
 
 int PairContext::diffusion_sample_count(int index) const {
@@ -140,7 +164,8 @@ const Level& PairContext::euclidean_source(const Side& side, int index) const {
 
 LevelPair PairContext::euclidean_level(int index, double mu) const {
     const auto side = [&](const Side& own) {
-        return own.embedded(euclidean_source(own, index), mixed_points(own.data, mu));
+        return own.joined(own.builder().euclidean_with(euclidean_source(own, index), own.landmarks),
+                          own.mixed_points(mu));
     };
     return joined(side(A_), side(B_));
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "varimap/mesh/vertex_index.h"
 #include "varimap/multilevel/level_transfer.h"
+#include "varimap/spectral/level_builder.h"
 #include "varimap/spectral/surface_data.h"
 
 namespace varimap {
@@ -33,6 +36,8 @@ class PairContext {
     LevelPair diffusion_level(int index) const;
     /// The same without embeddings.
     Levels diffusion_samples(int index) const;
+    /// Nor with weights where landmarks are inserted.
+    Levels diffusion_cells(int index) const;
     /// Their number, on the side that has fewer. Builds no level.
     int diffusion_sample_count(int index) const;
     /// The last diffusion level that has these samples, in this order; -1 if there is none. Builds no level.
@@ -55,8 +60,19 @@ class PairContext {
         Side(SurfaceData own, std::vector<int> vertices)
             : data(std::move(own)), graph(data.surface), landmarks(std::move(vertices)) {}
         const Level& diffusion_source(int index) const;
-        Level with_landmarks(const Level& source) const;
-        LevelSide embedded(const Level& source, RowMatrix vertex_points) const;
+        LevelBuilder builder() const { return {data.surface, data.basis, graph, data.hierarchy.options}; }
+        LevelSide joined(Level level, RowMatrix vertex_points) const;
+        /// psi in its principal directions, and c; made when it is first asked for.
+        struct Psi {
+            std::once_flag once;
+            RowMatrix points;
+            double scale = 0;
+        };
+        const Psi& psi() const;
+        RowMatrix mixed_points(double mu) const;
+
+      private:
+        std::shared_ptr<Psi> psi_ = std::make_shared<Psi>();
     };
     const Level& euclidean_source(const Side& side, int index) const;
     LevelPair joined(LevelSide A, LevelSide B) const;

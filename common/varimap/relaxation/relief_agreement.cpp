@@ -1,5 +1,7 @@
 #include "varimap/relaxation/relief_agreement.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
@@ -23,19 +25,37 @@ constexpr double c2 = 0.25;
 constexpr double least_scale = 0.02;
 /// In units of that. Chosen on six pairs: with the first, errors fall by 2% in the mean (from 12% less to 2%
 /// more); with 2 and 4, they rise by up to 17% between poses.
-constexpr std::array<double, 2> scales{0.6, 1};
+constexpr std::array<double, 2> relative_scales{0.6, 1};
 
-/// The surface after an implicit step of diffusion with time scale^2.
-Points smoothed(const TriangleMesh& mesh, double scale) {
-    // Unused vertices have no mass, which would leave the matrix singular.
-    const Eigen::VectorXd mass = voronoi_masses(mesh).cwiseMax(1e-15);
-    Eigen::SparseMatrix<double> diffusion(mass.size(), mass.size());
-    diffusion.setIdentity();
-    diffusion = mass.asDiagonal() * diffusion;
-    diffusion += scale * scale * cotangent_laplacian(mesh);
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(diffusion);
-    return solver.solve(mass.asDiagonal() * mesh.vertices);
-}
+/// A surface after an implicit step of diffusion, with any time.
+class Smoothing {
+  public:
+    explicit Smoothing(const TriangleMesh& mesh)
+        : vertices_(mesh.vertices),
+          // Unused vertices have no mass, which would leave the matrix singular.
+          mass_(voronoi_masses(mesh).cwiseMax(1e-15)),
+          laplacian_(cotangent_laplacian(mesh)) {
+        solver_.analyzePattern(matrix(1));
+    }
+    /// With time scale^2.
+    Points operator()(double scale) {
+        solver_.factorize(matrix(scale));
+        return solver_.solve(mass_.asDiagonal() * vertices_);
+    }
+
+  private:
+    Eigen::SparseMatrix<double> matrix(double scale) const {
+        Eigen::SparseMatrix<double> diffusion(mass_.size(), mass_.size());
+        diffusion.setIdentity();
+        diffusion = mass_.asDiagonal() * diffusion;
+        diffusion += scale * scale * laplacian_;
+        return diffusion;
+    }
+    const Points& vertices_;
+    Eigen::VectorXd mass_;
+    Eigen::SparseMatrix<double> laplacian_;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+};
 
 /// Of vertices that faces use: medians are theirs.
 Eigen::VectorXd used(const TriangleMesh& mesh, const Eigen::VectorXd& values) {
@@ -53,9 +73,15 @@ Eigen::VectorXd bounded_deviations(const TriangleMesh& mesh, Eigen::VectorXd val
 
 }  // namespace
 
-Eigen::VectorXd relief(const TriangleMesh& mesh, double scale) {
-    const Points height = mesh.vertices - smoothed(mesh, scale);
-    return bounded_deviations(mesh, height.cwiseProduct(vertex_normals(mesh)).rowwise().sum());
+std::vector<Eigen::VectorXd> reliefs(const TriangleMesh& mesh, const std::vector<double>& scales) {
+    Smoothing smoothed(mesh);
+    const Points normals = vertex_normals(mesh);
+    std::vector<Eigen::VectorXd> result;
+    for (const double scale : scales) {
+        const Points height = mesh.vertices - smoothed(scale);
+        result.push_back(bounded_deviations(mesh, height.cwiseProduct(normals).rowwise().sum()));
+    }
+    return result;
 }
 
 double trust_in_relief(double correlation, bool sheets) {
@@ -67,10 +93,20 @@ double trust_in_relief(double correlation, bool sheets) {
 
 std::vector<ReliefPair> relief_pairs(const TriangleMesh& source, const TriangleMesh& target, bool opposed) {
     const double unit = std::max({least_scale, equilateral_edge(source), equilateral_edge(target)});
+    std::vector<double> scales;
+    for (const double scale : relative_scales) scales.push_back(scale * unit);
+    std::vector<Eigen::VectorXd> of_source, of_target;
+    tbb::parallel_invoke([&] { of_source = reliefs(source, scales); },
+                         [&] { of_target = reliefs(target, scales); });
     std::vector<ReliefPair> pairs;
-    for (const double scale : scales)
-        pairs.push_back({(opposed ? -1 : 1) * relief(source, scale * unit), relief(target, scale * unit)});
+    for (std::size_t i = 0; i < scales.size(); ++i)
+        pairs.push_back({(opposed ? -1 : 1) * of_source[i], std::move(of_target[i])});
     return pairs;
+}
+
+std::vector<ReliefPair> swapped(std::vector<ReliefPair> reliefs) {
+    for (ReliefPair& pair : reliefs) pair.source.swap(pair.target);
+    return reliefs;
 }
 
 ReliefAgreement::ReliefAgreement(const SlidingMap& map, double weight, std::vector<ReliefPair> reliefs)

@@ -11,8 +11,8 @@ namespace varimap {
 /// off, x - (M + s^2 L)^-1 M x with M the vertices' areas and L the cotangent Laplacian, which is s^2 times
 /// twice the mean curvature smoothed at scale s. It shows bumps and hollows of about size s and leaves out
 /// the broader shape, which changes with the pose. Less its median, in units of 1.5 median deviations, and
-/// bounded to [-2, 2]; zeros where there is no deviation.
-Eigen::VectorXd relief(const TriangleMesh& mesh, double scale);
+/// bounded to [-2, 2]; zeros where there is no deviation. One for each of the scales.
+std::vector<Eigen::VectorXd> reliefs(const TriangleMesh& mesh, const std::vector<double>& scales);
 
 /// What bends like cloth gets another relief, which leads astray; sheets (mesh/boundary.h) do so most: those
 /// that were bent at random have reliefs that agree by up to this (a correlation).
@@ -28,6 +28,8 @@ struct ReliefPair {
 /// alone look inward, so that its bumps are hollows.
 std::vector<ReliefPair> relief_pairs(const TriangleMesh& source, const TriangleMesh& target,
                                      bool opposed = false);
+/// Of the same surfaces the other way round.
+std::vector<ReliefPair> swapped(std::vector<ReliefPair> reliefs);
 
 /// A data term that holds relief in place: the sum over two scales s and the source's vertices v, of area
 /// a_v, of
@@ -41,9 +43,6 @@ class ReliefAgreement {
   public:
     /// Keeps a reference to the map. `reliefs`: of its surfaces.
     ReliefAgreement(const SlidingMap& map, double weight, std::vector<ReliefPair> reliefs);
-    /// `opposed`: as for relief_pairs.
-    ReliefAgreement(const SlidingMap& map, double weight, bool opposed = false)
-        : ReliefAgreement(map, weight, relief_pairs(map.source(), map.target(), opposed)) {}
 
     /// Of both reliefs where the map takes them, mean of the scales.
     double correlation() const;

@@ -62,7 +62,7 @@ UntanglingReport untouched(const Distortion& before) {
 
 UntangledDirection::UntangledDirection(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                                        const VertexData<bool>& pinned, const PointPairs& points,
-                                       const UntanglingOptions& options)
+                                       const UntanglingOptions& options, std::vector<ReliefPair> reliefs)
     : map_(map),
       source_(source),
       target_(target),
@@ -73,8 +73,8 @@ UntangledDirection::UntangledDirection(PointMap& map, const TriangleMesh& source
       landmarks_(landmark_constraints(sliding_, points)),
       are_sheets_(options.global_steps > 0 && is_sheet(source) && is_sheet(target)),
       report_(untouched(before_)) {
-    if (options.relief_weight > 0 && options.global_steps > 0)
-        relief_ = std::make_unique<ReliefAgreement>(sliding_, options.relief_weight, options.opposed);
+    if (!reliefs.empty())
+        relief_ = std::make_unique<ReliefAgreement>(sliding_, options.relief_weight, std::move(reliefs));
 }
 
 void UntangledDirection::trust_relief(double share) {

@@ -18,10 +18,11 @@ UntanglingReport untouched(const Distortion& before);
 /// One direction of a map while it is untangled. Keeps references. `back`: the other direction.
 class UntangledDirection {
   public:
-    /// `points`: landmarks that are points.
+    /// `points`: landmarks that are points. `reliefs`: of the source and the target, none where relief counts
+    /// for nothing.
     UntangledDirection(PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                        const VertexData<bool>& pinned, const PointPairs& points,
-                       const UntanglingOptions& options);
+                       const UntanglingOptions& options, std::vector<ReliefPair> reliefs);
 
     bool are_sheets() const { return are_sheets_; }
     bool has_relief() const { return relief_ != nullptr; }

@@ -3,8 +3,10 @@
 #include <tbb/parallel_invoke.h>
 
 #include <optional>
+#include <vector>
 
 #include "varimap/core/log.h"
+#include "varimap/relaxation/relief_agreement.h"
 #include "varimap/relaxation/rounds.h"
 #include "varimap/relaxation/untangled_direction.h"
 
@@ -56,10 +58,14 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
                              [&] { reports.B_to_A = untouched(measure_distortion(maps.B_to_A, B, A)); });
         return reports;
     }
+    std::vector<ReliefPair> reliefs;
+    if (options.relief_weight > 0 && options.global_steps > 0) reliefs = relief_pairs(A, B, options.opposed);
     std::optional<UntangledDirection> A_to_B, B_to_A;
     tbb::parallel_invoke(
-        [&] { A_to_B.emplace(maps.A_to_B, A, B, pinned.A, pinned.points, options); },
-        [&] { B_to_A.emplace(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options); });
+        [&] { A_to_B.emplace(maps.A_to_B, A, B, pinned.A, pinned.points, options, reliefs); },
+        [&] {
+            B_to_A.emplace(maps.B_to_A, B, A, pinned.B, swapped(pinned.points), options, swapped(reliefs));
+        });
     UntangledDirection &there = *A_to_B, &back = *B_to_A;
     if (options.weigh_relief && there.has_relief()) weigh_relief(there, back);
     if (options.local_sweeps == 0) run(there, back, relaxation_rounds[0]);

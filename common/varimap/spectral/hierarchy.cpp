@@ -30,9 +30,10 @@ void append_diffusion_levels(std::vector<Level>& levels, const Basis& basis, dou
     std::vector<int> samples;
     for (int l = 0; l < most_levels; ++l) {
         const double time = std::ldexp(coarsest_time(basis), -l);
-        Level level = builder.diffusion(time, samples, std::max(half, 2));
+        Level level = builder.diffusion_cells(time, samples, std::max(half, 2));
         const size_t before = samples.size(), now = level.samples.size();
         if (l > 0 && now >= meaningful && double(now) < growth * double(before)) return;
+        builder.weigh(level);
         samples = level.samples;
         append(levels, std::move(level));
         if (int(now) >= half) return;
@@ -44,16 +45,20 @@ void append_euclidean_levels(std::vector<Level>& levels, const GeodesicGraph& gr
     const int half = graph.vertex_count() / 2;
     double sigma = average_radius(levels.back().samples, levels.back().weights, graph) /
                    gaussian_distance(options.truncation);
-    for (; sigma > 0; sigma /= 2) {
-        // Past half of the vertices a level of its own is not worth its time.
-        std::optional<Level> level = builder.euclidean_up_to(half, sigma, levels.back().samples);
-        if (!level) break;
-        append(levels, std::move(*level));
-    }
     // Neighbourhoods on the last level are too small to move a patch: the one before must be fine enough.
     const int least = int(options.sampled_share * graph.vertex_count());
-    if (levels.back().kind == LevelKind::diffusion || int(levels.back().samples.size()) < least)
-        append(levels, builder.euclidean(sigma, levels.back().samples, least));
+    const auto is_fine_enough = [&] {
+        return levels.back().kind == LevelKind::euclidean && int(levels.back().samples.size()) >= least;
+    };
+    while (true) {
+        // Past half of the vertices a level of its own is not worth its time.
+        LevelBuilder::Euclidean level = builder.euclidean(sigma, levels.back().samples,
+                                                          is_fine_enough() ? 0 : least, sigma > 0 ? half : 0);
+        if (level.least) append(levels, std::move(*level.least));
+        if (!level.dense) break;
+        append(levels, std::move(*level.dense));
+        sigma /= 2;
+    }
     append(levels, builder.full(options.last_neighbours));
 }
 

@@ -1,6 +1,7 @@
 #include "varimap/spectral/level_builder.h"
 
 #include <functional>
+#include <limits>
 #include <queue>
 #include <tuple>
 
@@ -98,67 +99,44 @@ Level level_from(const FarthestPointSampling<Grow>& sampling, LevelKind kind, do
 
 }  // namespace
 
-Level LevelBuilder::diffusion(double time, const std::vector<int>& seeds, int limit) const {
+Level LevelBuilder::diffusion_cells(double time, const std::vector<int>& seeds, int limit) const {
     const RowMatrix embedding = diffusion_embedding(basis_, time);
     FarthestPointSampling sampling(domain_.mesh.vertex_count(), DiffusionGrowth(embedding, graph_));
     if (seeds.empty()) sampling.insert(most_extreme_vertex(embedding));
     for (int s : seeds) sampling.insert(s);
     sampling.cover(1 - options_.density, limit);
-    return diffusion_level(sampling, time, embedding);
+    return level_from(sampling, LevelKind::diffusion, time, domain_.mass);
 }
 
-template <class Sampling>
-Level LevelBuilder::diffusion_level(const Sampling& sampling, double time, const RowMatrix& embedding) const {
-    Level level = level_from(sampling, LevelKind::diffusion, time, domain_.mass);
-    level.weights = diffusion_weights(embedding(level.samples, Eigen::all), options_.truncation);
-    return level;
+void LevelBuilder::weigh(Level& level) const {
+    level.weights =
+        diffusion_weights(diffusion_embedding(basis_, level.scale, level.samples), options_.truncation);
 }
 
-/// Only the cells of the further samples are grown: those of the level's own are known.
-Level LevelBuilder::diffusion_with(const Level& level, const std::vector<int>& further) const {
-    const RowMatrix embedding = diffusion_embedding(basis_, level.scale);
-    DiffusionGrowth growth(embedding, graph_);
-    std::vector<double> distance(level.cell.size());
-    parallel_for_each_index(int(distance.size()), 256, [&](int v) {
-        const int sample = level.samples[level.cell[v]];
-        distance[v] = v == sample ? 0 : growth.relative_distance(sample, v);
-    });
-    FarthestPointSampling sampling(level.samples, level.cell, std::move(distance), std::move(growth));
-    for (const int v : further) sampling.insert(v);
-    return diffusion_level(sampling, level.scale, embedding);
-}
-
-namespace {
-
-FarthestPointSampling<GeodesicGrowth> geodesic_sampling(const GeodesicGraph& graph, double radius,
-                                                        const std::vector<int>& seeds, int limit) {
-    FarthestPointSampling sampling(graph.vertex_count(), GeodesicGrowth(graph));
+LevelBuilder::Euclidean LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int least,
+                                                int most) const {
+    const double radius = sigma * gaussian_distance(options_.density);
+    FarthestPointSampling sampling(graph_.vertex_count(), GeodesicGrowth(graph_));
     for (const int s : seeds) sampling.insert(s);
-    sampling.cover(radius, limit);
-    return sampling;
+    sampling.cover(radius, least);
+    const auto at_least = sampling;
+    sampling.cover(radius, most + 1);
+    Euclidean result;
+    if (int(sampling.samples().size()) <= most)
+        result.dense = euclidean_level(sampling, sigma);
+    else if (least > 0)
+        result.least = euclidean_level(at_least, sigma);
+    return result;
 }
 
-}  // namespace
-
-Level LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int limit) const {
-    return euclidean_level(
-        geodesic_sampling(graph_, sigma * gaussian_distance(options_.density), seeds, limit), sigma);
-}
-
-std::optional<Level> LevelBuilder::euclidean_up_to(int most, double sigma,
-                                                   const std::vector<int>& seeds) const {
-    const auto sampling =
-        geodesic_sampling(graph_, sigma * gaussian_distance(options_.density), seeds, most + 1);
-    if (int(sampling.samples().size()) > most) return {};
-    return euclidean_level(sampling, sigma);
+BallRule LevelBuilder::ball_rule(double sigma) const {
+    return {sigma * gaussian_distance(options_.truncation), options_.minimum_neighbours, options_.truncation};
 }
 
 template <class Sampling>
 Level LevelBuilder::euclidean_level(const Sampling& sampling, double sigma) const {
     Level level = level_from(sampling, LevelKind::euclidean, sigma, domain_.mass);
-    const BallRule rule{sigma * gaussian_distance(options_.truncation), options_.minimum_neighbours,
-                        options_.truncation};
-    level.weights = geodesic_weights(level.samples, domain_, graph_, rule);
+    level.weights = geodesic_weights(level.samples, domain_, graph_, ball_rule(sigma));
     return level;
 }
 
@@ -173,11 +151,41 @@ Level LevelBuilder::full(int neighbours) const {
     return level;
 }
 
-Level LevelBuilder::with_samples(const Level& level, const std::vector<int>& vertices) const {
-    const std::vector<int> samples = samples_with(level, vertices);
-    if (samples.size() == level.samples.size()) return level;
-    if (level.kind == LevelKind::diffusion) return diffusion_with(level, vertices);
-    return euclidean(level.scale, samples, int(samples.size()));
+// Only the cells of the further samples are grown, and neighbourhoods near them: the others are known.
+
+Level LevelBuilder::diffusion_cells_with(const Level& level, const std::vector<int>& vertices,
+                                         const RowMatrix& embedding) const {
+    if (samples_with(level, vertices).size() == level.samples.size()) return level;
+    DiffusionGrowth growth(embedding, graph_);
+    std::vector<double> distance(level.cell.size());
+    parallel_for_each_index(int(distance.size()), 256, [&](int v) {
+        const int sample = level.samples[level.cell[v]];
+        distance[v] = v == sample ? 0 : growth.relative_distance(sample, v);
+    });
+    FarthestPointSampling sampling(level.samples, level.cell, std::move(distance), std::move(growth));
+    for (const int v : vertices) sampling.insert(v);
+    return level_from(sampling, LevelKind::diffusion, level.scale, domain_.mass);
+}
+
+Level LevelBuilder::diffusion_with(const Level& level, const std::vector<int>& vertices,
+                                   const RowMatrix& embedding) const {
+    Level with = diffusion_cells_with(level, vertices, embedding);
+    if (with.samples.size() > level.samples.size())
+        with.weights =
+            more_diffusion_weights(level.weights, embedding(with.samples, Eigen::all), options_.truncation);
+    return with;
+}
+
+Level LevelBuilder::euclidean_with(const Level& level, const std::vector<int>& vertices) const {
+    if (samples_with(level, vertices).size() == level.samples.size()) return level;
+    std::vector<double> distance(level.cell.size(), std::numeric_limits<double>::infinity());
+    GeodesicBall(graph_).grow(level.samples, [&](int v, double d) { return distance[v] = d, true; });
+    FarthestPointSampling sampling(level.samples, level.cell, std::move(distance), GeodesicGrowth(graph_));
+    for (const int v : vertices) sampling.insert(v);
+    Level with = level_from(sampling, LevelKind::euclidean, level.scale, domain_.mass);
+    with.weights =
+        more_geodesic_weights(level.weights, with.samples, domain_, graph_, ball_rule(level.scale));
+    return with;
 }
 
 }  // namespace varimap

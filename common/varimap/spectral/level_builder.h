@@ -7,6 +7,7 @@
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/level.h"
+#include "varimap/spectral/neighbourhoods.h"
 
 namespace varimap {
 
@@ -30,25 +31,34 @@ class LevelBuilder {
         : domain_(domain), basis_(basis), graph_(graph), options_(options) {}
 
     /// Seeds, then farthest vertices in diffusion distance until the level is dense or has `limit` samples;
-    /// with no seeds from the most extreme vertex.
-    Level diffusion(double time, const std::vector<int>& seeds, int limit) const;
-    /// The same in geodesic distance.
-    Level euclidean(double sigma, const std::vector<int>& seeds, int limit) const;
-    /// The dense level; none if that takes more than `most` samples.
-    std::optional<Level> euclidean_up_to(int most, double sigma, const std::vector<int>& seeds) const;
+    /// with no seeds from the most extreme vertex. Without its weights.
+    Level diffusion_cells(double time, const std::vector<int>& seeds, int limit) const;
+    /// Gives a diffusion level its weights.
+    void weigh(Level& level) const;
+    /// Seeds, then farthest vertices in geodesic distance.
+    struct Euclidean {
+        std::optional<Level>
+            dense;  ///< until the level is dense; none if that takes more than `most` samples
+        std::optional<Level> least;  ///< instead of this, with `least` samples; none if that is 0
+    };
+    Euclidean euclidean(double sigma, const std::vector<int>& seeds, int least, int most) const;
     /// Every vertex a sample, with a sigma of its own: the distance to its `neighbours`-th neighbour has W =
     /// epsilon.
     Level full(int neighbours) const;
     /// The level with further vertices as samples (landmarks must be samples at every level); cells, masses
     /// and weights are those of the enlarged set. Returns the level unchanged if all are samples already.
-    Level with_samples(const Level& level, const std::vector<int>& vertices) const;
+    Level euclidean_with(const Level& level, const std::vector<int>& vertices) const;
+    /// The same of a diffusion level. `embedding`: of all vertices at the level's time.
+    Level diffusion_with(const Level& level, const std::vector<int>& vertices,
+                         const RowMatrix& embedding) const;
+    /// The same without weights.
+    Level diffusion_cells_with(const Level& level, const std::vector<int>& vertices,
+                               const RowMatrix& embedding) const;
 
   private:
-    Level diffusion_with(const Level& level, const std::vector<int>& further) const;
+    BallRule ball_rule(double sigma) const;
     template <class Sampling>
     Level euclidean_level(const Sampling& sampling, double sigma) const;
-    template <class Sampling>
-    Level diffusion_level(const Sampling& sampling, double time, const RowMatrix& embedding) const;
 
     const Domain& domain_;
     const Basis& basis_;

@@ -24,6 +24,15 @@ SparseMatrix to_matrix(const std::vector<Neighbourhood>& rows) {
     return matrix;
 }
 
+/// Those of a matrix, of which there may be more than it has.
+std::vector<Neighbourhood> rows_of(const SparseMatrix& matrix, std::size_t count) {
+    std::vector<Neighbourhood> rows(count);
+    for (int k = 0; k < int(matrix.rows()); ++k)
+        for (SparseMatrix::InnerIterator it(matrix, k); it; ++it)
+            rows[size_t(k)].emplace_back(int(it.col()), it.value());
+    return rows;
+}
+
 /// Samples of a domain as the balls around them see each other.
 struct BallSamples {
     const std::vector<int>& samples;
@@ -98,14 +107,69 @@ SparseMatrix diffusion_weights(const RowMatrix& embedding, double truncation) {
     return to_matrix(rows);
 }
 
+SparseMatrix more_diffusion_weights(const SparseMatrix& weights, const RowMatrix& embedding,
+                                    double truncation) {
+    const int known = int(weights.rows()), n = int(embedding.rows());
+    std::vector<Neighbourhood> rows = rows_of(weights, size_t(n));
+    const Eigen::VectorXd kernel = embedding.rowwise().squaredNorm();
+    for (int k = known; k < n; ++k) {
+        const Eigen::VectorXd products = embedding * embedding.row(k).transpose();
+        for (int i = 0; i < n; ++i) {
+            const double w = i == k ? 1.0 : diffusion_weight(products[i], kernel[k], kernel[i]);
+            if (w < truncation) continue;
+            rows[size_t(k)].emplace_back(i, w);
+            if (i < known) rows[size_t(i)].emplace_back(k, w);
+        }
+    }
+    return to_matrix(rows);
+}
+
+namespace {
+
+/// Anew, those samples for which `wanted` is true.
+void grow_balls(const BallSamples& all, const std::vector<bool>& wanted, const GeodesicGraph& graph,
+                const BallRule& rule, std::vector<Neighbourhood>& rows) {
+    parallel_for_each_range(rows.size(), 256, [&](std::size_t begin, std::size_t end) {
+        GeodesicBall ball(graph);
+        for (std::size_t k = begin; k < end; ++k)
+            if (wanted[k]) rows[k] = ball_around(all.samples[k], all, rule, ball);
+    });
+}
+
+/// Of known neighbourhoods, those that further samples may belong to: those around them, and those whose
+/// radius had to grow.
+std::vector<bool> may_change(const std::vector<Neighbourhood>& rows, std::size_t known,
+                             const BallSamples& all, const GeodesicGraph& graph, const BallRule& rule) {
+    std::vector<bool> may(rows.size(), false);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        double least = 1;
+        for (const auto& [i, w] : rows[k]) least = std::min(least, w);
+        may[k] = int(rows[k].size()) <= rule.minimum_neighbours || least <= rule.truncation * (1 + 1e-6);
+    }
+    GeodesicBall ball(graph);
+    for (std::size_t k = known; k < rows.size(); ++k)
+        ball.grow(all.samples[k], [&](int v, double d) {
+            if (d > rule.radius * (1 + 1e-6)) return false;
+            if (all.index[size_t(v)] >= 0) may[size_t(all.index[size_t(v)])] = true;
+            return true;
+        });
+    return may;
+}
+
+}  // namespace
+
 SparseMatrix geodesic_weights(const std::vector<int>& samples, const Domain& domain,
                               const GeodesicGraph& graph, const BallRule& rule) {
-    const BallSamples all(samples, domain);
     std::vector<Neighbourhood> rows(samples.size());
-    parallel_for_each_range(samples.size(), 256, [&](std::size_t begin, std::size_t end) {
-        GeodesicBall ball(graph);
-        for (std::size_t k = begin; k < end; ++k) rows[k] = ball_around(samples[k], all, rule, ball);
-    });
+    grow_balls({samples, domain}, std::vector<bool>(samples.size(), true), graph, rule, rows);
+    return to_matrix(rows);
+}
+
+SparseMatrix more_geodesic_weights(const SparseMatrix& weights, const std::vector<int>& samples,
+                                   const Domain& domain, const GeodesicGraph& graph, const BallRule& rule) {
+    const BallSamples all(samples, domain);
+    std::vector<Neighbourhood> rows = rows_of(weights, samples.size());
+    grow_balls(all, may_change(rows, size_t(weights.rows()), all, graph, rule), graph, rule, rows);
     return to_matrix(rows);
 }
 

@@ -22,6 +22,9 @@ double gaussian_distance(double weight);
 
 /// W of Eq. 7 among points given by their diffusion embedding (rows), truncated below epsilon.
 SparseMatrix diffusion_weights(const RowMatrix& embedding, double truncation);
+/// The same, where `weights` are known of the first points.
+SparseMatrix more_diffusion_weights(const SparseMatrix& weights, const RowMatrix& embedding,
+                                    double truncation);
 
 /// What a Euclidean neighbourhood must hold, and the rule that turns its radius into sigma.
 struct BallRule {
@@ -34,6 +37,9 @@ struct BallRule {
 /// normals agree: balls in R^3, or across a thin sheet, would bridge limbs that only touch.
 SparseMatrix geodesic_weights(const std::vector<int>& samples, const Domain& domain,
                               const GeodesicGraph& graph, const BallRule& rule);
+/// The same, where `weights` are known of the first samples by the same rule.
+SparseMatrix more_geodesic_weights(const SparseMatrix& weights, const std::vector<int>& samples,
+                                   const Domain& domain, const GeodesicGraph& graph, const BallRule& rule);
 
 /// Average over samples of the geodesic distance to the farthest member of their neighbourhoods.
 double average_radius(const std::vector<int>& samples, const SparseMatrix& weights,

@@ -48,6 +48,7 @@ struct Stage::State {
 
     Header header(std::string kind, std::vector<InputRecord> from) const;
     std::vector<InputRecord> identify_inputs() const;
+    std::vector<std::string> told_by() const;
     bool is_current() const;
     bool artifact_is_current(const KnownHashes& known, const Header& now) const;
     bool stamp_is_current(const KnownHashes& known, const Header& now) const;
@@ -77,10 +78,22 @@ std::vector<InputRecord> Stage::State::identify_inputs() const {
     return found;
 }
 
+/// What tells whether the output is current, besides the inputs.
+std::vector<std::string> Stage::State::told_by() const {
+    std::vector<std::string> paths;
+    if (output_schema > 0) paths = {*output_path, run_file()};
+    if (!line.stamp.empty()) paths.push_back(line.stamp);
+    return paths;
+}
+
 /// Nothing is done for what is there already; what is missing or damaged is made.
 bool Stage::State::is_current() const {
     if (line.if_stale.empty() || output_path == nullptr) return false;
     if (output_schema == 0 && line.stamp.empty()) return false;
+    // Before anything is hashed, which takes longer than some stages.
+    std::error_code ignored;
+    for (const auto& path : told_by())
+        if (!fs::exists(path, ignored)) return false;
     try {
         const auto from = identify_inputs();
         const KnownHashes known(line.if_stale);

@@ -85,14 +85,14 @@ SinkhornReport tighten(TransportProblem problem, double largest, const Alternati
     return report;
 }
 
-/// The averaging operator of a side whose samples are damped. A neighbourhood of which nothing would be left
-/// keeps its weights.
-SparseMatrix damped_averaging(const Side& side, const Eigen::VectorXd& damping) {
+/// The averaging of a side whose samples are damped. A neighbourhood of which nothing would be left keeps its
+/// weights.
+Averaging damped_averaging(const Side& side, const Eigen::VectorXd& damping) {
     SparseMatrix damped = side.weights * damping.asDiagonal();
     const Eigen::VectorXd left = damped * side.mass;
     for (Eigen::Index k = 0; k < left.size(); ++k)
         if (left[k] == 0) damped.row(k) = side.weights.row(k);
-    return averaging_operator(damped, side.mass);
+    return {damped, side.mass};
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ class AlternatingMinimization {
     const Side& Y_;
     Partners partners_;
     AlternationOptions options_;
-    std::optional<SparseMatrix> damped_X_, damped_Y_;  ///< averaging operators while samples are damped
+    std::optional<Averaging> damped_X_, damped_Y_;  ///< while samples are damped
     Solution solution_;
     bool fresh_ = true;  ///< no step since start(): the support is set and gamma is annealed
 };

@@ -18,10 +18,9 @@ const Eigen::VectorXd& divisor(const AveragedSide& X, const Eigen::VectorXd& rel
     return relaxed.size() > 0 ? relaxed : X.side.mass;
 }
 
-/// A = diag(1/m') P' diag(m): m_k W_k(x_i) / Z_k times m_i / m'_i.
-SparseMatrix cost_weights(const AveragedSide& X, const Eigen::VectorXd& relaxed) {
-    return divisor(X, relaxed).cwiseInverse().asDiagonal() * SparseMatrix(X.averaging.transpose()) *
-           X.side.mass.asDiagonal();
+SparseMatrix mutual_averaging(const SparseMatrix& P, const Eigen::VectorXd& divisor,
+                              const Eigen::VectorXd& mass) {
+    return divisor.cwiseInverse().asDiagonal() * SparseMatrix(P.transpose()) * mass.asDiagonal();
 }
 
 /// What one side's centres contribute to a cost entry: sum_k a_ik |z - eta_k|^2 = alpha_i |z|^2 - 2 z . g_i +
@@ -30,12 +29,11 @@ struct CollapsedSum {
     RowMatrix g;
     Eigen::VectorXd alpha, c;
 
-    CollapsedSum(const AveragedSide& X, const RowMatrix& centres, const Eigen::VectorXd& relaxed) {
-        const SparseMatrix A = cost_weights(X, relaxed);
-        g = A * centres;
-        alpha = A * Eigen::VectorXd::Ones(X.side.mass.size());
-        c = A * Eigen::VectorXd(centres.rowwise().squaredNorm());
-    }
+    /// Without relaxed masses A is the mutual averaging, else a_ik times m_i / m'_i.
+    CollapsedSum(const AveragedSide& X, const RowMatrix& centres, const Eigen::VectorXd& relaxed)
+        : CollapsedSum(
+              relaxed.size() > 0 ? mutual_averaging(X.averaging.P, relaxed, X.side.mass) : X.averaging.mutual,
+              centres) {}
 
     /// Mean contribution per sample for its mean image, which has the mean of squared norms in its last
     /// column.
@@ -45,6 +43,12 @@ struct CollapsedSum {
             alpha.cwiseProduct(image.col(D)) - 2 * g.cwiseProduct(image.leftCols(D)).rowwise().sum() + c;
         return cost.cwiseMax(0);
     }
+
+  private:
+    CollapsedSum(const SparseMatrix& A, const RowMatrix& centres)
+        : g(A * centres),
+          alpha(A * Eigen::VectorXd::Ones(A.cols())),
+          c(A * Eigen::VectorXd(centres.rowwise().squaredNorm())) {}
 };
 
 /// The centres of one side's samples towards their partners, which are points of the other side.
@@ -65,11 +69,11 @@ struct SideImages {
                const Eigen::VectorXd& relaxed) {
         const Eigen::Index D = image.cols() - 1;
         const Eigen::VectorXd share = rho.cwiseQuotient(divisor(X, relaxed));
-        const RowMatrix all = X.averaging * RowMatrix(share.asDiagonal() * image);
+        const RowMatrix all = X.averaging.P * RowMatrix(share.asDiagonal() * image);
         mean = image.leftCols(D);
         sums = all.leftCols(D);
         squares = all.col(D);
-        weights = X.averaging * share;
+        weights = X.averaging.P * share;
     }
 
     RowMatrix centres() const { return weights.cwiseInverse().asDiagonal() * sums; }
@@ -112,14 +116,14 @@ Eigen::VectorXd least_inverses(const AveragedSide& X, const RowMatrix& image, co
 
 }  // namespace
 
-SparseMatrix averaging_operator(const SparseMatrix& weights, const Eigen::VectorXd& mass) {
-    SparseMatrix P = weights * mass.asDiagonal();
+Averaging::Averaging(const SparseMatrix& weights, const Eigen::VectorXd& mass)
+    : P(weights * mass.asDiagonal()) {
     for (int k = 0; k < P.outerSize(); ++k) {
         double total = 0;
         for (SparseMatrix::InnerIterator it(P, k); it; ++it) total += it.value();
         for (SparseMatrix::InnerIterator it(P, k); it; ++it) it.valueRef() /= total;
     }
-    return P;
+    mutual = mutual_averaging(P, mass, mass);
 }
 
 void pull_landmarks(const Side& X, const Side& Y, const Partners& partners, Centres& centres) {

@@ -8,6 +8,16 @@
 
 namespace varimap {
 
+/// How the samples of a side count in the means of its neighbourhoods (the measure W_x mu / mass(W_x mu) of
+/// Eq. 1).
+struct Averaging {
+    SparseMatrix P;  ///< p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'): weights times masses, rows sum to 1
+    SparseMatrix mutual;  ///< diag(1/m) P' diag(m): a_ik = m_k W_k(x_i) / Z_k of the costs (RelaxedMasses)
+
+    Averaging() = default;
+    Averaging(const SparseMatrix& weights, const Eigen::VectorXd& mass);
+};
+
 /// One surface at one level, as the transport problem sees it. Solving changes nothing of it.
 struct Side {
     RowMatrix
@@ -15,21 +25,17 @@ struct Side {
     Eigen::VectorXd mass;     ///< per sample, sums to 1
     SparseMatrix weights;     ///< row k: W_k(x_i) over its neighbourhood
     SparseMatrix neighbours;  ///< pattern along which the plan's support grows; holds the diagonal
-    SparseMatrix averaging;   ///< P: p_ki = m_i W_k(x_i) / sum_i' m_i' W_k(x_i'); rows sum to 1
+    Averaging averaging;
     RowMatrix descriptor;  ///< samples x F: |f_i - f_j|^2 adds to the cost of an entry (descriptor_terms.h);
                            ///< may be empty
 };
 
-/// P of a side: weights times masses, rows normalised (the measure W_x mu / mass(W_x mu) of Eq. 1).
-SparseMatrix averaging_operator(const SparseMatrix& weights, const Eigen::VectorXd& mass);
-
-/// A side with the averaging operator that counts: its own, or that of damped samples (Sec. 4.4). Refers to
-/// both.
+/// A side with the averaging that counts: its own, or that of damped samples (Sec. 4.4). Refers to both.
 struct AveragedSide {
     const Side& side;
-    const SparseMatrix& averaging;
+    const Averaging& averaging;
     AveragedSide(const Side& own) : side(own), averaging(own.averaging) {}
-    AveragedSide(const Side& own, const SparseMatrix& other) : side(own), averaging(other) {}
+    AveragedSide(const Side& own, const Averaging& other) : side(own), averaging(other) {}
 };
 
 /// Landmarks at a level: samples that belong together, and how firmly.

@@ -32,8 +32,8 @@ Centres centres_after(const std::vector<int>& move, const LevelPair& pair, const
         row.push_back(shapes::nearest_vertex(B, figures.A_on_B.row(move[std::size_t(s)]).transpose()));
     for (int s : pair.B.level.samples)
         column.push_back(move[std::size_t(shapes::nearest_vertex(A, figures.B_on_A.row(s).transpose()))]);
-    return {pair.A.side.averaging * RowMatrix(pair.B.vertex_points(row, Eigen::all)),
-            pair.B.side.averaging * RowMatrix(pair.A.vertex_points(column, Eigen::all))};
+    return {pair.A.side.averaging.P * RowMatrix(pair.B.vertex_points(row, Eigen::all)),
+            pair.B.side.averaging.P * RowMatrix(pair.A.vertex_points(column, Eigen::all))};
 }
 
 /// Share of the mass on which a level's map is reversed, solved from the map with mirrored limbs.

@@ -61,7 +61,7 @@ RowMatrix expected_centres(const RowMatrix& plan, const Level& coarse_from, cons
     }
     RowMatrix centres = RowMatrix::Zero(from.side.mass.size(), image.cols());
     for (int k = 0; k < centres.rows(); ++k) {
-        for (SparseMatrix::InnerIterator it(from.side.averaging, k); it; ++it)
+        for (SparseMatrix::InnerIterator it(from.side.averaging.P, k); it; ++it)
             centres.row(k) +=
                 it.value() *
                 image.row(coarse_from.cell[std::size_t(from.level.samples[std::size_t(it.col())])]);

@@ -33,7 +33,7 @@ TEST(Relief, IsHighOnBumpsAndLowInDents) {
     const Eigen::VectorXd height = bumpy.vertices.rowwise().norm() - sphere.vertices.rowwise().norm();
     TriangleMesh unit = bumpy;
     unit.vertices /= std::sqrt(surface_area(bumpy));
-    const Eigen::VectorXd h = relief(unit, 0.04);
+    const Eigen::VectorXd h = reliefs(unit, {0.04})[0];
     EXPECT_LE(h.cwiseAbs().maxCoeff(), 2);
     const Eigen::VectorXd a = h.array() - h.mean(), b = height.array() - height.mean();
     EXPECT_GT(a.dot(b) / (a.norm() * b.norm()), 0.9);
@@ -44,9 +44,9 @@ TEST(Relief, IsNotThatOfVerticesThatNoFaceUses) {
     TriangleMesh with_more = bumpy;
     with_more.vertices.conservativeResize(3 * bumpy.vertex_count(), 3);
     with_more.vertices.bottomRows(2 * bumpy.vertex_count()).setConstant(.5);
-    const Eigen::VectorXd h = relief(bumpy, 0.04);
+    const Eigen::VectorXd h = reliefs(bumpy, {0.04})[0];
     EXPECT_GT(h.cwiseAbs().maxCoeff(), 1);
-    EXPECT_LT((relief(with_more, 0.04).head(h.size()) - h).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((reliefs(with_more, {0.04})[0].head(h.size()) - h).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(ReliefAgreement, KnowsSurfacesOfOppositeHandedness) {
@@ -55,7 +55,7 @@ TEST(ReliefAgreement, KnowsSurfacesOfOppositeHandedness) {
     inward.faces.col(1).swap(inward.faces.col(2));
     SlidingMap map(shapes::at_vertices(outward), inward, outward);
     const auto total = [&](bool opposed) {
-        const ReliefAgreement agreement(map, 1, opposed);
+        const ReliefAgreement agreement(map, 1, relief_pairs(inward, outward, opposed));
         double sum = 0;
         for (int v = 0; v < outward.vertex_count(); ++v) sum += agreement.value(v);
         return sum;
@@ -67,7 +67,7 @@ TEST(ReliefAgreement, KnowsSurfacesOfOppositeHandedness) {
 TEST(ReliefAgreement, HasTheDerivativesOfItsValue) {
     const TriangleMesh mesh = bumpy_sphere();
     SlidingMap map(shapes::turned_identity(mesh, 0.1), mesh, mesh);
-    const ReliefAgreement relief_agreement(map, 3);
+    const ReliefAgreement relief_agreement(map, 3, relief_pairs(mesh, mesh));
     const double step = 1e-6;
     double largest = 0;
     for (int v = 0; v < mesh.vertex_count(); ++v) {

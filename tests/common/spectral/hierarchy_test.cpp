@@ -328,18 +328,33 @@ TEST(Hierarchy, TakesFurtherSamples) {
     const LevelBuilder builder(data.surface, data.basis, graph, h.options);
     for (const Level& level : h.levels) {
         const std::vector<int> wanted{level.samples[1], 17, 500};
-        const Level with = builder.with_samples(level, wanted);
+        const bool diffusion = level.kind == LevelKind::diffusion;
+        const RowMatrix embedding = diffusion_embedding(data.basis, level.scale);
+        const auto with_samples = [&](const std::vector<int>& further) {
+            return diffusion ? builder.diffusion_with(level, further, embedding)
+                             : builder.euclidean_with(level, further);
+        };
+        const Level with = with_samples(wanted);
         EXPECT_EQ(with.samples, samples_with(level, wanted));
         for (int v : wanted) EXPECT_EQ(with.samples[std::size_t(with.cell[std::size_t(v)])], v);
         EXPECT_LE(with.samples.size(), level.samples.size() + 2);
         expect_cells_and_masses(with, data.surface);
         expect_weights(with);
-        if (level.kind == LevelKind::diffusion) {
-            const Level anew = builder.diffusion(level.scale, with.samples, int(with.samples.size()));
+        if (!level.full) {
+            const int count = int(with.samples.size());
+            Level anew;
+            if (diffusion) {
+                anew = builder.diffusion_cells(level.scale, with.samples, count);
+                builder.weigh(anew);
+            } else {
+                anew = *builder.euclidean(level.scale, with.samples, count, 0).least;
+            }
             EXPECT_EQ(with.cell, anew.cell);
             EXPECT_EQ(with.mass, anew.mass);
+            EXPECT_EQ(with.weights.nonZeros(), anew.weights.nonZeros());
+            EXPECT_LT(RowMatrix(with.weights - anew.weights).cwiseAbs().maxCoeff(), 1e-12);
         }
-        const Level same = builder.with_samples(level, level.samples);
+        const Level same = with_samples(level.samples);
         EXPECT_EQ(same.samples, level.samples);
         EXPECT_EQ(same.cell, level.cell);
     }

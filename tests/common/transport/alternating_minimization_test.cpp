@@ -275,7 +275,7 @@ TEST(AlternatingMinimization, KeepsTheIdentity) {
     const LevelPair pair = PairContext(tube.A, tube.A, {}).diffusion_level(6);
     AlternatingMinimization minimization(pair.A.side, pair.B.side, {}, pair.partners);
     minimization.start(
-        {pair.A.side.averaging * pair.A.side.points, pair.A.side.averaging * pair.A.side.points}, {});
+        {pair.A.side.averaging.P * pair.A.side.points, pair.A.side.averaging.P * pair.A.side.points}, {});
     minimization.run([](const Alternation&) {});
     // Nearly all of the mass stays in the neighbourhood it came from.
     EXPECT_GT(dense(minimization.solution().plan).cwiseProduct(RowMatrix(pair.A.side.weights)).sum(), .8);

@@ -72,9 +72,10 @@ double variance_of_images(const Side& X, const RowMatrix& pi, const RowMatrix& y
 TEST(AveragingOperator, WeighsByMassAndSumsToOne) {
     const Side side = Generator(1).side(12, 2);
     const RowMatrix expected = normalised_weights(side) * side.mass.asDiagonal();
-    EXPECT_LT((RowMatrix(side.averaging) - expected).cwiseAbs().maxCoeff(), 1e-14);
-    EXPECT_LT((side.averaging * Eigen::VectorXd::Ones(12) - Eigen::VectorXd::Ones(12)).cwiseAbs().maxCoeff(),
-              1e-14);
+    EXPECT_LT((RowMatrix(side.averaging.P) - expected).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT(
+        (side.averaging.P * Eigen::VectorXd::Ones(12) - Eigen::VectorXd::Ones(12)).cwiseAbs().maxCoeff(),
+        1e-14);
 }
 
 TEST(Cost, CollapsesTheDoubleSum) {
