@@ -44,6 +44,8 @@ int main(int argc, char** argv) {
         stage.option("export", "folder for the contents of the one file, as .npy, .mtx, .ply and text");
     return stage.main(argc, argv, [&] {
         if (checks && !folder.empty()) throw UsageError("give either --check or --export, not both");
+        if (trace && (checks || !folder.empty()))
+            throw UsageError("--trace is about what is shown: with --check and --export nothing is");
         if (checks) return check_all(files);
         if (!folder.empty() && files.size() != 1) throw UsageError("--export takes exactly one file");
         if (!folder.empty()) return export_contents(files.front(), folder);

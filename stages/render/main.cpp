@@ -3,6 +3,7 @@
 
 #include "stages/render/render.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/error.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/candidates.h"
@@ -69,6 +70,8 @@ int main(int argc, char** argv) {
         "landmarks", "what the map was made with, to mark it: a file of pairs, or two lists", 1, 2);
     const auto& out = stage.output("picture", 0, "PNG to write");
     return stage.main(argc, argv, [&] {
+        if (!masses.empty() && (params.flips || !landmarks.empty()))
+            throw UsageError("--distortion shows changes of mass, area and angle: no flips and no landmarks");
         const RepairedMesh A = repaired(read_mesh(source), params.repair, source),
                            B = repaired(read_mesh(target), params.repair, target);
         PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);

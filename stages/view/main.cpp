@@ -105,6 +105,11 @@ int main(int argc, char** argv) {
         const Correspondence map = read_correspondence(files, false);
         PageContent content{map, landmarks_of(landmarks, map, landmark_reading), read_report(report), mirror};
         content.texture = texture_of(texture, map);
+        if (content.texture && is_thinned(map))
+            warn(
+                "the page shows {} vertices of these surfaces, and no texture: varimap transfer carries it "
+                "to the whole",
+                most_shown);
         if (!candidates_in.empty())
             content.candidates =
                 candidates_of(stage.read<Candidates>("candidates", candidates_in).value, map);

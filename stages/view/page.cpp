@@ -207,6 +207,10 @@ std::string inside_page(std::string json) {
 
 }  // namespace
 
+bool is_thinned(const Correspondence& map) {
+    return std::max(map.from.vertex_count(), map.to.vertex_count()) > most_shown;
+}
+
 std::string viewer_page(const PageContent& content, const std::string& frame) {
     const std::size_t at = frame.find(place);
     if (at == frame.npos) throw InputError("the page's frame has no place for data; build it again");
@@ -218,7 +222,7 @@ std::string viewer_page(const PageContent& content, const std::string& frame) {
         add_side({map.from_file, map.from, map.there, map.back, in_source}, map.to, content.mirrored, arrays);
     json["target"] =
         add_side({map.to_file, map.to, map.back, map.there, in_target}, map.from, content.mirrored, arrays);
-    const bool whole = map.from.vertex_count() == in_source && map.to.vertex_count() == in_target;
+    const bool whole = !is_thinned(content.map);
     if (content.texture && whole) json["texture"] = add_texture(*content.texture, arrays);
     json["candidates"] = Json::array();
     for (const PageCandidate& candidate : content.candidates)

@@ -34,6 +34,8 @@ struct PageContent {
 
 /// Vertices of a surface of more are not shown.
 inline constexpr int most_shown = 150000;
+/// Whether a surface of the map has more.
+bool is_thinned(const Correspondence& map);
 
 /// The page: `frame`, a page with the program in it, with the meshes, the map and what there is to say about
 /// it. Positions are rounded to 1/65535 of the mesh's extent, distortions to 1/32 of an octave, barycentric
