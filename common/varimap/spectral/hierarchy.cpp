@@ -52,8 +52,9 @@ void append_euclidean_levels(std::vector<Level>& levels, const GeodesicGraph& gr
     };
     while (true) {
         // Past half of the vertices a level of its own is not worth its time.
-        LevelBuilder::Euclidean level = builder.euclidean(sigma, levels.back().samples,
-                                                          is_fine_enough() ? 0 : least, sigma > 0 ? half : 0);
+        LevelBuilder::Euclidean level =
+            builder.euclidean(sigma, levels.back().samples,
+                              is_fine_enough() ? std::nullopt : std::optional(least), sigma > 0 ? half : 0);
         if (level.least) append(levels, std::move(*level.least));
         if (!level.dense) break;
         append(levels, std::move(*level.dense));

@@ -113,18 +113,18 @@ void LevelBuilder::weigh(Level& level) const {
         diffusion_weights(diffusion_embedding(basis_, level.scale, level.samples), options_.truncation);
 }
 
-LevelBuilder::Euclidean LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds, int least,
-                                                int most) const {
+LevelBuilder::Euclidean LevelBuilder::euclidean(double sigma, const std::vector<int>& seeds,
+                                                std::optional<int> least, int most) const {
     const double radius = sigma * gaussian_distance(options_.density);
     FarthestPointSampling sampling(graph_.vertex_count(), GeodesicGrowth(graph_));
     for (const int s : seeds) sampling.insert(s);
-    sampling.cover(radius, least);
+    sampling.cover(radius, least.value_or(0));
     const auto at_least = sampling;
     sampling.cover(radius, most + 1);
     Euclidean result;
     if (int(sampling.samples().size()) <= most)
         result.dense = euclidean_level(sampling, sigma);
-    else if (least > 0)
+    else if (least)
         result.least = euclidean_level(at_least, sigma);
     return result;
 }

@@ -39,9 +39,10 @@ class LevelBuilder {
     struct Euclidean {
         std::optional<Level>
             dense;  ///< until the level is dense; none if that takes more than `most` samples
-        std::optional<Level> least;  ///< instead of this, with `least` samples; none if that is 0
+        std::optional<Level> least;  ///< instead of this, with `least` samples, where that is asked for
     };
-    Euclidean euclidean(double sigma, const std::vector<int>& seeds, int least, int most) const;
+    Euclidean euclidean(double sigma, const std::vector<int>& seeds, std::optional<int> least,
+                        int most) const;
     /// Every vertex a sample, with a sigma of its own: the distance to its `neighbours`-th neighbour has W =
     /// epsilon.
     Level full(int neighbours) const;
