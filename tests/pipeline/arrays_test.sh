@@ -40,7 +40,7 @@ if $python -c 'import scipy' 2>/dev/null; then
     { snippet python 2; echo 'np.savetxt("scipy.txt", carried)'; } >with_scipy.py
     $python with_scipy.py >log 2>&1 || fail "SciPy"
     agrees scipy
-    "$varimap" inspect out-cow/artifacts/bull--cow.plan --export plan >/dev/null 2>log || fail "the plan"
+    "$varimap" inspect out-cow/artifacts/bull--cow.source-part.plan --export plan >/dev/null 2>log || fail "the plan"
     $python -c 'import scipy.sparse; m = scipy.sparse.load_npz("plan/plan.npz"); assert abs(m.sum() - 1) < .01, m.sum()' 2>log || fail "SciPy, plan"
 fi
 if command -v Rscript >/dev/null; then

@@ -170,7 +170,7 @@ fi
 # As far as a stage, and then on.
 map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse
 [[ -s part/artifacts/a--b.diffusion && ! -e part/artifacts/a--b.plan && ! -e part/quality.json ]] || fail "--until diffuse"
-map meshes/a.off meshes/b.off -o part "${coarse[@]}" --until diffuse --json
+"$varimap" map meshes/a.off meshes/b.off -o part "${small_picture[@]}" "${coarse[@]}" --until diffuse --json >out.txt 2>log || fail "--until diffuse --json"
 jq -e '.until == "diffuse" and (.warnings | type == "array")' out.txt >/dev/null || fail "--until diffuse --json: $(<out.txt)"
 map meshes/a.off meshes/b.off -o part "${coarse[@]}"
 expect_ran "refine relax remesh render"

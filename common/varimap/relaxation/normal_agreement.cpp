@@ -43,7 +43,9 @@ bool NormalAgreement::disagrees(int f) const {
         face = closest_(b[0] * x + b[1] * y + b[2] * z, face).point.face;
         below += face_normal(map_.target(), face).normalized();
         // Each of those left adds a vector of length 1 at most.
-        if (normal.dot(below) > double(--left) * (1 + 1e-9) * normal.norm()) return false;
+        const double most = double(--left) * (1 + 1e-9) * normal.norm();
+        if (normal.dot(below) > most) return false;
+        if (normal.dot(below) < -most) return true;
     }
     return !(normal.dot(below) > 0);
 }
