@@ -35,15 +35,23 @@ void log_repair(const ChartRepair::Report& report) {
 
 void FaultRepair::operator()(const PointMap& back) {
     if (options_.align_normals) report_.disagreeing_before = repair_all(back);
+    if (!may_be_done_again() && !may_be_recovered()) judges_.reset();
+}
+
+FaultRepair::Judges& FaultRepair::judges() {
+    if (!judges_) judges_ = std::make_unique<Judges>(map_);
+    return *judges_;
+}
+
+void FaultRepair::count_what_disagrees() {
+    report_.disagreeing_after = int(judges().agreement.disagreeing_faces().size());
 }
 
 int FaultRepair::repair_all(const PointMap& back) {
-    AlongTarget along_target(map_);
-    NormalAgreement agreement(map_, along_target);
-    std::vector<int> disagreeing = agreement.disagreeing_faces();
+    std::vector<int> disagreeing = judges().agreement.disagreeing_faces();
     const int before = int(disagreeing.size());
-    repair(back, along_target, agreement, std::move(disagreeing));
-    report_.disagreeing_after = int(agreement.disagreeing_faces().size());
+    repair(back, std::move(disagreeing));
+    count_what_disagrees();
     return before;
 }
 
@@ -55,14 +63,12 @@ void FaultRepair::again(const PointMap& back) {
     if (!is_done_again()) return;
     const PointMap kept = map_.points();
     const int faults = *faults_;
-    AlongTarget along_target(map_);
-    NormalAgreement agreement(map_, along_target);
-    repair(back, along_target, agreement, {});
+    repair(back, {});
     if (*faults_ > faults) {
         map_.restore(kept);
         faults_ = faults;
     }
-    report_.disagreeing_after = int(agreement.disagreeing_faces().size());
+    count_what_disagrees();
 }
 
 FaultRepair::State FaultRepair::state() const {
@@ -101,10 +107,8 @@ void FaultRepair::adopt(const PointMap& back) {
 }
 
 VertexData<bool> FaultRepair::faulty_vertices(const PointMap& back) {
-    AlongTarget along_target(map_);
-    NormalAgreement agreement(map_, along_target);
     VertexData<bool> marks(map_.source().vertex_count());
-    for (const int f : ChartRepair(map_, along_target, agreement, back).faulty_faces())
+    for (const int f : ChartRepair(map_, judges().along_target, judges().agreement, back).faulty_faces())
         mark_corners(map_.source(), f, marks);
     return marks;
 }
@@ -121,8 +125,8 @@ bool FaultRepair::may_be_recovered() const {
     return options_.replace_parts && options_.align_normals;
 }
 
-void FaultRepair::repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
-                         std::vector<int> disagreeing) {
+void FaultRepair::repair(const PointMap& back, std::vector<int> disagreeing) {
+    auto& [along_target, agreement] = judges();
     const VertexData<bool> stays = held();
     ChartRepair charts(map_, along_target, agreement, back, relief_);
     const std::vector<int> touched = charts(stays);

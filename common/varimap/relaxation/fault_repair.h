@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -57,8 +58,15 @@ class FaultRepair {
     int repair_all(const PointMap& back);
     /// `disagreeing`: faces that disagree with the target's normals, ascending; turned, too, where they still
     /// do.
-    void repair(const PointMap& back, AlongTarget& along_target, NormalAgreement& agreement,
-                std::vector<int> disagreeing);
+    void repair(const PointMap& back, std::vector<int> disagreeing);
+    void count_what_disagrees();
+    /// What tells faults. It keeps in mind what it has seen of images that stay where they are.
+    struct Judges {
+        AlongTarget along_target;
+        NormalAgreement agreement;
+        explicit Judges(SlidingMap& map) : along_target(map), agreement(map, along_target) {}
+    };
+    Judges& judges();
 
     SlidingMap& map_;
     const VertexData<bool>& fixed_;
@@ -66,6 +74,7 @@ class FaultRepair {
     const ReliefAgreement* relief_;
     const UntanglingOptions& options_;
     UntanglingReport& report_;
+    std::unique_ptr<Judges> judges_;
     std::optional<int> faults_;  ///< faulty faces after repair; not counted where none follows
 };
 
