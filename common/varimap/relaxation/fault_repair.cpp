@@ -19,7 +19,9 @@ constexpr double last_fold_visits = 8;  ///< as in the first round
 /// Faces that may be faulty in the end where faults are mapped anew once more: a torn map has hundreds, for
 /// which that would take long.
 constexpr int few_faults = 100;
-constexpr int few_to_adopt = 300;  ///< by the other direction
+/// By the other direction; more, as of a limb that one direction mirrors, where the other has far fewer.
+constexpr int few_to_adopt = 300;
+constexpr int far_fewer = 4;
 
 void log_repair(const ChartRepair::Report& report) {
     const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
@@ -93,17 +95,20 @@ void FaultRepair::recover(const PointMap& back) {
 }
 
 bool FaultRepair::may_adopt(const FaultRepair& other) const {
-    return faults_ && other.faults_ && *other.faults_ < *faults_ && *faults_ <= few_to_adopt;
+    return faults_ && other.faults_ && *other.faults_ < *faults_ &&
+           (*faults_ <= few_to_adopt || far_fewer * *other.faults_ <= *faults_);
 }
 
-void FaultRepair::adopt(const PointMap& back) {
+bool FaultRepair::adopt(const PointMap& back) {
     const State before = state();
     VertexData<bool> stays = held();
     const VertexData<bool> rim = boundary_vertices(map_.source(), find_edges(map_.source()));
     for (int v = 0; v < stays.size(); ++v) stays[v] = stays[v] || rim[v];
     take_from_other_direction(map_, back, faulty_vertices(back), stays);
     repair_all(back);
-    if (*faults_ >= *before.faults) restore(before);
+    if (*faults_ < *before.faults) return true;
+    restore(before);
+    return false;
 }
 
 VertexData<bool> FaultRepair::faulty_vertices(const PointMap& back) {

@@ -38,8 +38,8 @@ class FaultRepair {
     /// Whether the other direction has fewer faults, where they are counted; of torn maps not.
     bool may_adopt(const FaultRepair& other) const;
     /// Takes what is faulty, or leads elsewhere, from the other direction, and repairs what comes of it; as
-    /// it was where no fewer faults come of it. Vertices on the boundary stay.
-    void adopt(const PointMap& back);
+    /// it was, and false, where no fewer faults come of it. Vertices on the boundary stay.
+    bool adopt(const PointMap& back);
 
   private:
     struct State {

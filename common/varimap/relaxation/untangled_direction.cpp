@@ -1,6 +1,7 @@
 #include "varimap/relaxation/untangled_direction.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
@@ -155,6 +156,15 @@ void UntangledDirection::reconcile(const PointMap& back, bool whole) {
 void UntangledDirection::repair(const PointMap& back) {
     repair_.emplace(sliding_, fixed_, landmarks_, relief_.get(), options_, report_);
     (*repair_)(back);
+}
+
+/// Parts that the other direction does not mirror need not stay.
+void UntangledDirection::adopt(const PointMap& back) {
+    const VertexData<bool> stayed = std::exchange(fixed_, pinned_);
+    if (!repair_->adopt(back))
+        fixed_ = stayed;
+    else
+        fixed_ = stay(sliding_, pinned_, options_.gate, report_);
 }
 
 void UntangledDirection::restore_bound() {

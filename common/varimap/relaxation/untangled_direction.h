@@ -49,7 +49,7 @@ class UntangledDirection {
     void repair_again(const PointMap& back) { repair_->again(back); }
     void recover(const PointMap& back) { repair_->recover(back); }
     bool may_adopt(const UntangledDirection& other) const { return repair_->may_adopt(*other.repair_); }
-    void adopt(const PointMap& back) { repair_->adopt(back); }
+    void adopt(const PointMap& back);
     /// Brings areas back into the bound where repairs have taken them out of it.
     void restore_bound();
 
