@@ -134,6 +134,20 @@ TEST(Untangling, LeavesAMirroredPartAndReportsItWhenPartsAreNotReplaced) {
     EXPECT_EQ(report.parts_tried, 0);
 }
 
+TEST(Untangling, TakesAMirroredPartFromTheOtherDirectionWhereThatIsUpright) {
+    const TriangleMesh sphere = shapes::ellipsoid(3);
+    PointMap mirrored = shapes::at_vertices(sphere);
+    mirror_patch(mirrored, sphere, 7, 0.9);
+    MapPair maps{mirrored, shapes::at_vertices(sphere)};
+    UntanglingOptions options;
+    options.replace_parts = false;
+    const UntanglingReport report = untangle_both(maps, sphere, sphere, options).A_to_B;
+    EXPECT_GT(report.flipped_before, 50);
+    EXPECT_EQ(report.mirrored_parts, 0);
+    EXPECT_EQ(report.flipped_after, 0);
+    EXPECT_LT(mean_error(maps.A_to_B, sphere), 0.25 * longest_edge(sphere));  // it may turn a little
+}
+
 void expect_undone(const UntanglingReport& report, const PointMap& map, const TriangleMesh& source,
                    const TriangleMesh& target, std::size_t most_reversed) {
     EXPECT_GT(report.parts_replaced, 0);
