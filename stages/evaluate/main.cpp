@@ -94,9 +94,8 @@ MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const Trian
                     const std::vector<std::string>& files, const LandmarkReading& reading,
                     const std::string& name) {
     if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
-        return vertex_errors(target, map,
-                             read_vertex_pairs(files[0], files[1], reading.base, source, &file_of(target)),
-                             name);
+        return vertex_errors(
+            target, map, read_vertex_pairs(files[0], files[1], reading.base, source, &file_of(target)), name);
     if (source == nullptr)
         throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
     return landmark_errors(target, map, *source, files, reading, name);
@@ -118,9 +117,9 @@ int main(int argc, char** argv) {
     const auto& base_text = stage.option(
         "index-base",
         "number of a list's first vertex: 0, 1 or auto (coordinates in the list decide, else 0)");
-    const auto& space_text = stage.option(
-        "landmark-space",
-        "axes of points: stated by their file (default), as-is (those of the mesh), lps or ras");
+    const auto& space_text =
+        stage.option("landmark-space",
+                     "axes of points: stated by their file (default), as-is (those of the mesh), lps or ras");
     const auto& map_base =
         stage.option("map-base", "number of the first vertex in a vertex-to-vertex map: 0, 1 or auto");
     const auto& source_path = stage.input_option(

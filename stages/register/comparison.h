@@ -10,7 +10,8 @@ namespace varimap {
 
 /// How the specimens differ in shape. The mean shape and the components are of those that are whole, on what
 /// they have in common; parts are laid over the mean shape, each by what it has of that. Where all are parts
-/// the mean shape is the template's. Mirrored specimens are compared as their mirror images. Lists have one entry per specimen.
+/// the mean shape is the template's. Mirrored specimens are compared as their mirror images. Lists have one
+/// entry per specimen.
 struct ShapeComparison {
     Points mean;                  ///< of the common extent
     std::vector<Points> aligned;  ///< each of its own extent

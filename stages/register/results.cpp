@@ -126,8 +126,9 @@ void write_points(const ResultFolder& folder, const Registration& all, const Ext
     folder.write("points.npy", array_of(all.points));
     for (std::size_t i = 0; i < all.names.size(); ++i) {
         folder.write("specimens/" + all.names[i] + ".csv", points_csv(all.points[i]));
-        folder.write("specimens/" + all.names[i] + ".ply",
-                     ply_of(extents.of(i).of(all.points[i]), extents.of(i), all, all.spaces[i], all.is_mirrored[i]));
+        folder.write(
+            "specimens/" + all.names[i] + ".ply",
+            ply_of(extents.of(i).of(all.points[i]), extents.of(i), all, all.spaces[i], all.is_mirrored[i]));
     }
 }
 

@@ -124,7 +124,13 @@ volume() { awk 'NF == 3 && !/[a-z]/ { x[n] = $1; y[n] = $2; z[n++] = $3 } NF == 
 [[ $(sed 1,/end_header/d sided/specimens/left.ply | volume) == $(sed 1,2d left.off | volume) ]] || fail "a mirrored specimen is inside out"
 expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --mirrored template.off
 expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --landmark-weight .2
-grep -q -- '--landmark-weight needs --landmarks-from' log || fail "an option of landmarks without any"
+grep -q -- '--landmark-weight: no map has landmarks' log || fail "an option of landmarks without any"
+expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --landmark-base 1
+grep -q -- '--landmark-base needs --landmarks-from or --points-from' log || fail "a base of landmarks without any"
+mkdir one
+awk '{ print $1 + 1 }' points/template.txt >one/template.txt
+register "${coarse[@]}" template.off meshes/s1.off -o based --landmarks-from one --landmark-base 1
+[[ $(wc -l <based/landmarks.csv) == 6 ]] || fail "landmarks of the template alone, counted from 1"
 
 # A specimen of a format that is imported, though its ending makes it no mesh of a folder.
 if [[ -x $VARIMAP_BIN/varimap-import ]]; then

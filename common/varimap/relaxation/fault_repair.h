@@ -35,7 +35,7 @@ class FaultRepair {
     void recover(const PointMap& back);
     /// Faulty faces that are left, where they were counted.
     std::optional<int> faults() const { return faults_; }
-    /// Whether the other direction has fewer faults, where they are counted; of torn maps not.
+    /// Whether the other direction has fewer faults, where they are counted; far fewer where there are many.
     bool may_adopt(const FaultRepair& other) const;
     /// Takes what is faulty, or leads elsewhere, from the other direction, and repairs what comes of it; as
     /// it was, and false, where no fewer faults come of it. Vertices on the boundary stay.

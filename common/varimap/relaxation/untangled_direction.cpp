@@ -1,7 +1,6 @@
 #include "varimap/relaxation/untangled_direction.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
@@ -158,12 +157,12 @@ void UntangledDirection::repair(const PointMap& back) {
     (*repair_)(back);
 }
 
-/// Parts that the other direction does not mirror need not stay.
-void UntangledDirection::adopt(const PointMap& back) {
-    const VertexData<bool> stayed = std::exchange(fixed_, pinned_);
+void UntangledDirection::adopt(const PointMap& back, bool upright) {
+    const VertexData<bool> stayed = fixed_;
+    if (upright) fixed_ = pinned_;
     if (!repair_->adopt(back))
         fixed_ = stayed;
-    else
+    else if (upright)
         fixed_ = stay(sliding_, pinned_, options_.gate, report_);
 }
 

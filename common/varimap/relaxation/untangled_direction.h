@@ -49,7 +49,9 @@ class UntangledDirection {
     void repair_again(const PointMap& back) { repair_->again(back); }
     void recover(const PointMap& back) { repair_->recover(back); }
     bool may_adopt(const UntangledDirection& other) const { return repair_->may_adopt(*other.repair_); }
-    void adopt(const PointMap& back);
+    bool has_mirrored_parts() const { return report_.mirrored_parts > 0; }
+    /// `upright`: whether the other direction has no mirrored parts, so that those of this one need not stay.
+    void adopt(const PointMap& back, bool upright);
     /// Brings areas back into the bound where repairs have taken them out of it.
     void restore_bound();
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "varimap/core/log.h"
+#include "varimap/quality/image_mesh.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/relaxation/rounds.h"
 #include "varimap/relaxation/untangled_direction.h"
@@ -59,7 +60,8 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
         return reports;
     }
     std::vector<ReliefPair> reliefs;
-    if (options.relief_weight > 0 && options.global_steps > 0) reliefs = relief_pairs(A, B, options.opposed);
+    if (options.relief_weight > 0 && options.global_steps > 0)
+        reliefs = relief_pairs(unit_area(A), unit_area(B), options.opposed);
     std::optional<UntangledDirection> A_to_B, B_to_A;
     tbb::parallel_invoke(
         [&] { A_to_B.emplace(maps.A_to_B, A, B, pinned.A, pinned.points, options, reliefs); },
@@ -88,9 +90,12 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     // A tangle of one direction may be none of the other: an inverse without faults is a better start for it
     // than charts, which must not crush what was crushed there.
     const bool adopt_there = there.may_adopt(back), adopt_back = back.may_adopt(there);
+    const bool upright_there = !there.has_mirrored_parts(), upright_back = !back.has_mirrored_parts();
     if (adopt_there || adopt_back)
         with_each_other(there, back, [&](UntangledDirection& map, const PointMap& inverse) {
-            if (&map == &there ? adopt_there : adopt_back) map.adopt(inverse);
+            const bool is_there = &map == &there;
+            if (is_there ? adopt_there : adopt_back)
+                map.adopt(inverse, is_there ? upright_back : upright_there);
         });
     tbb::parallel_invoke([&] { there.restore_bound(); }, [&] { back.restore_bound(); });
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });

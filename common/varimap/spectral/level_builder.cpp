@@ -118,14 +118,17 @@ LevelBuilder::Euclidean LevelBuilder::euclidean(double sigma, const std::vector<
     const double radius = sigma * gaussian_distance(options_.density);
     FarthestPointSampling sampling(graph_.vertex_count(), GeodesicGrowth(graph_));
     for (const int s : seeds) sampling.insert(s);
-    sampling.cover(radius, least.value_or(0));
-    const auto at_least = sampling;
+    std::optional<FarthestPointSampling<GeodesicGrowth>> at_least;
+    if (least) {
+        sampling.cover(radius, *least);
+        at_least.emplace(sampling);
+    }
     sampling.cover(radius, most + 1);
     Euclidean result;
     if (int(sampling.samples().size()) <= most)
         result.dense = euclidean_level(sampling, sigma);
-    else if (least)
-        result.least = euclidean_level(at_least, sigma);
+    else if (at_least)
+        result.least = euclidean_level(*at_least, sigma);
     return result;
 }
 

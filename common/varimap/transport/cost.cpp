@@ -30,10 +30,10 @@ struct CollapsedSum {
     Eigen::VectorXd alpha, c;
 
     /// Without relaxed masses A is the mutual averaging, else a_ik times m_i / m'_i.
-    CollapsedSum(const AveragedSide& X, const RowMatrix& centres, const Eigen::VectorXd& relaxed)
-        : CollapsedSum(
-              relaxed.size() > 0 ? mutual_averaging(X.averaging.P, relaxed, X.side.mass) : X.averaging.mutual,
-              centres) {}
+    static CollapsedSum of(const AveragedSide& X, const RowMatrix& centres, const Eigen::VectorXd& relaxed) {
+        if (relaxed.size() == 0) return {X.averaging.mutual, centres};
+        return {mutual_averaging(X.averaging.P, relaxed, X.side.mass), centres};
+    }
 
     /// Mean contribution per sample for its mean image, which has the mean of squared norms in its last
     /// column.
@@ -109,7 +109,7 @@ SideImages images_of_columns(const Side& X, const AveragedSide& Y, const Couplin
 /// The m' that minimise sum_i A_i / m'_i within the bounds: clamp(s sqrt(A_i)), of sum 1.
 Eigen::VectorXd least_inverses(const AveragedSide& X, const RowMatrix& image, const Eigen::VectorXd& rho,
                                const RowMatrix& centres, const MassBounds& bounds) {
-    const Eigen::VectorXd mean = CollapsedSum(X, centres, {}).mean(image);
+    const Eigen::VectorXd mean = CollapsedSum::of(X, centres, {}).mean(image);
     const Eigen::ArrayXd A = X.side.mass.array() * rho.array() * mean.array();
     return bounded_masses(A.max(1e-300).log() / 2, bounds);
 }
@@ -133,7 +133,8 @@ void pull_landmarks(const Side& X, const Side& Y, const Partners& partners, Cent
 
 CostFactors::CostFactors(const AveragedSide& averaged_X, const AveragedSide& averaged_Y,
                          const Centres& centres, const RelaxedMasses& relaxed) {
-    const CollapsedSum x(averaged_X, centres.row, relaxed.row), y(averaged_Y, centres.column, relaxed.column);
+    const CollapsedSum x = CollapsedSum::of(averaged_X, centres.row, relaxed.row),
+                       y = CollapsedSum::of(averaged_Y, centres.column, relaxed.column);
     const Side &X = averaged_X.side, &Y = averaged_Y.side;
     const Eigen::Index DX = X.points.cols(), DY = Y.points.cols();
     const Eigen::Index further = X.descriptor.size() > 0 ? X.descriptor.cols() + 2 : 0;

@@ -89,8 +89,12 @@ TEST(ReliefAgreement, HasTheDerivativesOfItsValue) {
     EXPECT_GT(largest, 1e-4);
 }
 
-TEST(ReliefAgreement, TurnsAMapBackToWhereItsReliefIs) {
-    const TriangleMesh mesh = bumpy_sphere();
+class ReliefInUnits : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(ReliefAgreement, ReliefInUnits, testing::Values(1, 300, .01));
+
+TEST_P(ReliefInUnits, TurnsAMapBackToWhereItsReliefIs) {
+    TriangleMesh mesh = bumpy_sphere();
+    mesh.vertices *= GetParam();
     const PointMap start = shapes::turned_identity(mesh, 0.1);
     UntanglingOptions options;
     options.global_steps = 6;
