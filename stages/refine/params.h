@@ -30,9 +30,9 @@ struct RefineParams {
         // Chosen by hand on the known pairs, not swept: sliding along the surface in small steps is left to
         // the untangling, which does it faster.
         alternation.tolerance = 3e-3;
-        // What is scattered is left to it, too, and was hardly ever ironed out: 3 % before, 3 % after. With .02
-        // refining takes twice as long, and errors are 1.01 times as large, on a list of 36 pairs and on 31
-        // others.
+        // What is scattered is left to it, too, and was hardly ever ironed out: 3 % before, 3 % after. With
+        // .02 refining takes twice as long, and errors are 1.01 times as large, on a list of 36 pairs and on
+        // 31 others.
         ironing.tolerated_mass = 0.1;
     }
 
