@@ -65,7 +65,7 @@ struct EigenPairs {
 };
 
 EigenPairs smallest_pairs(ShiftInvert& op, int count, const EigenSolverOptions& options) {
-    const int krylov = std::min(int(op.rows()), std::max(5 * count / 2 + 8, count + 20));
+    const int krylov = std::min(int(op.rows()), std::max(2 * count, count + 20));
     Spectra::SymEigsShiftSolver<ShiftInvert> solver(op, count, krylov, options.shift);
     solver.init();
     const int converged = int(solver.compute(Spectra::SortRule::LargestMagn, 1000, options.tolerance,
