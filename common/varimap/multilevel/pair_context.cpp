@@ -48,6 +48,15 @@ std::vector<int> indices(const std::vector<Pair>& pairs, Member vertex) {
 
 using Landmark = VertexPairs<MeshVertex>::value_type;
 
+using Enlarge = Level (LevelBuilder::*)(const Level&, const std::vector<int>&, const RowMatrix&) const;
+/// A side's diffusion level with its landmarks, embedded for it only where that adds samples.
+template <class Side>
+Level with_landmarks(const Side& own, int index, Enlarge enlarge) {
+    const Level& source = own.diffusion_source(index);
+    if (samples_with(source, own.landmarks).size() == source.samples.size()) return source;
+    return (own.builder().*enlarge)(source, own.landmarks, diffusion_embedding(own.data.basis, source.scale));
+}
+
 }  // namespace
 
 RowMatrix sample_positions(const Domain& domain, const Level& level) {
@@ -118,21 +127,13 @@ LevelPair PairContext::diffusion_level(int index) const {
 }
 
 Levels PairContext::diffusion_samples(int index) const {
-    const auto side = [index](const Side& own) {
-        const Level& source = own.diffusion_source(index);
-        return own.builder().diffusion_with(source, own.landmarks,
-                                            diffusion_embedding(own.data.basis, source.scale));
-    };
-    return {side(A_), side(B_)};
+    constexpr Enlarge enlarge = &LevelBuilder::diffusion_with;
+    return {with_landmarks(A_, index, enlarge), with_landmarks(B_, index, enlarge)};
 }
 
 Levels PairContext::diffusion_cells(int index) const {
-    const auto side = [index](const Side& own) {
-        const Level& source = own.diffusion_source(index);
-        return own.builder().diffusion_cells_with(source, own.landmarks,
-                                                  diffusion_embedding(own.data.basis, source.scale));
-    };
-    return {side(A_), side(B_)};
+    constexpr Enlarge enlarge = &LevelBuilder::diffusion_cells_with;
+    return {with_landmarks(A_, index, enlarge), with_landmarks(B_, index, enlarge)};
 }
 
 int PairContext::diffusion_sample_count(int index) const {

@@ -119,10 +119,16 @@ TEST(Untangling, WorksWithBoundaries) {
     expect_untangled(map, square, square);
 }
 
+/// The identity, but for a mirrored part.
+PointMap with_a_mirrored_part(const TriangleMesh& mesh) {
+    PointMap mirrored = shapes::at_vertices(mesh);
+    mirror_patch(mirrored, mesh, 7, 0.9);
+    return mirrored;
+}
+
 TEST(Untangling, LeavesAMirroredPartAndReportsItWhenPartsAreNotReplaced) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    PointMap mirrored = shapes::at_vertices(sphere);
-    mirror_patch(mirrored, sphere, 7, 0.9);
+    const PointMap mirrored = with_a_mirrored_part(sphere);
     MapPair maps = both_ways(mirrored);
     UntanglingOptions options;
     options.replace_parts = false;
@@ -136,9 +142,7 @@ TEST(Untangling, LeavesAMirroredPartAndReportsItWhenPartsAreNotReplaced) {
 
 TEST(Untangling, TakesAMirroredPartFromTheOtherDirectionWhereThatIsUpright) {
     const TriangleMesh sphere = shapes::ellipsoid(3);
-    PointMap mirrored = shapes::at_vertices(sphere);
-    mirror_patch(mirrored, sphere, 7, 0.9);
-    MapPair maps{mirrored, shapes::at_vertices(sphere)};
+    MapPair maps{with_a_mirrored_part(sphere), shapes::at_vertices(sphere)};
     UntanglingOptions options;
     options.replace_parts = false;
     const UntanglingReport report = untangle_both(maps, sphere, sphere, options).A_to_B;
