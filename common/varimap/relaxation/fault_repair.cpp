@@ -4,7 +4,6 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
-#include "varimap/mesh/boundary.h"
 #include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/missed_parts.h"
@@ -101,10 +100,7 @@ bool FaultRepair::may_adopt(const FaultRepair& other) const {
 
 bool FaultRepair::adopt(const PointMap& back) {
     const State before = state();
-    VertexData<bool> stays = held();
-    const VertexData<bool> rim = boundary_vertices(map_.source(), find_edges(map_.source()));
-    for (int v = 0; v < stays.size(); ++v) stays[v] = stays[v] || rim[v];
-    take_from_other_direction(map_, back, faulty_vertices(back), stays);
+    take_from_other_direction(map_, back, faulty_vertices(back), with_boundary(held(), map_.source()));
     repair_all(back);
     if (*faults_ < *before.faults) return true;
     restore(before);

@@ -14,4 +14,7 @@ std::vector<int> free_vertices(const SlidingMap& map, VertexData<bool> fixed,
 VertexData<bool> held_vertices(const SlidingMap& map, VertexData<bool> fixed,
                                const std::vector<SoftConstraint>& landmarks);
 
+/// The marked vertices, and those on the mesh's boundary.
+VertexData<bool> with_boundary(VertexData<bool> marks, const TriangleMesh& mesh);
+
 }  // namespace varimap

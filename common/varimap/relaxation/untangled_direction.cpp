@@ -170,11 +170,9 @@ void UntangledDirection::restore_bound() {
     if (!options_.restore_bound || !options_.align_normals || options_.settling_steps == 0 ||
         !(options_.area_bound > 0))
         return;
-    VertexData<bool> held = with_landmarks(fixed_);
     // As repairs do: nothing else holds a rim to the target's.
-    const VertexData<bool> rim = boundary_vertices(source_, find_edges(source_));
-    for (int v = 0; v < held.size(); ++v) held[v] = held[v] || rim[v];
-    BoundRepair repair(sliding_, options_.area_bound, exempt(), std::move(held));
+    BoundRepair repair(sliding_, options_.area_bound, exempt(),
+                       with_boundary(with_landmarks(fixed_), source_));
     repair({options_.area_weight, settling_round.regularisation});
 }
 
