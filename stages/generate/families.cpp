@@ -10,14 +10,6 @@ namespace {
 
 using std::numbers::pi;
 
-Vec3 reflected(const Vec3& p) {
-    return {p[0], -p[1], p[2]};
-}
-std::vector<Limb> reflected(std::vector<Limb> limbs) {
-    for (Limb& limb : limbs) limb.a = reflected(limb.a), limb.b = reflected(limb.b);
-    return limbs;
-}
-
 /// Lengths and angles of one member. x forward, y left, z up.
 class Proportions {
   public:

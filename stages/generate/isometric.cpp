@@ -26,13 +26,6 @@ Part bent_limb(const Limb& limb, double root, Random& random, std::vector<Limb> 
     return {more, bend_of(limb.a, limb.b, root, 0.7 * length, towards, random.between(0.4, 0.9))};
 }
 
-Vec3 reflected(const Vec3& p) {
-    return {p[0], -p[1], p[2]};
-}
-Limb reflected(const Limb& limb) {
-    return {reflected(limb.a), reflected(limb.b), limb.ra, limb.rb};
-}
-
 /// The limb with its end moved, to `factor` times the length.
 Limb scaled(const Limb& limb, double factor) {
     return {limb.a, limb.a + factor * (limb.b - limb.a), limb.ra, limb.rb};

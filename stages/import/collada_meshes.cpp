@@ -8,7 +8,7 @@
 namespace varimap {
 namespace {
 
-struct NotUnderstood {};
+struct ColladaNotUnderstood {};
 
 template <class T, class Convert>
 std::vector<T> numbers(std::string_view text, Convert convert) {
@@ -17,7 +17,7 @@ std::vector<T> numbers(std::string_view text, Convert convert) {
          at = text.find_first_not_of(" \t\r\n", at)) {
         const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
         T value;
-        if (!convert(text.substr(at, end - at), value)) throw NotUnderstood();
+        if (!convert(text.substr(at, end - at), value)) throw ColladaNotUnderstood();
         result.push_back(value);
         at = end;
     }
@@ -70,7 +70,7 @@ class MeshReader {
         for (std::size_t i = 0; i + 2 < x.size(); i += stride)
             soup_.points.emplace_back(x[i], x[i + 1], x[i + 2]);
         for (const long long v : soup_.corners)
-            if (v < 0 || v >= static_cast<long long>(soup_.points.size())) throw NotUnderstood();
+            if (v < 0 || v >= static_cast<long long>(soup_.points.size())) throw ColladaNotUnderstood();
         return std::move(soup_);
     }
 
@@ -84,11 +84,11 @@ class MeshReader {
         if (semantic == "VERTEX") vertex_offset_ = offset;
     }
     void add(const std::vector<long long>& indices) {
-        if (width_ == 0) throw NotUnderstood();
+        if (width_ == 0) throw ColladaNotUnderstood();
         const std::size_t count = indices.size() / width_;
         std::size_t next = 0;
         const auto polygon = [&](std::size_t size) {
-            if (size > count - next) throw NotUnderstood();
+            if (size > count - next) throw ColladaNotUnderstood();
             for (std::size_t k = 0; k < size; ++k)
                 if (size > 2) soup_.corners.push_back(indices[(next + k) * width_ + vertex_offset_]);
             if (size > 2) soup_.end_polygon();
@@ -124,7 +124,7 @@ std::vector<PolygonSoup> collada_meshes(std::string_view text) {
         try {
             while (tags.next(tag) && tag.name != "/mesh") mesh.read(tag);
             result.push_back(mesh.soup());
-        } catch (const NotUnderstood&) {
+        } catch (const ColladaNotUnderstood&) {
         }
     }
     return result;

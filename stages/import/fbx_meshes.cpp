@@ -11,7 +11,7 @@ namespace varimap {
 namespace {
 
 /// What stands in the way of understanding a file ends its reading.
-struct NotUnderstood {};
+struct FbxNotUnderstood {};
 
 /// One Geometry, as far as it is read.
 struct Geometry {
@@ -25,7 +25,7 @@ struct Geometry {
         std::vector<long long> polygon;
         for (const long long corner : corners) {
             const long long v = corner < 0 ? -1 - corner : corner;
-            if (v >= static_cast<long long>(result.points.size())) throw NotUnderstood();
+            if (v >= static_cast<long long>(result.points.size())) throw FbxNotUnderstood();
             polygon.push_back(v);
             if (corner >= 0) continue;
             if (polygon.size() > 2) {  // others are points and lines
@@ -44,11 +44,11 @@ class Bytes {
     explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
     std::size_t at() const { return at_; }
     void go_to(std::size_t at) {
-        if (at > bytes_.size()) throw NotUnderstood();
+        if (at > bytes_.size()) throw FbxNotUnderstood();
         at_ = at;
     }
     std::string_view take(std::size_t count) {
-        if (count > bytes_.size() - at_) throw NotUnderstood();
+        if (count > bytes_.size() - at_) throw FbxNotUnderstood();
         at_ += count;
         return bytes_.substr(at_ - count, count);
     }
@@ -67,13 +67,13 @@ class Bytes {
 
 std::string inflated(std::string_view bytes, std::size_t size) {
     // Deflate makes no more of it than 1032 times as much.
-    if (size > 1040 * (bytes.size() + 1)) throw NotUnderstood();
+    if (size > 1040 * (bytes.size() + 1)) throw FbxNotUnderstood();
     std::string result(size, '\0');
     auto length = uLongf(size);
     if (uncompress(reinterpret_cast<Bytef*>(result.data()), &length,
                    reinterpret_cast<const Bytef*>(bytes.data()), uLong(bytes.size())) != Z_OK ||
         length != size)
-        throw NotUnderstood();
+        throw FbxNotUnderstood();
     return result;
 }
 
@@ -91,7 +91,7 @@ template <class T>
 std::vector<T> array_property(Bytes& bytes) {
     const char type = bytes.take(1)[0];
     const std::size_t width = type == 'd' || type == 'l' ? 8 : type == 'f' || type == 'i' ? 4 : 0;
-    if (width == 0) throw NotUnderstood();
+    if (width == 0) throw FbxNotUnderstood();
     const std::size_t count = bytes.number<std::uint32_t>();
     const bool is_deflated = bytes.number<std::uint32_t>() == 1;
     const std::string_view stored = bytes.take(bytes.number<std::uint32_t>());
@@ -127,7 +127,7 @@ class BinaryFbx {
         const std::size_t length = offset();
         const std::string_view name = bytes_.take(bytes_.number<std::uint8_t>());
         if (end == 0) return false;
-        if (end < bytes_.at() || end > size_) throw NotUnderstood();
+        if (end < bytes_.at() || end > size_) throw FbxNotUnderstood();
         const std::size_t properties = bytes_.at();
         const bool is_geometry = depth == 1 && name == "Geometry";
         if (is_geometry) found_.emplace_back();
@@ -155,7 +155,7 @@ class BinaryFbx {
 std::vector<Geometry> binary_geometries(std::string_view bytes) {
     try {
         return BinaryFbx(bytes).read();
-    } catch (const NotUnderstood&) {
+    } catch (const FbxNotUnderstood&) {
         return {};
     }
 }
@@ -210,7 +210,7 @@ std::vector<PolygonSoup> fbx_meshes(std::string_view bytes) {
     for (const Geometry& geometry : is_binary ? binary_geometries(bytes) : ascii_geometries(bytes)) {
         try {
             result.push_back(geometry.soup());
-        } catch (const NotUnderstood&) {
+        } catch (const FbxNotUnderstood&) {
         }
     }
     return result;

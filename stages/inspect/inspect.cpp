@@ -18,7 +18,7 @@ namespace {
 /// Lists contents: facts as they are, arrays by shape and range.
 class Summary : public ContentsVisitor {
   public:
-    explicit Summary(Extent extent = Extent::all) : extent_(extent) {}
+    explicit Summary(Detail detail = Detail::all) : detail_(detail) {}
     void fact(const std::string& name, const std::string& value) override { line(name, value); }
     void array(const std::string& name, const ArrayView& array) override {
         line(name, std::visit([&](const auto* data) { return described(data, array); }, array.data));
@@ -34,7 +34,7 @@ class Summary : public ContentsVisitor {
     void text(const std::string& name, const std::string& content) override {
         constexpr auto few = 6;
         const auto lines = std::count(content.begin(), content.end(), '\n');
-        if (extent_ == Extent::screen && lines > few)
+        if (detail_ == Detail::screen && lines > few)
             line(name, fmt::format("{} lines: --trace shows them", lines));
         else if (!content.empty())
             text_ += "  " + name + "\n" + indented(content);
@@ -60,7 +60,7 @@ class Summary : public ContentsVisitor {
     void line(const std::string& name, const std::string& value) {
         text_ += fmt::format("  {:<22} {}\n", name, value);
     }
-    Extent extent_;
+    Detail detail_;
     std::string text_;
 };
 
@@ -114,13 +114,13 @@ std::string first_generation(const std::string& made_from) {
 
 }  // namespace
 
-std::string summarise(const std::string& path, Extent extent) {
-    Summary summary(extent);
+std::string summarise(const std::string& path, Detail detail) {
+    Summary summary(detail);
     visit_artifact(path, summary);
     const Header header = read_header(path);
     const std::string made_from = lineage(path);
-    const std::string from = extent == Extent::all ? made_from : first_generation(made_from);
-    return (extent == Extent::all ? header_text(header) : short_header(header)) + "\nmade from\n" +
+    const std::string from = detail == Detail::all ? made_from : first_generation(made_from);
+    return (detail == Detail::all ? header_text(header) : short_header(header)) + "\nmade from\n" +
            (from.empty() ? "  nothing\n" : from) + "\nholds\n" + summary.result();
 }
 

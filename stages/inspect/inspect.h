@@ -9,8 +9,8 @@ namespace varimap {
 
 /// Header, lineage and contents of an artifact, to be read by people: all of it, or what fits a screen.
 /// Throws ArtifactError, IoError.
-enum class Extent : int { screen, all };
-std::string summarise(const std::string& path, Extent extent = Extent::all);
+enum class Detail : int { screen, all };
+std::string summarise(const std::string& path, Detail detail = Detail::all);
 
 /// Reads and decodes all of an artifact; what is wrong with it, if anything.
 std::optional<Error> check(const std::string& path);

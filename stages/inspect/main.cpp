@@ -50,6 +50,6 @@ int main(int argc, char** argv) {
         if (!folder.empty() && files.size() != 1) throw UsageError("--export takes exactly one file");
         if (!folder.empty()) return export_contents(files.front(), folder);
         for (const auto& file : files)
-            fmt::print("{}", summarise(file, trace ? Extent::all : Extent::screen));
+            fmt::print("{}", summarise(file, trace ? Detail::all : Detail::screen));
     });
 }

@@ -15,7 +15,7 @@ namespace varimap {
 namespace {
 
 /// Share of the energy that a step must win to be followed by another.
-constexpr double least_gain = 1e-4;
+constexpr double least_step_gain = 1e-4;
 
 bool has_all_images(const SlidingMap& map) {
     for (const int v : map.source().faces.reshaped())
@@ -32,7 +32,7 @@ void relax(SlidingMap& map, const VertexData<bool>& pinned, const ReliefAgreemen
     for (int step = 0; step < options.steps; ++step) {
         const double gain = global.step(energy);
         local.sweep(free, energy.energy);
-        if (gain < least_gain && step > 3) break;
+        if (gain < least_step_gain && step > 3) break;
     }
     FoldRemoval{usual_fold_sweeps, round.fold_visits}(map, pinned);
 }

@@ -19,7 +19,7 @@ struct ShapeComparison {
         sizes;  ///< root mean square distance from the centroid; a part's, as if it were whole
     std::vector<double> distances;  ///< from the mean shape, root mean square over the own extent
     std::vector<bool> is_outlier;
-    Components components;  ///< scores: a row for each specimen that is whole
+    PrincipalComponents components;  ///< scores: a row for each specimen that is whole
 };
 
 /// `components`: at most so many. `scale`: bring all to one size first.

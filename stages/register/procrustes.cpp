@@ -82,9 +82,10 @@ Alignment procrustes(const std::vector<Points>& shapes, const Points& start, con
     return result;
 }
 
-Components principal_components(const Alignment& alignment, const Eigen::VectorXd& weights, int count) {
+PrincipalComponents principal_components(const Alignment& alignment, const Eigen::VectorXd& weights,
+                                         int count) {
     const auto shapes = Eigen::Index(alignment.shapes.size());
-    Components result;
+    PrincipalComponents result;
     if (shapes < 2) return result;
     const Points centre = average(alignment.shapes);
     Eigen::MatrixXd gram(shapes, shapes);

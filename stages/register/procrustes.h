@@ -35,7 +35,7 @@ LaidOver laid_over(const Points& points, const Points& onto, const Eigen::Vector
 
 /// Principal components of aligned shapes: the eigenvectors of their covariance, weighted as the alignment
 /// is, about their average.
-struct Components {
+struct PrincipalComponents {
     Eigen::VectorXd variance;          ///< of the scores on each, largest first, in squared units of length
     double total_variance = 0;         ///< of all components, those left out too
     Eigen::MatrixXd scores;            ///< a row for each shape, a column for each component
@@ -44,7 +44,8 @@ struct Components {
 
 /// At most `count`, and one less than there are shapes; none for a single shape. Of the two signs, the one in
 /// which the score of largest magnitude is positive.
-Components principal_components(const Alignment& alignment, const Eigen::VectorXd& weights, int count);
+PrincipalComponents principal_components(const Alignment& alignment, const Eigen::VectorXd& weights,
+                                         int count);
 
 /// Which of these are farther above the median than three times 1.4826 times the median absolute deviation,
 /// three standard deviations if they were normal; none of fewer than five.

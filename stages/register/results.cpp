@@ -61,11 +61,11 @@ std::string ply_of(const Points& points, const Extent& extent, const Registratio
 }
 
 std::string aligned_npy(const ShapeComparison& shapes, const Extents& extents, int vertices) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<Points> aligned;
     for (std::size_t i = 0; i < shapes.aligned.size(); ++i)
         aligned.push_back(
-            on_template(shapes.aligned[i], extents.of(i), vertices, Eigen::RowVector3d::Constant(nan)));
+            on_template(shapes.aligned[i], extents.of(i), vertices, Eigen::RowVector3d::Constant(none)));
     return array_of(aligned);
 }
 
@@ -81,7 +81,7 @@ void write_component_meshes(const ResultFolder& folder, const Registration& all,
     }
 }
 
-std::string components_csv(const Components& components) {
+std::string components_csv(const PrincipalComponents& components) {
     std::string text = "component,variance,share\n";
     for (Eigen::Index k = 0; k < components.variance.size(); ++k) {
         const double share =

@@ -62,14 +62,14 @@ class Paint {
 };
 
 /// What of the target lies on the centre of each pixel.
-struct Layout {
+struct PixelLayout {
     std::vector<SurfacePoint> on;  ///< the first face that lies there
     std::vector<char> overlapped;  ///< whether another one lies there, too
 };
 
-Layout faces_on_pixels(const ObjModel& target, int n) {
+PixelLayout faces_on_pixels(const ObjModel& target, int n) {
     const std::size_t pixels = std::size_t(n) * std::size_t(n);
-    Layout layout{std::vector<SurfacePoint>(pixels), std::vector<char>(pixels, 0)};
+    PixelLayout layout{std::vector<SurfacePoint>(pixels), std::vector<char>(pixels, 0)};
     for (int f = 0; f < int(target.uv_of.rows()); ++f) {
         Eigen::Matrix<double, 2, 3> corner;
         for (int k = 0; k < 3; ++k) {
@@ -100,7 +100,7 @@ Layout faces_on_pixels(const ObjModel& target, int n) {
 }
 
 /// Refuses a layout on which nothing is drawn, and warns of one on which much is drawn twice.
-void check_layout(const Layout& layout, const std::string& path, int pixels) {
+void check_layout(const PixelLayout& layout, const std::string& path, int pixels) {
     const auto drawn = std::count_if(layout.on.begin(), layout.on.end(),
                                      [](const SurfacePoint& point) { return point.face >= 0; });
     if (drawn == 0)
@@ -155,7 +155,7 @@ TextureImage bake(const Correspondence& map, const PointCarrier& back, const Tex
                   const ObjModel& target, const std::string& target_file, const BakeSize& size) {
     require_square(target, target_file);
     const Paint paint(map.from, texture);
-    const Layout layout = faces_on_pixels(target, size.pixels);
+    const PixelLayout layout = faces_on_pixels(target, size.pixels);
     check_layout(layout, target_file, size.pixels);
     const std::vector<SurfacePoint>& on = layout.on;
     TextureImage image(size.pixels, size.pixels);

@@ -80,7 +80,7 @@ void require_number(const TextRow& row, std::size_t number, const std::string& n
 }
 
 /// What a file looks like besides its values.
-struct Layout {
+struct TableLayout {
     std::string names;  ///< the first line, if it names columns
     bool numbered = false;
     char separator = ' ';
@@ -88,7 +88,7 @@ struct Layout {
     Dictionary words;
 };
 
-std::string to_text(const Eigen::MatrixXd& values, const Layout& layout) {
+std::string to_text(const Eigen::MatrixXd& values, const TableLayout& layout) {
     std::string text = layout.names;
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
         std::vector<std::string> words;
@@ -102,7 +102,8 @@ std::string to_text(const Eigen::MatrixXd& values, const Layout& layout) {
 }
 
 /// The rows behind `first`, without the column that numbers them.
-Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::string& path, Layout& layout) {
+Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::string& path,
+                           TableLayout& layout) {
     const std::size_t width = text.rows[0].words.size(), skipped = layout.numbered ? 1 : 0;
     Eigen::MatrixXd values(Eigen::Index(text.rows.size() - first), Eigen::Index(width - skipped));
     for (std::size_t i = first; i < text.rows.size(); ++i) {
@@ -126,7 +127,7 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
         split_rows(bytes, path, kind == ValueKind::label ? Content::words : Content::numbers);
     const auto& first = text.rows[0].words;
     const bool named = has_names(text, kind, mesh);
-    Layout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
+    TableLayout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
     ValueTable table{Place::vertex, read_cells(text, named ? 1 : 0, path, layout)};
     const auto write = [layout](const std::vector<ValueTable>& tables, const TriangleMesh&) {

@@ -26,7 +26,7 @@ struct Values {
     }
 };
 
-void parse(std::vector<std::string> arguments) {
+void parse_arguments(std::vector<std::string> arguments) {
     Values values;
     CommandLine line;
     line.stage = "eigen";
@@ -40,7 +40,7 @@ void parse(std::vector<std::string> arguments) {
 
 void read_config(const std::string& bytes) {
     const ScratchFile file(bytes, ".toml");
-    parse({"--config", file.path()});
+    parse_arguments({"--config", file.path()});
 }
 
 void read_parameter(const std::string& bytes) {
@@ -48,11 +48,11 @@ void read_parameter(const std::string& bytes) {
     const std::string text = bytes.substr(0, bytes.find('\0'));
     for (const char* name : {"weight", "count", "on", "word"}) {
         try {
-            parse({fmt::format("--{}={}", name, text)});
+            parse_arguments({fmt::format("--{}={}", name, text)});
         } catch (const Error&) {
         }
     }
-    parse({text});
+    parse_arguments({text});
 }
 
 }  // namespace

@@ -8,36 +8,36 @@
 namespace varimap::fuzz {
 namespace {
 
-const std::vector<std::string> numbers{"0",
-                                       "-0",
-                                       "-1",
-                                       "1",
-                                       "2",
-                                       "3",
-                                       "0.5",
-                                       "1e308",
-                                       "-1e308",
-                                       "1e155",
-                                       "1e60",
-                                       "1e-320",
-                                       "1e999",
-                                       "nan",
-                                       "inf",
-                                       "-inf",
-                                       "2147483647",
-                                       "2147483648",
-                                       "4294967295",
-                                       "9223372036854775807",
-                                       "-9223372036854775808",
-                                       "18446744073709551616",
-                                       "+1",
-                                       "1.",
-                                       ".",
-                                       "0x10",
-                                       "1e",
-                                       "--1",
-                                       "65536",
-                                       "1000000000"};
+const std::vector<std::string> number_words{"0",
+                                            "-0",
+                                            "-1",
+                                            "1",
+                                            "2",
+                                            "3",
+                                            "0.5",
+                                            "1e308",
+                                            "-1e308",
+                                            "1e155",
+                                            "1e60",
+                                            "1e-320",
+                                            "1e999",
+                                            "nan",
+                                            "inf",
+                                            "-inf",
+                                            "2147483647",
+                                            "2147483648",
+                                            "4294967295",
+                                            "9223372036854775807",
+                                            "-9223372036854775808",
+                                            "18446744073709551616",
+                                            "+1",
+                                            "1.",
+                                            ".",
+                                            "0x10",
+                                            "1e",
+                                            "--1",
+                                            "65536",
+                                            "1000000000"};
 
 const std::vector<std::int64_t> integers{0,
                                          1,
@@ -96,7 +96,7 @@ std::string Mutator::word() {
     const std::size_t which = below(3);
     if (which == 0 && !dictionary_.empty()) return dictionary_[below(dictionary_.size())];
     if (which == 1) return std::to_string(int(below(300)) - 20);
-    return numbers[below(numbers.size())];
+    return number_words[below(number_words.size())];
 }
 
 void Mutator::edit_word(std::string& bytes) {

@@ -190,7 +190,7 @@ TEST(Inspect, APlanFitsAScreen) {
     Plan plan = small_plan();
     plan.trace.assign(200, TraceRow{});
     write_sample(folder / "AB.plan", plan, {{"basis_A", "basis", content_hash("basis")}});
-    const std::string text = summarise(folder / "AB.plan", Extent::screen);
+    const std::string text = summarise(folder / "AB.plan", Detail::screen);
     EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 45);
     EXPECT_THAT(text, HasSubstr("plan of varimap-test"));
     EXPECT_THAT(text, HasSubstr("basis_A: basis"));

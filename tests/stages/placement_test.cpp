@@ -12,12 +12,12 @@ namespace {
 
 /// The figure of unit area, the part of it in front of a place along it, and images of the part's vertices
 /// that lie around their places, farther apart or nearer by a factor.
-struct Pair {
+struct PlacedPair {
     TriangleMesh whole, part;
     PointMap start;
     double share;
 
-    Pair(double behind, double stretch) {
+    PlacedPair(double behind, double stretch) {
         whole = shapes::figure(.15);
         whole.vertices /= std::sqrt(surface_area(whole));
         std::vector<int> in_front;
@@ -48,7 +48,7 @@ struct Pair {
 /// Nothing but the surfaces' forms says where the rim is.
 TEST(Placement, FindsItsRim) {
     for (const double stretch : {.9, 1.1}) {
-        const Pair pair(-.05, stretch);
+        const PlacedPair pair(-.05, stretch);
         const double before = pair.mean_error(pair.start);
         const Placement found = pair.result();
         EXPECT_GT(before, .014) << stretch;
@@ -59,7 +59,7 @@ TEST(Placement, FindsItsRim) {
 
 /// A part of another size is strained.
 TEST(Placement, IsStrainedWhereItDoesNotFit) {
-    Pair pair(-.05, 1);
+    PlacedPair pair(-.05, 1);
     const double right = pair.result().strain;
     VertexData<bool> pinned(pair.part.vertex_count());
     for (const int v : pair.part.faces.reshaped())
@@ -72,7 +72,7 @@ TEST(Placement, IsStrainedWhereItDoesNotFit) {
 
 /// A wrong try must not win for want of faces to be judged by.
 TEST(Placement, WithoutImagesIsWorst) {
-    Pair pair(-.05, 1);
+    PlacedPair pair(-.05, 1);
     pair.start[std::size_t(pair.part.faces(0, 0))] = {};
     EXPECT_EQ(pair.result().strain, std::numeric_limits<double>::infinity());
 }

@@ -32,7 +32,7 @@ const TriangleMesh& body() {
     return mesh;
 }
 
-Points moved(const Points& points, double scale, double angle, const Vec3& by) {
+Points placed(const Points& points, double scale, double angle, const Vec3& by) {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vec3(1, 2, .5).normalized()).toRotationMatrix();
     return ((scale * points * turn).rowwise() + by.transpose()).eval();
 }
@@ -52,7 +52,7 @@ TEST(Procrustes, LaysMovedCopiesOverTheStart) {
     const Eigen::VectorXd weights = voronoi_masses(body());
     const Points& rest = body().vertices;
     const Alignment found =
-        procrustes({moved(rest, 1, .4, {1, 2, 3}), moved(rest, 3, -2, {0, -5, 1})}, rest, weights, true);
+        procrustes({placed(rest, 1, .4, {1, 2, 3}), placed(rest, 3, -2, {0, -5, 1})}, rest, weights, true);
     EXPECT_THAT(found.distances, Each(Lt(1e-9)));
     EXPECT_NEAR(found.sizes[1] / found.sizes[0], 3, 1e-9);
     // The mean has the mean size, twice that of the start, and lies over it.
@@ -75,7 +75,7 @@ double size_about_centroid(const Points& points, const Eigen::VectorXd& weights)
 
 TEST(Procrustes, TheMeanIsTheAverageEnlargedToTheMeanSize) {
     const Eigen::VectorXd weights = voronoi_masses(body()) / voronoi_masses(body()).sum();
-    const std::vector<Points> shapes{bent(-3), moved(bent(1), 2, .5, {1, 0, 0}), bent(4)};
+    const std::vector<Points> shapes{bent(-3), placed(bent(1), 2, .5, {1, 0, 0}), bent(4)};
     const Alignment found = procrustes(shapes, body().vertices, weights, true);
     const double size = (found.sizes[0] + found.sizes[1] + found.sizes[2]) / 3;
     const double enlarged = size / size_about_centroid(average_of(found, weights), weights);
@@ -87,7 +87,7 @@ TEST(Procrustes, TheMeanIsTheAverageEnlargedToTheMeanSize) {
 
 TEST(Procrustes, KeepsSizesWhereAsked) {
     const Eigen::VectorXd weights = voronoi_masses(body());
-    const Alignment found = procrustes({body().vertices, moved(body().vertices, 3, 1, {0, 0, 1})},
+    const Alignment found = procrustes({body().vertices, placed(body().vertices, 3, 1, {0, 0, 1})},
                                        body().vertices, weights, false);
     EXPECT_NEAR(found.distances[0], found.sizes[0], 1e-6);  // from 1 to the mean 2
     EXPECT_NEAR(found.distances[1], found.sizes[0], 1e-6);
@@ -105,9 +105,9 @@ TEST(PrincipalComponents, FindTheOneWayInWhichShapesDiffer) {
     const Eigen::VectorXd weights = voronoi_masses(body());
     std::vector<Points> shapes;
     for (const double amount : {-2., -1., 0., 1., 2.})
-        shapes.push_back(moved(bent(amount * .01), 1, amount, {amount, 0, 0}));
+        shapes.push_back(placed(bent(amount * .01), 1, amount, {amount, 0, 0}));
     const Alignment alignment = procrustes(shapes, body().vertices, weights, false);
-    const Components found = principal_components(alignment, weights, 10);
+    const PrincipalComponents found = principal_components(alignment, weights, 10);
     ASSERT_EQ(found.variance.size(), 4);
     EXPECT_GT(found.variance[0] / found.total_variance, .999);
     EXPECT_NEAR(found.variance.sum(), found.total_variance, 1e-12);
@@ -337,7 +337,7 @@ TEST(Extents, OfAPartAreNotThoseOfTheOthers) {
 Registration with_a_part() {
     Registration all;
     all.first = body();
-    Points part = moved(bent(.02), 3, 1.2, {5, 0, -4});
+    Points part = placed(bent(.02), 3, 1.2, {5, 0, -4});
     for (Eigen::Index v = 0; v < part.rows(); ++v)
         if (body().vertices(v, 0) > 0) part.row(v).setConstant(std::nan(""));
     all.points = {bent(0), part, bent(.01), bent(.02)};

@@ -13,7 +13,7 @@ namespace varimap {
 namespace {
 
 /// A figure, and its front turned in space.
-struct Pair {
+struct TurnedPair {
     TriangleMesh rest = shapes::figure(.2);
     std::vector<int> vertex_of;  ///< per vertex of the front that of the figure
     TriangleMesh front;
@@ -22,7 +22,7 @@ struct Pair {
     Sketches sketches{context, PartSide::source};
     Sides sides{context.A().surface, context.B().surface, {}, PartSide::source};
 
-    Pair()
+    TurnedPair()
         : front(turned_front()),
           share(surface_area(front) / surface_area(rest)),
           context(data(front), data(rest), {}) {}
@@ -58,7 +58,7 @@ struct Pair {
 };
 
 TEST(RigidSearch, FindsWhereThePartFitsAmongOtherPlaces) {
-    const Pair pair;
+    const TurnedPair pair;
     const std::vector<PointMap> guesses = rigid_guesses(pair.sketches, pair.sides, pair.share);
     ASSERT_GT(guesses.size(), 3u);
     EXPECT_LT(pair.mean_error(guesses.front()), .01);
@@ -66,7 +66,7 @@ TEST(RigidSearch, FindsWhereThePartFitsAmongOtherPlaces) {
 }
 
 TEST(PlacementAgreement, TellsTheRightPlaceFromOthers) {
-    const Pair pair;
+    const TurnedPair pair;
     const PlacementAgreement agreement(pair.sketches, pair.sides, pair.share);
     const double right = agreement({pair.truth(), 0, 1});
     EXPECT_NEAR(right, 2.5, .05);  // normals at the rim differ
@@ -78,7 +78,7 @@ TEST(PlacementAgreement, TellsTheRightPlaceFromOthers) {
 
 /// A third of the part lies somewhere else.
 TEST(Anchors, PutWhatIsElsewhereBesideTheSounderHalf) {
-    const Pair pair;
+    const TurnedPair pair;
     PointMap torn = pair.truth();
     for (int v = 0; v < int(torn.size()); ++v)
         if (pair.rest.vertex(pair.vertex_of[std::size_t(v)]).x() > 1.6) torn[std::size_t(v)] = torn[0];

@@ -41,7 +41,7 @@ PointMap closest_points(const Points& positions, const TriangleMesh& mesh) {
     return map;
 }
 
-Correspondence identity(const TriangleMesh& mesh) {
+Correspondence identity_onto(const TriangleMesh& mesh) {
     return {"a.obj", "b.obj", mesh, mesh, shapes::at_vertices(mesh), shapes::at_vertices(mesh)};
 }
 
@@ -156,7 +156,7 @@ class Transfer : public ::testing::Test {
     std::string kept_labels(const std::string& name, const std::string& bytes) {
         TransferRequest request;
         request.labels = {write(name, bytes)};
-        return carry(request, identity(ball_)).at(name);
+        return carry(request, identity_onto(ball_)).at(name);
     }
     std::vector<int> pipes_;
     TemporaryFolder folder_;
@@ -167,7 +167,7 @@ TEST_F(Transfer, CarriesPointsOfTheIdentityOntoThemselves) {
     const Vec3 p = position(ball_, {7, {.2, .3, .5}});
     TransferRequest request;
     request.points = {write("p.txt", fmt::format("{} {} {}\n", p[0], p[1], p[2]))};
-    const auto files = carry(request, identity(ball_));
+    const auto files = carry(request, identity_onto(ball_));
     std::istringstream text(files.at("p.txt"));
     Vec3 found;
     text >> found[0] >> found[1] >> found[2];
@@ -198,7 +198,7 @@ TEST_F(Transfer, CarriesPointsOntoAnotherTessellationInAnotherPose) {
 }
 
 TEST_F(Transfer, KeepsWhatPointFilesSayBesidesPositions) {
-    const Correspondence map = identity(ball_);
+    const Correspondence map = identity_onto(ball_);
     const Vec3 p = ball_.vertex(5);
     TransferRequest request;
     request.points = {
@@ -239,14 +239,14 @@ TEST_F(Transfer, ReadsFilesOnce) {
         write_once("a.fcsv", fmt::format("id7,{},{},{},0,0,0,1,1,1,0,ear,,\n", p[0], p[1], p[2])),
         write_once("a.pp", fmt::format("<point x=\"{}\" y=\"{}\" z=\"{}\"/>", p[0], p[1], p[2]))};
     request.mesh = write_once("a.obj", obj_of(ball_, plain));
-    const auto files = carry(request, identity(ball_));
+    const auto files = carry(request, identity_onto(ball_));
     EXPECT_THAT(files.at("a.fcsv"), HasSubstr("ear"));
     EXPECT_EQ(parse_picked_points(files.at("a.pp"), "a.pp").size(), 1u);
     EXPECT_EQ(parse_mesh(files.at("source_on_target.obj"), "a.obj").faces, ball_.faces);
 }
 
 TEST_F(Transfer, HonoursTheAxesOfBothMeshes) {
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     map.to.space = Space::ras;
     const Vec3 p = ball_.vertex(5);
     TransferRequest request;
@@ -264,7 +264,7 @@ TEST_F(Transfer, SaysWhichPointsStayAsTheyAre) {
         write("a.pp", fmt::format("<point x=\"{}\" y=\"{}\" z=\"{}\" active=\"1\" name=\"a\"/>\n"
                                   "<point x=\"7\" y=\"8\" z=\"9\" active=\"0\" name=\"b\"/>\n",
                                   p[0], p[1], p[2]))};
-    EXPECT_THAT(warnings_of(request, identity(ball_)),
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
                 HasSubstr("1 of 2 points are not defined, or switched off"));
 }
 
@@ -275,7 +275,7 @@ TEST_F(Transfer, FindsThePlacesOfPointsHoweverTheirXmlIsWritten) {
             "<point\n y = '{}' x='{}'\tz=\"{}\" name='x=\"1\"'/>\n",
             p[1], p[0], p[2]);
     };
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     map.to.vertices *= 2;
     TransferRequest request;
     request.points = {write("a.pp", text(ball_.vertex(5)))};
@@ -286,21 +286,23 @@ TEST_F(Transfer, ListsOfVerticesAndFacesMayHaveAName) {
     TransferRequest request;
     request.points = {write("v.csv", "vertex\n5\n7\n")};
     request.regions = {write("r.txt", "# region\nFace\n3\n17\n")};
-    const auto files = carry(request, identity(ball_));
+    const auto files = carry(request, identity_onto(ball_));
     EXPECT_EQ(files.at("v.csv"), "vertex\n5\n7\n");
     EXPECT_EQ(files.at("r.txt"), "Face\n3\n17\n");
     request.regions = {write("r.txt", "nose\n3\n")};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("r.txt:1: 'nose' is not one of"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("r.txt:1: 'nose' is not one of"));
 }
 
 TEST_F(Transfer, RefusesPointsOfAnotherMesh) {
     TransferRequest request;
     request.points = {write("p.txt", "100 0 0\n0 100 0\n")};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("2 of 2 points lie farther than 0.02"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("2 of 2 points lie farther than 0.02"));
     request.points = {write("n.csv", "vertex,x,y,z\n5,0,0,1\n")};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("n.csv:1: the numbers of the column 'vertex'"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("n.csv:1: the numbers of the column 'vertex'"));
     request.points = {write("v.txt", "3\n162\n")};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("v.txt:2: '162' is not one of the mesh's 162"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("v.txt:2: '162' is not one of the mesh's 162"));
 }
 
 TEST_F(Transfer, InterpolatesASmoothFunctionOntoAnotherTessellation) {
@@ -321,7 +323,7 @@ TEST_F(Transfer, InterpolatesASmoothFunctionOntoAnotherTessellation) {
 }
 
 TEST_F(Transfer, KeepsValuesOfTheIdentity) {
-    const Correspondence map = identity(ball_);
+    const Correspondence map = identity_onto(ball_);
     const PointCarrier back(map.to, map.back, map.from);
     const ValueTable vertices{Place::vertex, Eigen::MatrixXd::Random(ball_.vertex_count(), 3)};
     const ValueTable faces{Place::face, Eigen::MatrixXd::Random(ball_.face_count(), 2)};
@@ -357,7 +359,7 @@ TEST_F(Transfer, LabelsAreNeverMixedAndKeepTheirWords) {
 
 /// The ball onto itself, where face 0 of either has another point of it as its first corner's image.
 Correspondence onto_middle(const TriangleMesh& ball, const Vec3& barycentric) {
-    Correspondence map = identity(ball);
+    Correspondence map = identity_onto(ball);
     map.back[std::size_t(ball.faces(0, 0))] = {0, barycentric};
     return map;
 }
@@ -421,10 +423,10 @@ TEST_F(Transfer, TheNumberOfRowsTellsWhetherTheFirstNamesColumns) {
     EXPECT_EQ(kept_labels("a.csv", "label\n" + mixed), "label\n" + mixed);
     TransferRequest request;
     request.labels = {write("a.csv", "5\n" + by_turns("7", "8"))};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv: 163 rows, but"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("a.csv: 163 rows, but"));
     request = {};
     request.values = {write("a.csv", "NA\n" + by_turns("7", "8").substr(2))};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv:1: 'NA' is not a number"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("a.csv:1: 'NA' is not a number"));
 }
 
 TEST_F(Transfer, TheFirstRowTellsWhereTheNumberOfRowsDoesNot) {
@@ -472,10 +474,12 @@ TEST_F(Transfer, ANameAboveTooFewRowsIsNoValue) {
     }
     TransferRequest request;
     request.weights = {write("a.csv", rows)};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv: 161 rows, but a.obj has 162 vertices"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("a.csv: 161 rows, but a.obj has 162 vertices"));
     request = {};
     request.labels = {write("a.csv", labels)};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("a.csv: 161 rows, but a.obj has 162 vertices"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("a.csv: 161 rows, but a.obj has 162 vertices"));
 }
 
 TEST_F(Transfer, SaysThatListsAreNotCarried) {
@@ -486,7 +490,7 @@ TEST_F(Transfer, SaysThatListsAreNotCarried) {
         "0 0 0 1 0\n1 0 0 2 0\n0 1 0 3 1 .5\n3 0 1 2 0\n";
     TransferRequest request;
     request.values = {write("a.ply", bare)};
-    EXPECT_THAT(warnings_of(request, identity(parse_mesh(bare, "a.ply"))),
+    EXPECT_THAT(warnings_of(request, identity_onto(parse_mesh(bare, "a.ply"))),
                 HasSubstr("a.ply: lists are not carried: bones, texcoord"));
 }
 
@@ -508,7 +512,7 @@ TEST_F(Transfer, PolygonsOfAPlyFileHaveValues) {
 }
 
 TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     map.back[5] = {};
     std::string numbers;
     for (int v = 0; v < ball_.vertex_count(); ++v) numbers += fmt::format("{}\n", v);
@@ -535,7 +539,7 @@ TEST_F(Transfer, RowsWithoutAnImageHaveNoValue) {
 }
 
 TEST_F(Transfer, NamesAllThatHasNoImage) {
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     for (const int v : {5, 7, 9}) map.there[std::size_t(v)] = {};
     TransferRequest request;
     request.points = {write("v.txt", "5\n6\n9\n")};
@@ -556,7 +560,7 @@ TEST_F(Transfer, NamesAllThatHasNoImage) {
 }
 
 TEST_F(Transfer, ARegionThatVanishesIsSaid) {
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     TransferRequest request;
     request.regions = {write("r.txt", "face\n3\n4\n")};
     EXPECT_EQ(carry(request, map).at("r.txt"), "face\n3\n4\n");
@@ -603,7 +607,7 @@ TEST_F(Transfer, WeightsOfIntegersBecomeFractions) {
 }
 
 TEST_F(Transfer, WritesTheFormatItReads) {
-    const Correspondence map = identity(ball_);
+    const Correspondence map = identity_onto(ball_);
     const auto round_trip = [&](const std::string& path) {
         const ValueFile file = read_values(path, ValueKind::number, map.from, map.from_file);
         return file.write(file.tables, map.to);
@@ -664,7 +668,7 @@ TEST_F(Transfer, ReadsBigEndianArraysAndHalves) {
 }
 
 TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
-    const Correspondence map = identity(ball_);
+    const Correspondence map = identity_onto(ball_);
     TransferRequest request;
     request.values = {write("a.csv", "1\n2\n3\n")};
     EXPECT_THAT(refusal(request, map),
@@ -697,7 +701,7 @@ TEST_F(Transfer, NumbersOfRowsMayBeWrittenAsFloats) {
         for (int v = 0; v < ball_.vertex_count(); ++v) rows += fmt::format("{:.18e},{}\n", v + shift, value);
         return rows;
     };
-    const Correspondence map = identity(ball_);
+    const Correspondence map = identity_onto(ball_);
     TransferRequest request;
     request.values = {write("heat.csv", table("2"))};
     request.labels = {write("parts.csv", table("arm"))};
@@ -716,9 +720,9 @@ TEST_F(Transfer, NumbersOfRowsMayBeWrittenAsFloats) {
 TEST_F(Transfer, CarriesRegions) {
     TransferRequest request;
     request.regions = {write("r.txt", "3\n17\n200\n")};
-    EXPECT_EQ(carry(request, identity(ball_)).at("r.txt"), "3\n17\n200\n");
+    EXPECT_EQ(carry(request, identity_onto(ball_)).at("r.txt"), "3\n17\n200\n");
     request.regions = {write("r.txt", "320\n")};
-    EXPECT_THAT(refusal(request, identity(ball_)),
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
                 HasSubstr("r.txt:1: '320' is not one of the mesh's 320 faces"));
 }
 
@@ -741,7 +745,7 @@ double worst_uv_error(const TexturedMesh& cut, const Correspondence& map, const 
 
 TEST_F(Transfer, TheIdentityKeepsTextureCoordinates) {
     const ObjModel model = unwrapped(ball_);
-    const Correspondence map = identity(ball_);
+    const Correspondence map = identity_onto(ball_);
     const PointCarrier back(map.to, map.back, map.from);
     const TexturedMesh cut = cut_at_seams(map, back, model);
     EXPECT_EQ(cut.mesh.faces, ball_.faces);
@@ -849,7 +853,7 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
     const ObjModel model = in_its_own_plane(square);
     write("skin.png", to_png(gradient(64)));
     write("skin.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\n");
-    Correspondence map = identity(square);
+    Correspondence map = identity_onto(square);
     map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
     TransferRequest request;
     request.texture = map.to_file;
@@ -901,7 +905,7 @@ TEST_F(Transfer, SixteenBitsAreSrgbAsEightAre) {
 
 TEST_F(Transfer, SaysThatColouredMaterialsAreBakedWithoutTheirColour) {
     write("skin.png", to_png(gradient(8)));
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     ObjModel model = unwrapped(ball_);
     for (Vec2& uv : model.uv) uv = uv.cwiseMax(0).cwiseMin(1);
     map.to_file = write("a.obj", obj_of(ball_, model, "skin.mtl"));
@@ -922,14 +926,15 @@ TEST_F(Transfer, NamesTheFileThatCannotBeBakedOnto) {
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
     request.bake = {16, 1};
     request.onto = write("outside.obj", obj_of(ball_, outside));
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("outside.obj: texture coordinates (1.5, 0.5)"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("outside.obj: texture coordinates (1.5, 0.5)"));
 }
 
 /// A square whose second half lies where its first does, and in one point: what is said of baking onto these.
 TEST_F(Transfer, SaysWhereMemoryDoesNotSufficeToBake) {
     const TriangleMesh square = shapes::square(8);
     write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
-    Correspondence map = identity(square);
+    Correspondence map = identity_onto(square);
     map.to_file = write("a.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
     TransferRequest request;
     request.texture = map.to_file;
@@ -951,14 +956,14 @@ TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
     request.texture = write("a.obj", obj_of(square, model, "skin.mtl"));
     request.bake = {61, 2};  // whose pixels lie on no side of a face
     request.onto = request.texture;
-    EXPECT_EQ(warnings_of(request, identity(square)), "");
+    EXPECT_EQ(warnings_of(request, identity_onto(square)), "");
     for (Vec2& uv : model.uv) uv[0] = std::min(uv[0], 1 - uv[0]);
     request.onto = write("folded.obj", obj_of(square, model));
-    EXPECT_THAT(warnings_of(request, identity(square)),
+    EXPECT_THAT(warnings_of(request, identity_onto(square)),
                 HasSubstr("folded.obj: faces overlap in its texture coordinates on 9"));
     for (Vec2& uv : model.uv) uv.setZero();
     request.onto = write("zero.obj", obj_of(square, model));
-    EXPECT_THAT(refusal(request, identity(square)),
+    EXPECT_THAT(refusal(request, identity_onto(square)),
                 HasSubstr("zero.obj: its texture coordinates cover none of 61 x 61 pixels; give --onto"));
 }
 
@@ -966,21 +971,21 @@ TEST_F(Transfer, RefusesWhatWouldHaveNoEffect) {
     TransferRequest request;
     request.regions = {write("r.txt", "3\n")};
     request.bake = {16, 1};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("give --texture"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("give --texture"));
     request.bake = {0};
     request.onto = "b.obj";
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("--onto says what to bake onto"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("--onto says what to bake onto"));
     request.onto.clear();
     request.bake = {0, 8};
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("--padding is that of what is baked"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("--padding is that of what is baked"));
     request.bake = {0};
     request.influences = 4;
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("how many of --weights are kept"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("how many of --weights are kept"));
     request.influences = 0;
     request.reading.space = LandmarkSpace::lps;
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("which axes --points have"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("which axes --points have"));
     request.reading.space = LandmarkSpace::stated;
-    EXPECT_EQ(carry(request, identity(ball_)).size(), 1u);
+    EXPECT_EQ(carry(request, identity_onto(ball_)).size(), 1u);
 }
 
 /// The description within a .glb.
@@ -1008,7 +1013,7 @@ TEST_F(Transfer, AGlbHoldsEveryImageOnceAndValidText) {
           "newmtl horn\nmap_Kd glass.png\n");
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, of_three_materials(ball_), "skin.mtl"));
-    const auto glb = description_of(carry(request, identity(ball_)).at("b_textured.glb"));
+    const auto glb = description_of(carry(request, identity_onto(ball_)).at("b_textured.glb"));
     ASSERT_EQ(glb.at("materials").size(), 3u);
     EXPECT_EQ(glb.at("images").size(), 2u);
     EXPECT_EQ(glb.at("materials")[1].at("name"), "M\xef\xbf\xbdt");
@@ -1027,7 +1032,7 @@ TEST_F(Transfer, AGlbHoldsEveryImageOnceAndValidText) {
 TEST_F(Transfer, AGlbIsBakedToo) {
     const TriangleMesh square = shapes::square(2);
     write("skin.mtl", "newmtl skin\nmap_Kd skin.png\nnewmtl unused\nmap_Kd glass.png\n");
-    Correspondence map = identity(square);
+    Correspondence map = identity_onto(square);
     map.to_file = write("square.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
     TransferRequest request;
     request.texture = map.to_file;
@@ -1059,7 +1064,7 @@ TEST_F(Transfer, MaterialsStayApartWhateverTheirNames) {
     write("a.mtl", "newmtl Material #1\nKd 1 0 0\nnewmtl Material #2\nKd 0 1 0\nd .5\nnewmtl Material #3\n");
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, model, "a.mtl"));
-    const auto files = carry(request, identity(ball_));
+    const auto files = carry(request, identity_onto(ball_));
     EXPECT_THAT(files.at("b_textured.obj"), HasSubstr("usemtl Material #3\n"));
     EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("newmtl Material #3\n"));
     const auto glb = description_of(files.at("b_textured.glb"));
@@ -1073,7 +1078,7 @@ TEST_F(Transfer, TexturesLieWhereTheirMaterialPutsThem) {
     const ObjModel model = in_its_own_plane(square);
     write("skin.png", to_png(gradient(64)));
     write("skin.mtl", "newmtl skin\nmap_Kd -s .5 .5 1 -o .25 .125 0 skin.png\n");
-    Correspondence map = identity(square);
+    Correspondence map = identity_onto(square);
     map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
     TransferRequest request;
     request.texture = map.to_file;
@@ -1092,9 +1097,9 @@ TEST_F(Transfer, ImagesThatGltfDoesNotTakeAreCopied) {
     write("skin.mtl", "newmtl skin\nKd 1 .5 0\nmap_Kd skin.tga\n");
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
-    EXPECT_THAT(warnings_of(request, identity(ball_)),
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
                 HasSubstr("skin.tga: glTF takes PNG and JPEG images only"));
-    const auto files = carry(request, identity(ball_));
+    const auto files = carry(request, identity_onto(ball_));
     EXPECT_EQ(files.at("skin.tga"), "no picture that glTF takes");
     EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("map_Kd skin.tga"));
     const auto glb = description_of(files.at("b_textured.glb"));
@@ -1115,7 +1120,7 @@ TEST_F(Transfer, ImagesTakeNoOtherImagesPlace) {
     request.texture = folder_ / "b/m.obj";
     request.folder = folder_ / "results";
     for (int run = 0; run < 2; ++run) {
-        const auto files = carry(request, identity(ball_));
+        const auto files = carry(request, identity_onto(ball_));
         EXPECT_EQ(files.at("skin.png"), read_file(folder_ / "a/skin.png"));
         EXPECT_EQ(files.at("skin-2.png"), read_file(folder_ / "b/skin.png"));
         EXPECT_THAT(files.at("source_on_target.mtl"), HasSubstr("map_Kd skin.png"));
@@ -1124,10 +1129,12 @@ TEST_F(Transfer, ImagesTakeNoOtherImagesPlace) {
     }
     request.texture.clear();
     request.mesh = folder_ / "b/m.obj";
-    EXPECT_THAT(carry(request, identity(ball_)).at("source_on_target.mtl"), HasSubstr("map_Kd skin-2.png"));
+    EXPECT_THAT(carry(request, identity_onto(ball_)).at("source_on_target.mtl"),
+                HasSubstr("map_Kd skin-2.png"));
     std::filesystem::remove(folder_ / "results/skin-2.png");
     std::filesystem::create_directory(folder_ / "results/skin-2.png");
-    EXPECT_THAT(carry(request, identity(ball_)).at("source_on_target.mtl"), HasSubstr("map_Kd skin-3.png"));
+    EXPECT_THAT(carry(request, identity_onto(ball_)).at("source_on_target.mtl"),
+                HasSubstr("map_Kd skin-3.png"));
 }
 
 TEST_F(Transfer, SaysWhichMaterialsAreNotDescribed) {
@@ -1136,7 +1143,7 @@ TEST_F(Transfer, SaysWhichMaterialsAreNotDescribed) {
     model.materials = {"fur"};
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, model, "skin.mtl"));
-    EXPECT_THAT(warnings_of(request, identity(ball_)),
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
                 HasSubstr("a.obj: no library (mtllib) describes the materials fur"));
 }
 
@@ -1145,7 +1152,7 @@ TEST_F(Transfer, WritesTexturesAndGlb) {
     write("skin.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
-    const auto files = carry(request, identity(ball_));
+    const auto files = carry(request, identity_onto(ball_));
     EXPECT_EQ(files.at("skin.png"), read_file(folder_ / "skin.png"));
     EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("map_Kd skin.png"));
     EXPECT_THAT(files.at("b_textured.obj"), HasSubstr("mtllib b_textured.mtl"));
@@ -1159,7 +1166,7 @@ TEST_F(Transfer, WritesNoEmptyLibrary) {
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_)));
     write("empty.mtl", "");
     request.mesh = write("b.obj", obj_of(ball_, unwrapped(ball_), "empty.mtl"));
-    for (const auto& [name, bytes] : carry(request, identity(ball_))) {
+    for (const auto& [name, bytes] : carry(request, identity_onto(ball_))) {
         EXPECT_FALSE(name.ends_with(".mtl"));
         EXPECT_THAT(bytes, Not(HasSubstr("mtllib")));
     }
@@ -1168,20 +1175,22 @@ TEST_F(Transfer, WritesNoEmptyLibrary) {
 TEST_F(Transfer, RefusesTexturesThatAreNotThere) {
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("its materials skin.mtl are missing"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("its materials skin.mtl are missing"));
     write("skin.mtl", "newmtl skin\nmap_Kd skin.png\n");
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("skin.mtl:2: the texture skin.png is missing"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("skin.mtl:2: the texture skin.png is missing"));
     write("skin.png", "no picture");
     request.bake = {16, 1};
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     map.to_file = request.texture;
     EXPECT_NE(refusal(request, map), "none");
     request.texture = write("b.obj", obj_of(shapes::ellipsoid(1), unwrapped(shapes::ellipsoid(1))));
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("b.obj: is not the mesh a.obj of the map"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("b.obj: is not the mesh a.obj of the map"));
     ObjModel bare = unwrapped(ball_);
     bare.uv_of.setConstant(-1);
     request.texture = write("c.obj", obj_of(ball_, bare));
-    EXPECT_THAT(refusal(request, identity(ball_)), HasSubstr("c.obj: has faces without texture coordinates"));
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("c.obj: has faces without texture coordinates"));
 }
 
 TEST_F(Transfer, CarriesAShapeExactlyToAMovedCopy) {
@@ -1221,7 +1230,7 @@ struct WithEye {
         both = {Points(n + eye.vertex_count(), 3), Faces(ball.face_count() + eye.face_count(), 3)};
         both.vertices << ball.vertices, eye.vertices;
         both.faces << ball.faces, eye.faces.array() + n;
-        map = identity(both);
+        map = identity_onto(both);
         for (int v = n; v < both.vertex_count(); ++v)
             map.there[std::size_t(v)] = map.back[std::size_t(v)] = {};
         if (mirrored) mirror(map);
@@ -1301,7 +1310,7 @@ TEST_F(Transfer, SaysHowManyVerticesFollowTheirNeighbours) {
 }
 
 TEST_F(Transfer, AMirroringMapTurnsPolygons) {
-    Correspondence map = identity(ball_);
+    Correspondence map = identity_onto(ball_);
     mirror(map);
     std::string obj;
     for (const auto p : ball_.vertices.rowwise()) obj += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
@@ -1322,7 +1331,7 @@ TEST_F(Transfer, TellsAnotherOrderFromAnotherMesh) {
     const TriangleMesh other = shapes::shuffled(ball_, 7);
     TransferRequest request;
     request.shapes = {write("c.ply", to_ply(other))};
-    EXPECT_THAT(refusal(request, identity(ball_)),
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
                 HasSubstr("as many vertices and triangles, but in another order"));
 }
 

@@ -57,7 +57,7 @@ constexpr int evening_rounds = 2;
 /// So many where something is left this much smaller than something else: one layout in four of more than
 /// 150 faces, some with limbs of 1e-22 after two rounds.
 constexpr int most_evening_rounds = 5;
-constexpr double collapsed = 1e-6;
+constexpr double flat_face = 1e-6;
 
 /// Corners of a disc that pull at each other.
 struct Spring {
@@ -155,7 +155,7 @@ Points even_embedding(const TriangleMesh& disc, const std::vector<int>& boundary
         const VertexData<double> ratio = area_ratios(disc, positions);
         const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
         const bool is_extra = round >= evening_rounds;
-        if (is_extra && *least > collapsed * *most) break;
+        if (is_extra && *least > flat_face * *most) break;
         const double exponent = is_extra ? 0.75 : 0.5;
         for (auto& [a, b, weight] : springs) weight *= std::pow(ratio[a] * ratio[b], exponent);
         positions = embedding.relax(springs);

@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<int, 10> ring_counts{2, 3, 4, 5, 6, 8, 10, 13, 2, 4};
 /// Share of the faces of either surface in a disc. A head of fine faces has a fifth of them: with 0.2, 23
 /// pairs of animals end with 1045 faces reversed, with 0.3 and 0.4 with 233 and 231.
-constexpr double largest_part = 0.4;
+constexpr double largest_disc = 0.4;
 constexpr int least_part = 1000;    ///< faces that a disc may have in any case
 constexpr double most_filled = 10;  ///< times the faces around defects that a disc may have besides
 /// Faces in discs that are tried, by all the faces, or so many of them if there are more: bounds the time. A
@@ -31,19 +31,19 @@ constexpr int most_counted = 20'000;
 /// Faces of a cluster around which the rings are as wide as that. Tried: none, 200, 100; of a pair of 320,000
 /// vertices 337, 31 and 19 faces end reversed, of 14 pairs of 5,000 to 14,000 25, 34 and 60.
 constexpr double usual_cluster = 200;
-constexpr int polishing = 15;  ///< sweeps
-constexpr int careful_polishing = 6;
+constexpr int polish_sweeps = 15;  ///< sweeps
+constexpr int careful_polish_sweeps = 6;
 constexpr int most_with_care = 200;  ///< vertices
 /// For a part of more vertices than that which was mapped anew: its layouts are far from an isometry, and
 /// local sweeps hardly move it along. With these steps errors of two halves of a set of animals are .993 and
 /// .998 times those without, of gorillas and people .982. They may spoil this share of what was repaired:
 /// with .3 errors of 23 pairs are another .994 times, but a sixth more faces end reversed.
-constexpr int global_steps = 8;
-constexpr double least_gain = 1e-4;
+constexpr int global_chart_steps = 8;
+constexpr double least_chart_gain = 1e-4;
 constexpr double may_spoil = 0.1;
 const RobustEnergy global_energy({1, 0.1}, 0);
-constexpr int patience = 3;          ///< attempts without gain after which defects are left as they are
-constexpr int rings_of_kernels = 2;  ///< around defects, where vertices may be moved one by one
+constexpr int attempts_without_gain = 3;  ///< after which defects are left as they are
+constexpr int rings_of_kernels = 2;       ///< around defects, where vertices may be moved one by one
 /// Faces of a cluster in which that is tried: tangles of a large mesh take long, and gain nothing.
 constexpr std::ptrdiff_t most_for_kernels = 1000;
 const FoldEnergy polish_energy{1, 0.03};
@@ -55,8 +55,8 @@ int rings_around(const std::vector<int>& cluster, int rings) {
 
 /// Of a disc on `mesh` that has to hold a part with so many faces: what is much larger is the outside of its
 /// rim, and would be walked over in vain.
-int most_faces(const TriangleMesh& mesh, double part) {
-    const int most = std::max(least_part, int(largest_part * mesh.face_count()));
+int most_disc_faces(const TriangleMesh& mesh, double part) {
+    const int most = std::max(least_part, int(largest_disc * mesh.face_count()));
     return std::min(most, least_part + int(most_filled * part));
 }
 
@@ -122,7 +122,7 @@ std::vector<int> ChartRepair::enclosed_on_target(const SubMesh& part, const std:
         return map_.point(part.vertex[std::size_t(rim[i % rim.size()])]).face;
     };
     const double finer = double(map_.target().face_count()) / map_.source().face_count();
-    const int most = most_faces(map_.target(), finer * part.mesh.face_count());
+    const int most = most_disc_faces(map_.target(), finer * part.mesh.face_count());
     std::vector<int> wall, inside;
     for (std::size_t i = 0; i < rim.size(); ++i) {
         if (face(i) < 0 || face(i + 1) < 0) return {};
@@ -147,7 +147,7 @@ VertexData<bool> ChartRepair::all_but(const std::vector<int>& vertices) const {
 
 void ChartRepair::polish(std::vector<int> vertices) {
     LocalRelaxation local(map_, 7);
-    for (int i = 0; i < polishing; ++i) local.sweep(vertices, polish_energy);
+    for (int i = 0; i < polish_sweeps; ++i) local.sweep(vertices, polish_energy);
 }
 
 void ChartRepair::relax(const std::vector<int>& vertices, const std::vector<int>& around, double most) {
@@ -155,10 +155,10 @@ void ChartRepair::relax(const std::vector<int>& vertices, const std::vector<int>
     GlobalRelaxation global(map_, all_but(vertices), relief_);
     LocalRelaxation local(map_, 7);
     std::vector<int> shuffled = vertices;
-    for (int i = 0; i < global_steps; ++i) {
+    for (int i = 0; i < global_chart_steps; ++i) {
         const double gain = global.step(global_energy);
         local.sweep(shuffled, global_energy.energy);
-        if (gain < least_gain) break;
+        if (gain < least_chart_gain) break;
     }
     if (badness(around) > most) map_.place(vertices, kept);
 }
@@ -166,7 +166,7 @@ void ChartRepair::relax(const std::vector<int>& vertices, const std::vector<int>
 void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
     LocalRelaxation local(map_, 7);
     std::vector<int> one(1);
-    for (int i = 0; i < careful_polishing; ++i)
+    for (int i = 0; i < careful_polish_sweeps; ++i)
         for (const int v : vertices) {
             const SurfacePoint point = map_.point(v);
             const auto faults = along_target_.faults_around(v);
@@ -179,7 +179,7 @@ void ChartRepair::polish_with_care(const std::vector<int>& vertices) {
 
 std::vector<int> ChartRepair::disc_around(const std::vector<int>& cluster, int rings) {
     std::vector<int> faces = source_.widened(cluster, rings);
-    const int most = most_faces(map_.source(), double(faces.size()));
+    const int most = most_disc_faces(map_.source(), double(faces.size()));
     faces = source_.filled(std::move(faces), most);
     return int(faces.size()) > most ? std::vector<int>() : faces;
 }
@@ -252,7 +252,8 @@ std::vector<std::vector<int>> ChartRepair::clusters_of(const std::vector<int>& d
 std::vector<std::vector<int>> ChartRepair::promising_clusters_of(const std::vector<int>& defects) {
     std::vector<std::vector<int>> clusters = clusters_of(defects);
     std::erase_if(clusters, [&](const std::vector<int>& cluster) {
-        return std::any_of(cluster.begin(), cluster.end(), [&](int f) { return strikes_[f] >= patience; });
+        return std::any_of(cluster.begin(), cluster.end(),
+                           [&](int f) { return strikes_[f] >= attempts_without_gain; });
     });
     return clusters;
 }

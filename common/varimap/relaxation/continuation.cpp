@@ -14,7 +14,7 @@ namespace {
 constexpr int relaxed_rings = 4;  ///< behind the front
 constexpr int sweeps_per_ring = 2;
 /// What has been placed is relaxed as a whole whenever it has grown by this since.
-constexpr double growth = 1.25;
+constexpr double growth_between_relaxations = 1.25;
 const FoldEnergy front_energy{1, 0.3};
 const RobustEnergy robust_energy{front_energy, 1};
 
@@ -96,7 +96,7 @@ class Front {
         for (int s = 0; s < sweeps_per_ring; ++s) relaxation_.sweep(band, front_energy);
         for (const int v : rings_.back()) held_[v] = false;
         placed_ += double(rings_.back().size());
-        if (placed_ > growth * relaxed_ || missing_.empty()) relax_all();
+        if (placed_ > growth_between_relaxations * relaxed_ || missing_.empty()) relax_all();
         return true;
     }
     const std::vector<int>& missing() const { return missing_; }

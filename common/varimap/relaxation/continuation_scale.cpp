@@ -11,7 +11,7 @@ namespace varimap {
 
 namespace {
 
-constexpr double least = 0.6, most = 1.6;
+constexpr double least_fit = 0.6, most_fit = 1.6;
 
 VertexData<double> distances(const GeodesicGraph& graph, const std::vector<int>& sources) {
     VertexData<double> distance(graph.vertex_count(), std::numeric_limits<double>::infinity());
@@ -56,7 +56,7 @@ double continuation_scale(const SlidingMap& map, const VertexData<bool>& open,
     for (int w = 0; w < from_image.size(); ++w)
         if (from_image[w] < from_others[w] && std::isfinite(from_image[w]))
             there = std::max(there, from_image[w]);
-    return here > 0 && there > 0 ? std::clamp(there / here, least, most) : 1;
+    return here > 0 && there > 0 ? std::clamp(there / here, least_fit, most_fit) : 1;
 }
 
 }  // namespace varimap

@@ -18,7 +18,7 @@ constexpr int patience = 20;   ///< sweeps without fewer folds or a better worst
 constexpr int polishing = 10;  ///< sweeps once nothing is folded; swept: 5 to 20
 constexpr double least_regularisation = 1e-4;
 constexpr std::array<double, 3> weights{1, 0.2, 0.05};
-constexpr std::array<int, 5> rings{3, 6, 12, 24, 48};
+constexpr std::array<int, 5> widening_rings{3, 6, 12, 24, 48};
 
 /// How bad the worst of some faces are.
 struct Folds {
@@ -147,7 +147,7 @@ class Removal {
           awake_(map.source().vertex_count()) {}
 
     int run(std::vector<Fold> folds) {
-        for (const int ring_count : rings) {
+        for (const int ring_count : widening_rings) {
             std::vector<Fold> left;
             mark_around(folds, ring_count);
             for (const int v : marked_)

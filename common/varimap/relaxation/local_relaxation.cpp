@@ -12,7 +12,8 @@ namespace varimap {
 namespace {
 
 constexpr int backtracks = 7;
-constexpr double longest_step = 2;  ///< of a Newton step, in lengths of the vertex's longest source edge
+constexpr double longest_newton_step =
+    2;  ///< of a Newton step, in lengths of the vertex's longest source edge
 /// Move, in those lengths, that wakes the neighbours. With 0.01 more faces stay reversed.
 constexpr double waking_step = 0.003;
 
@@ -134,7 +135,7 @@ void LocalRelaxation::newton_step(int v, const FoldEnergy& energy) {
     const TangentFrame& frame = map_.tangents(v);
     const Star::Quadratic quadratic = star_.quadratic(map_.image(v), map_.normal(v), frame, energy);
     Vec3 step = frame * descent(quadratic);
-    const double length = step.norm(), limit = longest_step * map_.longest_edge(v);
+    const double length = step.norm(), limit = longest_newton_step * map_.longest_edge(v);
     if (!(length > 1e-12)) return;
     if (length > limit) step *= limit / length;
     const SurfacePoint start = map_.point(v);

@@ -18,10 +18,10 @@ namespace {
 
 /// Chosen by hand on maps that had lost a limb, which enter .67 to .9 of the area that disagreed, and on a
 /// list of 36, where the directions are two different maps on some pairs: these enter .04 to .48 of it.
-constexpr double elsewhere = 0.05, least_gain = 0.004, gained_share = 0.5;
+constexpr double elsewhere = 0.05, least_won_area = 0.004, gained_share = 0.5;
 constexpr int rings_replaced = 2, rings_relaxed = 3, rings_taken = 4;
-constexpr int global_steps = 10, fold_sweeps = 60;
-constexpr double fold_visits = 60;  ///< of the vertices that move, in the mean
+constexpr int missed_global_steps = 10, missed_fold_sweeps = 60;
+constexpr double missed_fold_visits = 60;  ///< of the vertices that move, in the mean
 constexpr double least_step_gain =
     1e-3;  ///< share of the energy that a step must win to be followed by another
 
@@ -70,11 +70,11 @@ VertexData<bool> movable(VertexData<bool> marks, const VertexData<bool>& fixed) 
 
 void relax(SlidingMap& map, const VertexData<bool>& held, const std::vector<SoftConstraint>& constraints) {
     const double moving = double(std::count(held.begin(), held.end(), 0)) / double(held.size());
-    const FoldRemoval remove_folds{fold_sweeps, fold_visits * moving};
+    const FoldRemoval remove_folds{missed_fold_sweeps, missed_fold_visits * moving};
     remove_folds(map, held);
     GlobalRelaxation global(map, held);
     global.set_constraints(constraints);
-    for (int step = 0; step < global_steps; ++step)
+    for (int step = 0; step < missed_global_steps; ++step)
         if (global.step(RobustEnergy(judged_energy, 1)) < least_step_gain) break;
     remove_folds(map, held);
 }
@@ -93,7 +93,7 @@ bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexDat
                           const std::vector<SoftConstraint>& landmarks, double inverse_weight) {
     VertexData<bool> open = vertices_elsewhere(map, back);
     const double disagreeing = area_of(open, map.source());
-    if (disagreeing < least_gain) return false;
+    if (disagreeing < least_won_area) return false;
     const Timer timer("missed parts");
     const TargetCells cells(map, GeodesicGraph(map.target()), usual_cell_radius(map));
     const std::vector<char> before = cells.occupied(map.points());
@@ -108,7 +108,7 @@ bool recover_missed_parts(SlidingMap& map, const PointMap& back, const VertexDat
     relax(map, held, constraints);
     const std::vector<char> after = cells.occupied(map.points());
     const double gain = cells.lost_area(after, before) - cells.lost_area(before, after);
-    if (gain >= std::max(least_gain, gained_share * disagreeing)) {
+    if (gain >= std::max(least_won_area, gained_share * disagreeing)) {
         log("images taken from the other direction enter {:.1f}% more of the other surface", 100 * gain);
         return true;
     }

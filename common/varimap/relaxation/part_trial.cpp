@@ -12,7 +12,7 @@ namespace {
 
 constexpr int relaxation_steps = 4;
 /// Share of the energy that a step must win to be followed by another.
-constexpr double least_gain = 0.01;
+constexpr double least_relaxation_gain = 0.01;
 const RobustEnergy relaxed_energy{judged_energy, 0.3};
 /// Of an alternative, so of what it is compared with: or it wins by being relaxed.
 constexpr int relaxations = 2;
@@ -85,7 +85,7 @@ void PartTrial::restore() {
 void PartTrial::relax() {
     const Timer timer("parts, global steps");
     for (int step = 0; step < relaxation_steps; ++step)
-        if (global_->step(relaxed_energy) < least_gain) return;
+        if (global_->step(relaxed_energy) < least_relaxation_gain) return;
 }
 
 void PartTrial::remove_folds() {

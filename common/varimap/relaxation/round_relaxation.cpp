@@ -11,7 +11,7 @@ namespace {
 
 constexpr int least_steps = 2;
 /// Share of the energy that a step must win to be followed by another. Swept, same bytes: 1e-6 to 1e-4.
-constexpr double least_gain = 1e-5;
+constexpr double least_round_gain = 1e-5;
 
 }  // namespace
 
@@ -51,7 +51,7 @@ void RoundRelaxation::step(const PointMap& back) {
     const double gain = global_.step(energy_);
     local_.sweep(vertices_, energy_.energy);
     ++steps_;
-    converged_ = gain < least_gain && steps_ > 3;
+    converged_ = gain < least_round_gain && steps_ > 3;
 }
 
 double RoundRelaxation::inverse_share() const {

@@ -20,7 +20,7 @@ constexpr int most_turns = 6;
 /// Without a bound a skull's torn walls took 45 of 102 seconds of relaxation.
 constexpr std::ptrdiff_t most_visits_for_room = 2000;
 /// Stars of more faces are left as they are: their deepest point would take long to find.
-constexpr std::ptrdiff_t most_faces = 64;
+constexpr std::ptrdiff_t largest_star = 64;
 /// Sense from which on a face is upright beyond doubt. On 14 pairs .05 and .1 leave as few reversed, .3 more.
 constexpr double enough = 0.1;
 
@@ -88,7 +88,7 @@ bool StarKernels::move_to_centre(int v, Aim aim) {
     if (before == 0 && aim == Aim::upright) return false;
     const SurfacePoint kept = map_.point(v), start = within_its_face(kept);
     const auto star = map_.faces_of_vertex()[v];
-    if (std::ssize(star) > most_faces) return false;
+    if (std::ssize(star) > largest_star) return false;
     std::vector<HalfPlane> planes;
     for (const int f : star) {
         if (!map_.is_mapped(f)) return false;

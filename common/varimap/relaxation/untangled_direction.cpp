@@ -44,7 +44,7 @@ int disagreeing_faces(SlidingMap map) {
     return int(NormalAgreement(map, along_target).disagreeing_faces().size());
 }
 
-std::size_t reversed_along_target(const SlidingMap& map) {
+std::size_t count_reversed_along_target(const SlidingMap& map) {
     AlongTarget along_target(map);
     return faces_where(all_indices(map.source().face_count()),
                        [&](int f) { return along_target.is_reversed(f); })
@@ -182,7 +182,7 @@ bool UntangledDirection::is_worse(const Distortion& after) const {
     // target: three of 36 pairs lost repairs of 30 to 70 triangles so.
     return after.flipped_area_percent > before_.flipped_area_percent &&
            after.flipped_count >= before_.flipped_count &&
-           reversed_along_target(sliding_) >= reversed_along_target({map_, source_, target_});
+           count_reversed_along_target(sliding_) >= count_reversed_along_target({map_, source_, target_});
 }
 
 UntanglingReport UntangledDirection::finish() {

@@ -44,7 +44,7 @@ class MeshFile : public ::testing::Test {
 };
 
 template <class T>
-std::string raw(const T& value, bool reversed = false) {
+std::string raw_bytes(const T& value, bool reversed = false) {
     std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
     return reversed ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
 }
@@ -61,11 +61,11 @@ std::string off(const TriangleMesh& mesh) {
 std::string binary_stl(const TriangleMesh& mesh) {
     std::string bytes("solid but binary all the same");
     bytes.resize(80);
-    bytes += raw(mesh.face_count());
+    bytes += raw_bytes(mesh.face_count());
     for (int f = 0; f < mesh.face_count(); ++f) {
         bytes.append(12, '\0');
         for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < 3; ++i) bytes += raw(float(mesh.vertices(mesh.faces(f, c), i)));
+            for (int i = 0; i < 3; ++i) bytes += raw_bytes(float(mesh.vertices(mesh.faces(f, c), i)));
         bytes.append(2, '\0');
     }
     return bytes;
@@ -176,11 +176,11 @@ TEST_F(MeshFile, BinaryPlyOfBothByteOrders) {
                                         big ? "big" : "little", ply_vertices);
         bytes += "property short n\nelement face 1\nproperty list ushort uint vertex_indices\nend_header\n";
         for (int v = 0; v < 4; ++v) {
-            for (int i = 0; i < 3; ++i) bytes += raw(mesh.vertices(v, i), big);
-            bytes += raw(short(7), big);
+            for (int i = 0; i < 3; ++i) bytes += raw_bytes(mesh.vertices(v, i), big);
+            bytes += raw_bytes(short(7), big);
         }
-        bytes += raw(static_cast<unsigned short>(4), big);
-        for (unsigned v = 0; v < 4; ++v) bytes += raw(v, big);
+        bytes += raw_bytes(static_cast<unsigned short>(4), big);
+        for (unsigned v = 0; v < 4; ++v) bytes += raw_bytes(v, big);
         expect_equal(read("a.ply", bytes), mesh);
     }
 }

@@ -11,13 +11,13 @@ namespace {
 
 /// A figure, another pose of it, and the identity, but the vertices of one leg on the points closest to
 /// move(p).
-struct LegTrial {
+struct LostLegTrial {
     TriangleMesh rest = shapes::figure(0.15), posed = shapes::figure_pose(0.5)(rest);
     std::vector<char> leg = shapes::on_leg(rest);
     VertexData<bool> fixed{rest.vertex_count()};
     SlidingMap map;
 
-    explicit LegTrial(const std::function<Vec3(const Vec3& p)>& move)
+    explicit LostLegTrial(const std::function<Vec3(const Vec3& p)>& move)
         : map(shapes::with_leg(rest, move), rest, posed) {}
     double error() const { return shapes::mean_error(map.points(), posed, leg); }
     bool recover(const PointMap& back) { return recover_missed_parts(map, back, fixed, {}, 400); }
@@ -28,7 +28,7 @@ Vec3 crushed(const Vec3& p) {
     return shapes::leg_origin + .05 * (p - shapes::leg_origin);
 }
 
-void expect_same(const PointMap& a, const PointMap& b) {
+void expect_unchanged(const PointMap& a, const PointMap& b) {
     for (std::size_t v = 0; v < a.size(); ++v) {
         ASSERT_EQ(a[v].face, b[v].face);
         ASSERT_EQ(a[v].barycentric, b[v].barycentric);
@@ -36,7 +36,7 @@ void expect_same(const PointMap& a, const PointMap& b) {
 }
 
 TEST(MissedParts, ACrushedLimbIsTakenFromTheOtherDirection) {
-    LegTrial trial(crushed);
+    LostLegTrial trial(crushed);
     const double before = trial.error();
     ASSERT_TRUE(trial.recover(shapes::at_vertices(trial.rest)));
     EXPECT_LT(trial.error(), 0.3 * shapes::longest_edge(trial.posed));
@@ -48,21 +48,21 @@ TEST(MissedParts, ACrushedLimbIsTakenFromTheOtherDirection) {
 }
 
 TEST(MissedParts, ALimbIsNotGivenUpForOneThatIsCrushed) {
-    LegTrial trial([](const Vec3& p) { return p; });
+    LostLegTrial trial([](const Vec3& p) { return p; });
     const PointMap before = trial.map.points();
     EXPECT_FALSE(trial.recover(shapes::with_leg(trial.rest, crushed)));
-    expect_same(trial.map.points(), before);
+    expect_unchanged(trial.map.points(), before);
 }
 
 TEST(MissedParts, DirectionsThatAgreeStay) {
-    LegTrial trial([](const Vec3& p) { return p; });
+    LostLegTrial trial([](const Vec3& p) { return p; });
     const PointMap before = trial.map.points();
     EXPECT_FALSE(trial.recover(shapes::at_vertices(trial.rest)));
-    expect_same(trial.map.points(), before);
+    expect_unchanged(trial.map.points(), before);
 }
 
 TEST(MissedParts, FixedVerticesStay) {
-    LegTrial trial(crushed);
+    LostLegTrial trial(crushed);
     int tip = 0;
     for (int v = 0; v < trial.rest.vertex_count(); ++v)
         if (trial.leg[std::size_t(v)] && trial.rest.vertices(v, 2) < trial.rest.vertices(tip, 2)) tip = v;

@@ -14,7 +14,7 @@ using random_plan::dense;
 using random_plan::Generator;
 
 /// A transport problem that owns what it refers to, and its solution.
-struct Example {
+struct Matching {
     Support support;
     Eigen::VectorXd cost, row_mass, column_mass;
     double gamma = 1, background_cost = 10, mass_penalty = 0;
@@ -56,9 +56,9 @@ struct Example {
     }
 };
 
-Example random_example(int rows, int columns, double share, double gamma, unsigned seed) {
+Matching random_matching(int rows, int columns, double share, double gamma, unsigned seed) {
     Generator random(seed);
-    Example e;
+    Matching e;
     e.support = share < 1 ? random.support(rows, columns, share) : Support::dense(rows, columns);
     e.cost = random.values(e.support.entries());
     e.row_mass = random.mass(rows);
@@ -67,13 +67,13 @@ Example random_example(int rows, int columns, double share, double gamma, unsign
     return e;
 }
 
-void expect_marginals(const Example& e, double tolerance) {
+void expect_marginals(const Matching& e, double tolerance) {
     EXPECT_LT((row_sums(e.plan) - e.row_mass).lpNorm<1>(), tolerance);
     EXPECT_LT((column_sums(e.plan) - e.column_mass).lpNorm<1>(), tolerance);
 }
 
 /// The plan as the potentials state it.
-RowMatrix plan_of_potentials(const Example& e) {
+RowMatrix plan_of_potentials(const Matching& e) {
     const RowMatrix sum = e.potentials.row.replicate(1, e.support.columns()) +
                           e.potentials.column.transpose().replicate(e.support.rows(), 1) - e.full_cost();
     return e.product_measure().array() * (sum.array() / e.gamma).exp();
@@ -81,7 +81,7 @@ RowMatrix plan_of_potentials(const Example& e) {
 
 TEST(Sinkhorn, MeetsTheMarginalsAndItsPotentials) {
     for (const double share : {.1, 1.}) {
-        Example e = random_example(40, 30, share, .1, 1);
+        Matching e = random_matching(40, 30, share, .1, 1);
         const SinkhornReport report = e.solve();
         EXPECT_LE(report.marginal_error, 1e-12);
         expect_marginals(e, 1e-11);
@@ -91,7 +91,7 @@ TEST(Sinkhorn, MeetsTheMarginalsAndItsPotentials) {
 }
 
 TEST(Sinkhorn, MinimisesTheRegularisedCost) {
-    Example e = random_example(12, 10, .4, .2, 2);
+    Matching e = random_matching(12, 10, .4, .2, 2);
     e.background_cost = 1.5;
     e.solve();
     const RowMatrix pi = dense(e.plan);
@@ -109,7 +109,7 @@ TEST(Sinkhorn, MinimisesTheRegularisedCost) {
 
 TEST(Sinkhorn, AgreesWithTheLogDomainForLargeAndSmallGamma) {
     for (const double gamma : {10., .1, .01, 1e-3}) {
-        Example a = random_example(30, 36, .3, gamma, 4), b = a;
+        Matching a = random_matching(30, 36, .3, gamma, 4), b = a;
         const SinkhornReport fast = a.solve(1e-7), reference = b.solve_in_log_domain(1e-7);
         EXPECT_NEAR(fast.iterations, reference.iterations, 1 + reference.iterations / 20) << gamma;
         EXPECT_LT((dense(a.plan) - dense(b.plan)).lpNorm<1>(), 1e-6) << gamma;
@@ -118,7 +118,7 @@ TEST(Sinkhorn, AgreesWithTheLogDomainForLargeAndSmallGamma) {
 
 TEST(Sinkhorn, IteratesLikeTheLogDomain) {
     for (const double gamma : {1., .01, 1e-4}) {
-        Example a = random_example(25, 25, .3, gamma, 5), b = a;
+        Matching a = random_matching(25, 25, .3, gamma, 5), b = a;
         const SinkhornReport fast = a.solve(0, 37), reference = b.solve_in_log_domain(0, 37);
         EXPECT_EQ(fast.iterations, reference.iterations);
         EXPECT_NEAR(fast.marginal_error, reference.marginal_error, 1e-9);
@@ -130,9 +130,9 @@ TEST(Sinkhorn, IteratesLikeTheLogDomain) {
 
 TEST(Sinkhorn, BackgroundStandsForACostlyRestOfTheMatrix) {
     for (const double gamma : {1., .1}) {
-        Example sparse = random_example(20, 25, .15, gamma, 6);
+        Matching sparse = random_matching(20, 25, .15, gamma, 6);
         sparse.background_cost = 2;
-        Example full = sparse;
+        Matching full = sparse;
         full.support = Support::dense(20, 25);
         full.cost = Eigen::Map<const Eigen::VectorXd>(sparse.full_cost().eval().data(), 500);
         full.background_cost = 5;
@@ -144,7 +144,7 @@ TEST(Sinkhorn, BackgroundStandsForACostlyRestOfTheMatrix) {
 }
 
 TEST(Sinkhorn, BackgroundCarriesWhatTheSupportCannot) {
-    Example e;
+    Matching e;
     e.support = Support({{0}, {0}, {}, {1, 2}}, 4);  // too much for column 0; nothing for row 2 and column 3
     e.cost = Eigen::VectorXd::Constant(4, .5);
     e.row_mass = e.column_mass = Eigen::VectorXd::Constant(4, .25);
@@ -157,7 +157,7 @@ TEST(Sinkhorn, BackgroundCarriesWhatTheSupportCannot) {
 }
 
 TEST(Sinkhorn, StaysFiniteForExtremeCosts) {
-    Example e = random_example(50, 40, .2, 1, 7);
+    Matching e = random_matching(50, 40, .2, 1, 7);
     Generator random(8);
     for (double& c : e.cost) c = std::pow(10, 12 * random.uniform() - 6);
     e.gamma = e.cost.maxCoeff() / 1e4;
@@ -171,7 +171,7 @@ TEST(Sinkhorn, StaysFiniteForExtremeCosts) {
 }
 
 /// The share of a step that keeps a plan positive and its marginals within the bounds.
-double feasible_share(const Example& e, const RowMatrix& pi, const RowMatrix& step) {
+double feasible_share(const Matching& e, const RowMatrix& pi, const RowMatrix& step) {
     double share = .3 * (pi.array() / step.array().abs()).minCoeff();
     const auto keep = [&](const Eigen::VectorXd& sum, const Eigen::VectorXd& change,
                           const MassBounds& bounds) {
@@ -188,7 +188,7 @@ double feasible_share(const Example& e, const RowMatrix& pi, const RowMatrix& st
 
 TEST(Sinkhorn, BoundedMinimisesItsObjectiveWithinTheBounds) {
     for (const double penalty : {0., .05, 1.}) {
-        Example e = random_example(12, 10, .4, .2, 13);
+        Matching e = random_matching(12, 10, .4, .2, 13);
         e.background_cost = 1.5;
         e.factor = 1.3;
         e.mass_penalty = penalty;
@@ -217,10 +217,10 @@ TEST(Sinkhorn, BoundedMinimisesItsObjectiveWithinTheBounds) {
 TEST(Sinkhorn, BoundedAgreesWithTheLogDomain) {
     for (const double gamma : {1., .05, 2e-3})
         for (const double penalty : {0., .1}) {
-            Example a = random_example(30, 36, .3, gamma, 16);
+            Matching a = random_matching(30, 36, .3, gamma, 16);
             a.factor = 1.2;
             a.mass_penalty = penalty;
-            Example b = a;
+            Matching b = a;
             const SinkhornReport fast = a.solve(1e-9), reference = b.solve_in_log_domain(1e-9);
             EXPECT_NEAR(fast.iterations, reference.iterations, 1 + reference.iterations / 20) << gamma;
             EXPECT_LT((dense(a.plan) - dense(b.plan)).lpNorm<1>(), 1e-7) << gamma;
@@ -229,7 +229,7 @@ TEST(Sinkhorn, BoundedAgreesWithTheLogDomain) {
 }
 
 TEST(Sinkhorn, BoundsTendToExactMasses) {
-    Example exact = random_example(20, 20, .3, .1, 15), bounded = exact, penalised = exact;
+    Matching exact = random_matching(20, 20, .3, .1, 15), bounded = exact, penalised = exact;
     bounded.factor = 1 + 1e-6;
     penalised.factor = 1.5;
     penalised.mass_penalty = 1e6;
@@ -242,7 +242,7 @@ TEST(Sinkhorn, BoundsTendToExactMasses) {
 
 /// Row sums carry what the bounds allow where only mass matters: half of the rows are free, half cost 1.
 TEST(Sinkhorn, BoundsAreReachedWhereTheyPay) {
-    Example e;
+    Matching e;
     e.support = Support::dense(4, 4);
     e.row_mass = e.column_mass = Eigen::VectorXd::Constant(4, .25);
     e.cost = Eigen::VectorXd::Zero(16);
@@ -256,7 +256,7 @@ TEST(Sinkhorn, BoundsAreReachedWhereTheyPay) {
 }
 
 TEST(Sinkhorn, RoundingMeetsMassesByMovingWhatTheyWereMissedBy) {
-    Example e = random_example(30, 25, .3, .05, 17);
+    Matching e = random_matching(30, 25, .3, .05, 17);
     e.solve(5e-2);
     const RowMatrix before = dense(e.plan);
     const double missed = (row_sums(e.plan) - e.row_mass).lpNorm<1>();
@@ -270,7 +270,7 @@ TEST(Sinkhorn, RoundingMeetsMassesByMovingWhatTheyWereMissedBy) {
 TEST(Sinkhorn, TendsToTheSortedMatchingOnALine) {
     constexpr int n = 20;
     Generator random(9);
-    Example e;
+    Matching e;
     e.support = Support::dense(n, n);
     e.row_mass = e.column_mass = Eigen::VectorXd::Constant(n, 1. / n);
     e.cost.resize(n * n);
@@ -282,14 +282,14 @@ TEST(Sinkhorn, TendsToTheSortedMatchingOnALine) {
 }
 
 TEST(Sinkhorn, StopsAtOnceWhenItStartsFromTheSolution) {
-    Example e = random_example(30, 30, .3, .05, 10);
+    Matching e = random_matching(30, 30, .3, .05, 10);
     EXPECT_GT(e.solve(1e-6).iterations, 5);
     EXPECT_EQ(sinkhorn(e.problem(), {1e-6, 1000}, e.potentials, e.plan).iterations, 1);
     EXPECT_EQ(sinkhorn_log_domain(e.problem(), {1e-6, 1000}, e.potentials, e.plan).iterations, 1);
 }
 
 TEST(Sinkhorn, IsTheSameToTheLastBitForAnyThreads) {
-    Example a = random_example(1500, 1400, .01, .02, 11), b = a;
+    Matching a = random_matching(1500, 1400, .01, .02, 11), b = a;
     {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
         a.solve(1e-3);

@@ -119,7 +119,7 @@ void read_shape(std::string_view shape, const std::string& path, NpyHeader& head
     if (!header.flat) header.columns = extent(rest.substr(1), path);
 }
 
-NpyHeader read_header(std::string_view bytes, const std::string& path) {
+NpyHeader read_npy_header(std::string_view bytes, const std::string& path) {
     if (!is_npy(bytes) || bytes.size() < 12) throw InputError(path + ": not an .npy file");
     const bool first_version = bytes[6] == 1;
     std::uint32_t length = 0;
@@ -145,7 +145,7 @@ bool is_wide(std::string_view type) {
 }  // namespace
 
 NpyArray parse_npy(std::string_view bytes, const std::string& path, WideIntegers wide) {
-    const NpyHeader header = read_header(bytes, path);
+    const NpyHeader header = read_npy_header(bytes, path);
     const NumberType& type = types().find(header.type)->second;
     const auto available = (bytes.size() - header.bytes) / std::size_t(type.bytes);
     if (header.columns == 0 || available / std::size_t(header.columns) < std::size_t(header.rows))

@@ -75,7 +75,7 @@ bool read_header_line(const TextScanner& scanner, PlyHeader& header) {
 }
 
 /// Lines are taken as they are: what a comment says or ends with means nothing.
-PlyHeader read_header(std::string_view bytes, const std::string& path) {
+PlyHeader read_ply_header(std::string_view bytes, const std::string& path) {
     PlyHeader header;
     TextScanner scanner(bytes, path, LineStyle::plain);
     if (!scanner.next_line() || scanner.words()[0] != "ply")
@@ -254,7 +254,7 @@ std::vector<PlyColumn> read_columns(Body& body, const Element& element, std::vec
 }  // namespace
 
 PlyColumns parse_ply_columns(std::string_view bytes, const std::string& path) {
-    const PlyHeader header = read_header(bytes, path);
+    const PlyHeader header = read_ply_header(bytes, path);
     Body body(bytes.substr(header.bytes), header.format, path);
     PlyColumns columns;
     for (const Element& element : header.elements) {
@@ -267,7 +267,7 @@ PlyColumns parse_ply_columns(std::string_view bytes, const std::string& path) {
 }
 
 PolygonSoup parse_ply(std::string_view bytes, const std::string& path) {
-    const PlyHeader header = read_header(bytes, path);
+    const PlyHeader header = read_ply_header(bytes, path);
     Body body(bytes.substr(header.bytes), header.format, path);
     PolygonSoup soup;
     soup.space = stated_space(bytes.substr(0, header.bytes));

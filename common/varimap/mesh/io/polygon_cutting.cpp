@@ -11,13 +11,13 @@ namespace varimap {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-using Triangle = std::array<std::size_t, 3>;
+using CornerTriangle = std::array<std::size_t, 3>;
 
 /// Finding ears takes the square of the corners, at worst the cube.
 constexpr std::size_t most_corners = 4000;
 
-std::vector<Triangle> fan(std::size_t n) {
-    std::vector<Triangle> triangles;
+std::vector<CornerTriangle> fan(std::size_t n) {
+    std::vector<CornerTriangle> triangles;
     for (std::size_t k = 1; k + 1 < n; ++k) triangles.push_back({0, k, k + 1});
     return triangles;
 }
@@ -43,12 +43,12 @@ class EarCutter {
     }
 
     /// Nothing where it cannot be cut to the end.
-    std::vector<Triangle> run() {
-        std::vector<Triangle> triangles;
+    std::vector<CornerTriangle> run() {
+        std::vector<CornerTriangle> triangles;
         for (std::size_t at = 0, in_vain = 0; left_.size() > 3;) {
             if (in_vain == left_.size()) return {};
             at %= left_.size();
-            const Triangle ear = corner(at);
+            const CornerTriangle ear = corner(at);
             if (!is_ear(ear)) {
                 ++at, ++in_vain;
                 continue;
@@ -62,13 +62,13 @@ class EarCutter {
     }
 
   private:
-    Triangle corner(std::size_t at) const {
+    CornerTriangle corner(std::size_t at) const {
         return {left_[at > 0 ? at - 1 : left_.size() - 1], left_[at], left_[(at + 1) % left_.size()]};
     }
     double turn(std::size_t a, std::size_t b, std::size_t c) const {
         return cross(Vec2(corners_[b] - corners_[a]), Vec2(corners_[c] - corners_[a]));
     }
-    bool is_ear(const Triangle& ear) const {
+    bool is_ear(const CornerTriangle& ear) const {
         const auto [a, b, c] = ear;
         if (turn(a, b, c) <= 0) return false;
         return std::none_of(left_.begin(), left_.end(), [&](std::size_t p) {
@@ -82,21 +82,21 @@ class EarCutter {
     std::vector<std::size_t> left_;
 };
 
-std::vector<Triangle> cut(const std::vector<Vec3>& x) {
+std::vector<CornerTriangle> cut(const std::vector<Vec3>& x) {
     const std::vector<Vec3> areas = fan_areas(x);
     const Vec3 area = std::accumulate(areas.begin(), areas.end(), Vec3(Vec3::Zero()));
     if (x.size() > most_corners || !folds(areas, area)) return fan(x.size());
     const Vec3 normal = area.stableNormalized(), across = normal.unitOrthogonal(), up = normal.cross(across);
     std::vector<Vec2> flat;
     for (const Vec3& p : x) flat.emplace_back((p - x[0]).dot(across), (p - x[0]).dot(up));
-    std::vector<Triangle> triangles = EarCutter(std::move(flat)).run();
+    std::vector<CornerTriangle> triangles = EarCutter(std::move(flat)).run();
     return triangles.empty() ? fan(x.size()) : triangles;
 }
 
 }  // namespace
 
-std::vector<Triangle> triangle_corners(const PolygonSoup& soup) {
-    std::vector<Triangle> result;
+std::vector<CornerTriangle> triangle_corners(const PolygonSoup& soup) {
+    std::vector<CornerTriangle> result;
     result.reserve(soup.corners.size() - 2 * soup.ends.size());
     std::size_t first = 0;
     std::vector<Vec3> polygon;

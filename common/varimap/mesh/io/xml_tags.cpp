@@ -5,10 +5,10 @@
 namespace varimap {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view xml_blanks = " \t\r\n";
 
 std::string_view without_blanks_behind(std::string_view text) {
-    return text.substr(0, text.find_last_not_of(blanks) + 1);
+    return text.substr(0, text.find_last_not_of(xml_blanks) + 1);
 }
 
 /// Where the tag that begins at `begin` ends: values of attributes may hold a >.
@@ -25,7 +25,7 @@ std::size_t end_of_tag(std::string_view text, std::size_t begin) {
 
 std::string_view XmlTag::attribute(std::string_view key) const {
     for (std::size_t at = 0;;) {
-        const std::size_t begin = attributes.find_first_not_of(blanks, at);
+        const std::size_t begin = attributes.find_first_not_of(xml_blanks, at);
         const std::size_t equals = begin == attributes.npos ? begin : attributes.find('=', begin);
         const std::size_t quote =
             equals == attributes.npos ? equals : attributes.find_first_of("\"'", equals);
@@ -53,7 +53,7 @@ bool XmlTags::next(XmlTag& tag) {
     std::string_view inside = text_.substr(at_ + 1, end - at_ - 1);
     tag.closes_itself = inside.ends_with('/');
     if (tag.closes_itself) inside.remove_suffix(1);
-    const std::size_t blank = std::min(inside.find_first_of(blanks), inside.size());
+    const std::size_t blank = std::min(inside.find_first_of(xml_blanks), inside.size());
     tag.name = inside.substr(0, blank);
     tag.attributes = inside.substr(blank);
     if (const std::size_t colon = tag.name.find(':'); colon != tag.name.npos)
