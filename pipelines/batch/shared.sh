@@ -38,6 +38,7 @@ hash_files() {
     # 64 digits, two blanks and the name.
     while IFS= read -r -d '' line; do hash_of[${line:66}]=${line::16}; done < <(printf '%s\0' "$@" | xargs -0 sha256sum -z --)
     for file in "$@"; do
+        [[ -v hash_of[$file] ]] || fail 6 "$file: cannot be read"
         mapfile -t named < <(files_named_in "$file")
         ((${#named[@]} == 0)) || hash_of[$file]=$({ echo "${hash_of[$file]}"; hashes_beside "$file" "${named[@]}"; } | short_hash)
     done

@@ -1,8 +1,10 @@
 #include <zlib.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "stages/import/source_meshes.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -82,6 +84,9 @@ void copy_numbers(std::string_view raw, std::vector<To>& numbers) {
     for (std::size_t i = 0; i + sizeof(From) <= raw.size(); i += sizeof(From)) {
         From value;
         std::memcpy(&value, raw.data() + i, sizeof value);
+        // A float beyond what an integer holds has no value as one.
+        if (std::is_floating_point_v<From> && std::is_integral_v<To> && !(std::abs(double(value)) < 9e15))
+            throw FbxNotUnderstood();
         numbers.push_back(To(value));
     }
 }

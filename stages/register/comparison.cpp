@@ -1,12 +1,24 @@
 #include "stages/register/comparison.h"
 
+#include "varimap/core/error.h"
+
 namespace varimap {
 namespace {
+
+/// A shape; Procrustes analysis needs that it has a size.
+Points shape_of(const Registration& all, std::size_t i, const Extent& extent) {
+    Points shape = extent.of(all.shape(i));
+    const double rounding = 1e-14 * shape.cwiseAbs().maxCoeff();
+    if (!(size_about_centroid(shape, extent.weights) > rounding))
+        throw InputError(all.names[i] +
+                         ": all of the template's points lie in one place on it; look at its map");
+    return shape;
+}
 
 Alignment aligned_wholes(const Registration& all, const Extent& common, bool scale) {
     std::vector<Points> wholes;
     for (std::size_t i = 0; i < all.points.size(); ++i)
-        if (!all.is_part[i]) wholes.push_back(common.of(all.shape(i)));
+        if (!all.is_part[i]) wholes.push_back(shape_of(all, i, common));
     const Points start = common.of(all.first.vertices);
     if (!wholes.empty()) return procrustes(wholes, start, common.weights, scale);
     Alignment none;
@@ -43,7 +55,7 @@ ShapeComparison compare_shapes(const Registration& all, const Extents& extents, 
         }
         const Extent& own = extents.of(i);
         LaidOver part =
-            laid_over(own.of(all.shape(i)), rows_of(own, common, wholes.mean), own.weights, scale);
+            laid_over(shape_of(all, i, own), rows_of(own, common, wholes.mean), own.weights, scale);
         result.aligned.push_back(std::move(part.shape));
         result.sizes.push_back(part.size_ratio * mean_size);
         result.distances.push_back(part.distance);

@@ -41,8 +41,8 @@ std::optional<Coverage> coverage_when_closed(const PointMap& map, const Surface&
     return measure_coverage(map, std::move(closed.mesh), without_added_faces(target));
 }
 
-DirectionQuality measure_direction(const PointMap& map, const Surface& from, const Surface& onto,
-                                   double area_bound) {
+MeasuredDirection measure_direction(const PointMap& map, const Surface& from, const Surface& onto,
+                                    double area_bound) {
     const TriangleMesh source = without_added_faces(from);
     const TriangleMesh& target = onto.input;
     const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
@@ -51,7 +51,7 @@ DirectionQuality measure_direction(const PointMap& map, const Surface& from, con
             verify_map(map, source, target)};
 }
 
-InTheEnd of_both(const DirectionQuality& there, const DirectionQuality& back) {
+InTheEnd of_both(const MeasuredDirection& there, const MeasuredDirection& back) {
     return {std::sqrt(there.distortion.dirichlet_energy * back.distortion.dirichlet_energy),
             std::min(there.reached().share, back.reached().share), false};
 }

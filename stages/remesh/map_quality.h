@@ -16,7 +16,7 @@ namespace varimap {
 
 /// How good one direction of a map is, measured on the inputs; faces that a repair added to the source do not
 /// count.
-struct DirectionQuality {
+struct MeasuredDirection {
     Distortion distortion;
     double within_area_bound = 0;  ///< share_within_area_bound (quality.h), of the plan's bound
     Coverage coverage;
@@ -51,7 +51,7 @@ struct ChoiceQuality {
 
 /// How good a map between two surfaces is.
 struct MapQuality {
-    DirectionQuality A_to_B, B_to_A;
+    MeasuredDirection A_to_B, B_to_A;
     InTheEnd in_the_end;                  ///< of both directions together
     RoundTrip round_trip;                 ///< A to B to A
     LandmarkQuality landmarks;            ///< empty without landmarks

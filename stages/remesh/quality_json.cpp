@@ -54,7 +54,7 @@ Json to_json(const std::vector<UncoveredPart>& parts, const FileLink& link) {
 }
 
 /// `onto`: the surface that the direction leads to.
-Json to_json(const DirectionQuality& quality, const UntanglingReport& untangling, const Surface& onto) {
+Json to_json(const MeasuredDirection& quality, const UntanglingReport& untangling, const Surface& onto) {
     const Distortion& distortion = quality.distortion;
     Json json = {{"flipped_count", distortion.flipped_count},
                  {"flipped_area_percent", distortion.flipped_area_percent},

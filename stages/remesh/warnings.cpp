@@ -132,20 +132,20 @@ std::string slivers_in_words(const MapQuality& quality) {
 
 /// Good maps of whole surfaces have less than .5% reversed and more than 95% covered, those of skulls with
 /// their insides 87%. The upper half of a person on a whole one has 8% reversed.
-bool reverses_much(const DirectionQuality& direction) {
+bool reverses_much(const MeasuredDirection& direction) {
     constexpr double much = 2;
     constexpr std::size_t several = 5;  // one of 20 faces is as much, on a right map of a bracket
     return direction.verification.reversed_area_percent > much &&
            direction.verification.reversed_faces.size() >= several;
 }
-bool covers_little(const DirectionQuality& direction) {
+bool covers_little(const MeasuredDirection& direction) {
     return direction.reached().share < 0.8;
 }
-bool tears(const DirectionQuality& direction) {
+bool tears(const MeasuredDirection& direction) {
     return reverses_much(direction) || covers_little(direction);
 }
 
-void warn_of_tears(const DirectionQuality& direction, const char* which, const std::string& slivers,
+void warn_of_tears(const MeasuredDirection& direction, const char* which, const std::string& slivers,
                    const PairRecord& record) {
     if (!tears(direction)) return;
     const std::string cause = fmt::format(

@@ -86,9 +86,13 @@ void draw_scale(const Quantity& quantity, int left, int top, int width, int lett
 
 /// Rows of panels, each of the height its surface needs; returns the height of all.
 int lay_out_grid(std::vector<Panel>& panels, int columns, int picture_width) {
-    double widest = 0;
-    for (const Panel& p : panels) widest = std::max(widest, p.box.sizes()[0] + panel_margin);
-    const double scale = picture_width / (columns * widest);
+    double widest = 0, highest = 0;
+    for (const Panel& p : panels) {
+        widest = std::max(widest, p.box.sizes()[0] + panel_margin);
+        highest = std::max(highest, p.box.sizes()[1] + panel_margin);
+    }
+    // A long thin figure must not make the picture endless.
+    const double scale = std::min(picture_width / (columns * widest), 2 * picture_width / highest);
     int top = 0;
     for (size_t first = 0; first < panels.size(); first += size_t(columns)) {
         const int height = int(std::lround((panels[first].box.sizes()[1] + panel_margin) * scale));

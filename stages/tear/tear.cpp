@@ -50,6 +50,7 @@ TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target
         return (images.row(a) - images.row(b)).norm() /
                (source.vertices.row(a) - source.vertices.row(b)).norm();
     };
+    // An edge without length is torn where its ends' images lie apart.
     const auto is_torn = [&](int a, int b) { return stretch_of(a, b) > options.stretch; };
     std::vector<int> torn;
     for (const auto& [a, b] : edges)

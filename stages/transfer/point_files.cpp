@@ -11,6 +11,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/printable.h"
+#include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/io/xml_tags.h"
 
@@ -33,11 +34,10 @@ std::string slicer_json(std::string_view bytes, const std::vector<PickedPoint>& 
 
 /// The line with its fields 1, 2 and 3 (from 0) replaced.
 std::string fcsv_line(std::string_view line, const Vec3& position) {
-    std::string text(line.substr(0, line.find(',')));
-    for (int field = 0; field < 4; ++field) {
-        if (field > 0) text += fmt::format(",{}", position[field - 1]);
-        const std::size_t comma = line.find(',');
-        line.remove_prefix(comma == line.npos ? line.size() : comma + 1);
+    std::string text(take_raw_field(line));
+    for (int axis = 0; axis < 3; ++axis) {
+        take_raw_field(line);
+        text += fmt::format(",{}", position[axis]);
     }
     return line.empty() ? text : fmt::format("{},{}", text, line);
 }

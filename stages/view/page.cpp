@@ -40,7 +40,7 @@ std::uint16_t step(double share) {
 
 /// log2 of a ratio: 128 is 1; 0: none.
 std::uint8_t octaves(double ratio) {
-    return std::uint8_t(std::clamp(std::lround(128 + per_octave * std::log2(ratio)), 1l, 255l));
+    return std::uint8_t(std::lround(std::clamp(128 + per_octave * std::log2(ratio), 1., 255.)));
 }
 
 std::vector<std::uint16_t> rounded_positions(const TriangleMesh& mesh, const Vec3& low, double extent) {
@@ -199,10 +199,10 @@ Json add_texture(const PageTexture& texture, PackedArrays& arrays) {
 }
 
 /// Text that neither ends nor begins an element or a comment of a page.
-std::string inside_page(std::string json) {
-    for (std::size_t at = json.find('<'); at != json.npos; at = json.find('<', at))
-        json.replace(at, 1, "\\u003c");
-    return json;
+std::string inside_page(const std::string& json) {
+    std::string text;
+    for (const char c : json) text += c == '<' ? "\\u003c" : std::string(1, c);
+    return text;
 }
 
 }  // namespace

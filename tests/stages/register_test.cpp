@@ -26,6 +26,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Lt;
+using ::testing::StartsWith;
 
 const TriangleMesh& body() {
     static const TriangleMesh mesh = shapes::figure(.15);
@@ -358,6 +359,18 @@ TEST(Comparison, LaysAPartOverTheMeanByWhatItHas) {
     whole(extents.common().vertices, Eigen::all) = shapes.aligned[3];
     EXPECT_LT(largest_distance(shapes.aligned[1], extents.of(1).of(whole)), .02);
     EXPECT_LT(shapes.distances[1], .02);
+}
+
+TEST(Comparison, NamesASpecimenOnWhichAllPointsLieInOnePlace) {
+    Registration all = with_a_part();
+    const Extents extents(all.first, all.points, all.is_part, all.names);
+    all.points[2].rowwise() = Eigen::RowVector3d(1, 2, 3);
+    try {
+        compare_shapes(all, extents, 5, true);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), StartsWith("b: all of the template's points lie in one place"));
+    }
 }
 
 TEST(Comparison, OfPartsAloneIsWithTheTemplate) {

@@ -236,11 +236,12 @@ TEST_F(Transfer, ReadsFilesOnce) {
                          {}};
     TransferRequest request;
     request.points = {
-        write_once("a.fcsv", fmt::format("id7,{},{},{},0,0,0,1,1,1,0,ear,,\n", p[0], p[1], p[2])),
+        write_once("a.fcsv", fmt::format("\"id,7\",{},{},{},0,0,0,1,1,1,0,ear,,\n", p[0], p[1], p[2])),
         write_once("a.pp", fmt::format("<point x=\"{}\" y=\"{}\" z=\"{}\"/>", p[0], p[1], p[2]))};
     request.mesh = write_once("a.obj", obj_of(ball_, plain));
     const auto files = carry(request, identity_onto(ball_));
-    EXPECT_THAT(files.at("a.fcsv"), HasSubstr("ear"));
+    EXPECT_THAT(files.at("a.fcsv"),
+                testing::AllOf(StartsWith("\"id,7\","), HasSubstr(",0,0,0,1,1,1,0,ear,,\n")));
     EXPECT_EQ(parse_picked_points(files.at("a.pp"), "a.pp").size(), 1u);
     EXPECT_EQ(parse_mesh(files.at("source_on_target.obj"), "a.obj").faces, ball_.faces);
 }

@@ -104,11 +104,15 @@ class ZipReader {
         const std::size_t end = bytes_.rfind("PK\x05\x06");
         if (end == bytes_.npos || bytes_.size() - end < end_size) fail("its list of files is missing");
         std::map<std::string, std::string> found;
+        std::size_t packed = 0;
         std::size_t at = number(end + 16, 4);
         for (std::size_t count = number(end + 10, 2); count > 0; --count) {
             const std::size_t name = number(at + 28, 2), extra = number(at + 30, 2),
                               comment = number(at + 32, 2);
-            found[std::string(part(at + 46, name))] = content(at);
+            const auto [file, is_new] = found.try_emplace(std::string(part(at + 46, name)));
+            if (!is_new) fail("two files in it have the same name");
+            if ((packed += number(at + 20, 4)) > bytes_.size()) fail("files in it overlap");
+            file->second = content(at);
             at += 46 + name + extra + comment;
         }
         return found;

@@ -45,6 +45,18 @@ std::optional<std::string> take_quoted(std::string_view& line) {
     }
 }
 
+std::string_view take_raw_field(std::string_view& line) {
+    bool quoted = false;
+    const auto end = std::find_if(line.begin(), line.end(), [&](char c) {
+        if (c == '"') quoted = !quoted;
+        return c == ',' && !quoted;
+    });
+    const auto size = std::size_t(end - line.begin());
+    const std::string_view field = line.substr(0, size);
+    line.remove_prefix(std::min(size + 1, line.size()));
+    return field;
+}
+
 std::string in_quotes(std::string_view field) {
     std::string text = "\"";
     for (const char c : field) text += c == '"' ? "\"\"" : std::string(1, c);

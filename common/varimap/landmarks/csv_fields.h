@@ -18,6 +18,10 @@ std::string in_quotes(std::string_view field);
 /// last word; a blank where it holds none.
 char separator_of(std::string_view line);
 
+/// Takes what stands before the first comma that is not between quotes off the front of a line, and the
+/// comma.
+std::string_view take_raw_field(std::string_view& line);
+
 /// What stands between the separators of a line, without blanks around it. As RFC 4180 says, a field in
 /// quotes may hold them, and quotes as two of them. None where a quote has no end, or more than a separator
 /// behind it.

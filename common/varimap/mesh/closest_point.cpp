@@ -119,7 +119,7 @@ struct ClosestPoint::State {
     std::vector<int> present;  ///< the other way: per face as given
     EmbreeScene scene;
 
-    Hit search(const Vec3& query, const Vec3* normal, int guess = -1) const;
+    Hit search(const Vec3& asked, const Vec3* normal, int guess = -1) const;
 };
 
 namespace {
@@ -212,11 +212,10 @@ bool visit(RTCPointQueryFunctionArguments* arguments) {
 
 }  // namespace
 
-ClosestPoint::Hit ClosestPoint::State::search(const Vec3& query, const Vec3* normal, int guess) const {
-    const Vec3 local = (query - centre) * scale;
+ClosestPoint::Hit ClosestPoint::State::search(const Vec3& asked, const Vec3* normal, int guess) const {
     constexpr double far = 1e6;  // squared distances stay numbers, in single precision too
-    if (!(local.cwiseAbs().maxCoeff() <= far))
-        return search(centre + local.cwiseMax(-far).cwiseMin(far) / scale, normal, guess);
+    const Vec3 place = (asked - centre) * scale, local = place.cwiseMax(-far).cwiseMin(far);
+    const Vec3 query = local == place ? asked : Vec3(centre + local / scale);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     Search search{mesh, given, query, normal, scale, 1e-6 * (1 + local.cwiseAbs().maxCoeff())};

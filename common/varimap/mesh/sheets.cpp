@@ -11,7 +11,8 @@
 namespace varimap {
 namespace {
 
-constexpr double least_height = 1e-9;  ///< by the length of the face's other side
+constexpr double least_height = 1e-9;      ///< by the length of the face's other side
+constexpr std::size_t most_compared = 64;  ///< faces at an edge; comparing them takes their cube
 
 /// A face at an edge, by its side there.
 struct Flank {
@@ -44,7 +45,8 @@ class SheetFinder {
     bool is_turned(int side) const { return turned_[std::size_t(side / 3)]; }
     void find_partners();
     std::vector<Flank> flanks(int edge) const;
-    void join_beside_wedges(std::vector<Flank> flanks);
+    void join_beside_wedges(const std::vector<Flank>& flanks);
+    void join_opposite(const std::vector<Flank>& flanks);
     void join_flattest(std::vector<Flank> flanks);
     void join(int side, int other);
     void part(int side);
@@ -92,18 +94,34 @@ std::vector<Flank> SheetFinder::flanks(int edge) const {
     return result;
 }
 
-/// A face that runs forward has the inside before it, counter-clockwise; one that runs backward, behind it.
-void SheetFinder::join_beside_wedges(std::vector<Flank> flanks) {
-    for (std::size_t i = 0; !flanks.empty(); i = i + 1 < flanks.size() ? i + 1 : 0) {
-        const std::size_t after = i + 1 < flanks.size() ? i + 1 : 0;
-        if (flanks[i].forward || !flanks[after].forward) continue;
-        join(flanks[i].side, flanks[after].side);
-        flanks.erase(flanks.begin() + std::ptrdiff_t(std::max(i, after)));
-        flanks.erase(flanks.begin() + std::ptrdiff_t(std::min(i, after)));
+/// A face that runs forward has the inside before it, counter-clockwise; one that runs backward, behind it:
+/// they belong together as brackets do, around the edge.
+void SheetFinder::join_beside_wedges(const std::vector<Flank>& flanks) {
+    std::vector<int> open, closing;
+    for (const Flank& flank : flanks) {
+        if (!flank.forward) {
+            open.push_back(flank.side);
+        } else if (open.empty()) {
+            closing.push_back(flank.side);
+        } else {
+            join(open.back(), flank.side);
+            open.pop_back();
+        }
+    }
+    for (const int side : closing) {
+        join(open.back(), side);
+        open.pop_back();
     }
 }
 
+/// Of so many faces none is flatter with another than with the one on the other side of them.
+void SheetFinder::join_opposite(const std::vector<Flank>& flanks) {
+    const std::size_t half = flanks.size() / 2;
+    for (std::size_t i = 0; i < half; ++i) join(flanks[i].side, flanks[i + half].side);
+}
+
 void SheetFinder::join_flattest(std::vector<Flank> flanks) {
+    if (flanks.size() > most_compared) return join_opposite(flanks);
     while (flanks.size() > 1) {
         std::size_t first = 0, second = 1;
         for (std::size_t i = 0; i < flanks.size(); ++i)

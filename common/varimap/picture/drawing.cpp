@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -42,7 +43,8 @@ std::vector<int> visible_faces(const TriangleMesh& seen) {
 
 Eigen::Matrix3d viewing_axes(const Points& points) {
     const Points centred = points.rowwise() - points.colwise().mean();
-    if (centred.col(2).cwiseAbs().maxCoeff() < 1e-12) return Eigen::Matrix3d::Identity();
+    const double rounding = 1e-12 * points.cwiseAbs().maxCoeff();
+    if (centred.col(2).cwiseAbs().maxCoeff() <= rounding) return Eigen::Matrix3d::Identity();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(centred.transpose() * centred);
     Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
     for (int k = 0; k < 2; ++k) {  // signs are arbitrary: the larger component points forwards
@@ -62,7 +64,8 @@ Colours colours_by_place(const Domain& domain) {
     const bool is_line = (extent.array() > 1e-6 * extent.maxCoeff()).count() == 1;
     const auto unit = [&](Eigen::Index k) -> Eigen::ArrayXd {
         if (k >= places.cols()) return Eigen::ArrayXd::Constant(places.rows(), .5);
-        return (places.col(k).array() - places.col(k).minCoeff()) / std::max(extent[k], 1e-12);
+        return (places.col(k).array() - places.col(k).minCoeff()) /
+               std::max(extent[k], std::numeric_limits<double>::min());
     };
     Colours colours(places.rows(), 3);
     for (int k = 0; k < 3; ++k)
@@ -85,7 +88,7 @@ Colours colours_by_value(const Eigen::VectorXd& values) {
 Frame::Frame(const Points& seen, int column) {
     low_ = seen.leftCols<2>().colwise().minCoeff().transpose();
     const Eigen::Array2d high = seen.leftCols<2>().colwise().maxCoeff().transpose();
-    const Eigen::Array2d extent = (high - low_).max(1e-12);
+    const Eigen::Array2d extent = (high - low_).max(std::numeric_limits<double>::min());
     scale_ = (panel - 2 * margin) / extent.maxCoeff();
     pixels_low_ = Eigen::Array2d(column * panel, 0) + (panel - scale_ * extent) / 2;
 }

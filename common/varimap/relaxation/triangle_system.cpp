@@ -8,6 +8,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "varimap/core/index_set.h"
+
 namespace varimap {
 
 TriangleSystem::TriangleSystem(int node_count, const std::vector<std::array<int, 3>>& triangles)
@@ -84,6 +86,8 @@ void TriangleSystem::count_factor() {
                 visited_[i] = k;
             }
     }
+    entry_count(std::accumulate(factor_begin_.begin(), factor_begin_.end(), std::size_t(0)),
+                "the factor of a relaxation step");
     std::partial_sum(factor_begin_.begin(), factor_begin_.end(), factor_begin_.begin());
     factor_row_.resize(factor_begin_.back());
     factor_.resize(factor_begin_.back());

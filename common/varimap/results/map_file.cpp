@@ -37,10 +37,12 @@ std::string place(const VertexMap& map, std::size_t i, const std::string& path) 
                             : fmt::format("{}:{}", path, map.line[i]);
 }
 
-long long to_vertex(double number, const std::string& place) {
+/// `place`: called for where it stands, if it is none.
+template <class Place>
+long long to_vertex(double number, const Place& place) {
     if (std::isnan(number)) return none;
     if (number != std::floor(number) || std::abs(number) > 2e9)
-        throw InputError(fmt::format("{}: {} is not a vertex number", place, number));
+        throw InputError(fmt::format("{}: {} is not a vertex number", place(), number));
     return number < 0 ? none : static_cast<long long>(number);
 }
 
@@ -68,9 +70,9 @@ VertexMap parse_text(std::string_view bytes, const std::string& path) {
         const std::vector<double> numbers = numbers_of(text);
         if (first && numbers.empty()) continue;  // names
         if (!columns) columns = numbers.size();
-        const std::string at = fmt::format("{}:{}", path, lines.line());
+        const auto at = [&] { return fmt::format("{}:{}", path, lines.line()); };
         if (numbers.size() != *columns || numbers.empty() || numbers.size() > 2)
-            throw InputError(at +
+            throw InputError(at() +
                              ": expected a vertex of the target, for each vertex of the source, or the "
                              "table of varimap, whose first line is vertex,face,b0,b1,b2");
         if (numbers.size() == 2) {
@@ -79,7 +81,7 @@ VertexMap parse_text(std::string_view bytes, const std::string& path) {
                 throw InputError(
                     fmt::format("{}: vertex {} where vertex {} should stand; rows must be in the "
                                 "vertices' order",
-                                at, numbers[0], map.vertex.size() + std::size_t(*map.own_base)));
+                                at(), numbers[0], map.vertex.size() + std::size_t(*map.own_base)));
         }
         map.vertex.push_back(to_vertex(numbers.back(), at));
         map.line.push_back(lines.line());
@@ -93,7 +95,7 @@ VertexMap parse_list(const NpyArray& array, const std::string& path) {
     VertexMap map;
     const auto list = array.values.reshaped();
     for (Eigen::Index i = 0; i < list.size(); ++i)
-        map.vertex.push_back(to_vertex(list[i], fmt::format("{}: row {} (from 0)", path, i)));
+        map.vertex.push_back(to_vertex(list[i], [&] { return place(map, std::size_t(i), path); }));
     return map;
 }
 

@@ -186,9 +186,10 @@ void require_vertices(Eigen::Index count, const TriangleMesh& mesh) {
 
 void pin_landmarks(MapPair& maps, const PairRecord& record, const Surface& A, const Surface& B) {
     if (!record.pins_landmarks() || !record.landmark_points.empty()) return;  // points lie between vertices
+    const PointMap on_A = points_at_vertices(A.mesh), on_B = points_at_vertices(B.mesh);
     for (const auto& [a, b] : record.landmarks) {
-        maps.A_to_B[std::size_t(a.index)] = point_at_vertex(B.mesh, b.index);
-        maps.B_to_A[std::size_t(b.index)] = point_at_vertex(A.mesh, a.index);
+        maps.A_to_B[std::size_t(a.index)] = on_B[std::size_t(b.index)];
+        maps.B_to_A[std::size_t(b.index)] = on_A[std::size_t(a.index)];
     }
 }
 

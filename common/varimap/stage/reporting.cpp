@@ -15,16 +15,19 @@
 namespace varimap {
 namespace {
 
+/// Whether all of it was written.
+bool append(const std::string& path, const std::string& text) {
+    std::FILE* file = std::fopen(path.c_str(), "ae");
+    if (file == nullptr) return false;
+    const bool written = std::fputs(text.c_str(), file) >= 0;
+    return std::fclose(file) == 0 && written;
+}
+
 /// stderr may be closed, which is no reason to fail in another way.
 int say(const ErrorReport& report, ExitCode code, const std::string& message) {
     const std::string text = fmt::format("{}: error: {}\n", report.program, printable(message));
-    std::FILE* file = report.file.empty() ? nullptr : std::fopen(report.file.c_str(), "ae");
-    if (file != nullptr) {
-        std::fputs(fmt::format("{} {}", int(code), text).c_str(), file);
-        std::fclose(file);
-    } else {
+    if (report.file.empty() || !append(report.file, fmt::format("{} {}", int(code), text)))
         std::fputs(text.c_str(), stderr);
-    }
     return int(code);
 }
 

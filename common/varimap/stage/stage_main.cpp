@@ -67,6 +67,9 @@ Header Stage::State::header(std::string kind, std::vector<InputRecord> from) con
     header.stage = "varimap-" + line.stage;
     header.version = version();
     header.parameters = line.parameters.resolved();
+    if (header.kind == stamp_kind)  // what is no artifact has its meaning from flags, too
+        for (const auto& flag : line.flags)
+            if (flag.value) header.parameters.emplace_back("--" + flag.name, "");
     header.inputs = std::move(from);
     return header;
 }

@@ -73,7 +73,8 @@ class Stage {
     const std::string& input_option(const std::string& name, const std::string& help);
     const std::vector<std::string>& input_list_option(const std::string& name, const std::string& help,
                                                       int minimum = 1, int maximum = 1 << 20);
-    /// Options that do not belong to the parameters (they do not change an artifact's meaning).
+    /// Options that do not belong to the parameters: they do not change an artifact's meaning. --if-stale
+    /// looks at flags where there is a stamp.
     const std::string& option(const std::string& name, const std::string& help);
     const bool& flag(const std::string& name, const std::string& help);
 

@@ -102,7 +102,8 @@ RowMatrix normalised(RowMatrix sums, const Eigen::VectorXd& totals) {
 
 Support::Support(std::vector<std::vector<int>> columns, int column_count)
     : row_begin(columns.size() + 1, 0), column_begin(column_count + 1, 0) {
-    for (size_t i = 0; i < columns.size(); ++i) row_begin[i + 1] = row_begin[i] + int(columns[i].size());
+    for (size_t i = 0; i < columns.size(); ++i)
+        row_begin[i + 1] = entry_count(std::size_t(row_begin[i]) + columns[i].size(), "the plan");
     column.reserve(row_begin.back());
     for (auto& list : columns) {
         column.insert(column.end(), list.begin(), list.end());

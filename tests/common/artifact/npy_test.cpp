@@ -47,6 +47,21 @@ TEST(Zip, ReadsBackWhatIsStored) {
     EXPECT_THROW(from_zip(damaged, "x"), InputError);
     for (std::size_t size = 0; size < zip.size(); ++size)
         EXPECT_THROW(from_zip(zip.substr(0, size), "x"), InputError);
+    EXPECT_THROW(from_zip(to_zip({{"a", "1"}, {"a", "2"}}), "x"), InputError);
+}
+
+/// Or a small archive might unpack without end.
+TEST(Zip, RefusesFilesOfTheSameBytes) {
+    std::vector<std::pair<std::string, std::string>> files{{"0", std::string(10'000, 'x')}};
+    for (int i = 1; i < 3; ++i) files.emplace_back(std::to_string(i), "");
+    std::string zip = to_zip(files);
+    const std::size_t list = zip.find("PK\x01\x02"), sizes = list + 16, place = list + 42;
+    const std::string first_sizes = zip.substr(sizes, 12), first_place = zip.substr(place, 4);
+    for (std::size_t at = list; at != zip.npos; at = zip.find("PK\x01\x02", at + 1)) {
+        zip.replace(at + 16, 12, first_sizes);
+        zip.replace(at + 42, 4, first_place);
+    }
+    EXPECT_THROW(from_zip(zip, "x"), InputError);
 }
 
 /// As Python's zipfile writes "a" * 1000, deflated.

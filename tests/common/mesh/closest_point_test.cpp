@@ -166,5 +166,15 @@ TEST(ClosestPoint, UnusedVerticesAndFarQueriesLeadNowhereElse) {
     }
 }
 
+/// Of many sizes, so that for some of them rounding puts the farthest point that counts farther still.
+TEST(ClosestPoint, FarQueriesHaveAnAnswerForEverySize) {
+    for (int tenths = 1; tenths < 200; ++tenths) {
+        TriangleMesh mesh = shapes::ellipsoid(1);
+        const Box box = bounding_box(mesh);
+        mesh.vertices *= .1 * tenths / (box.high - box.low).maxCoeff();
+        for (const double far : {5e6, 1e9}) EXPECT_GE(ClosestPoint(mesh)(Vec3(far, 0, 0)).point.face, 0);
+    }
+}
+
 }  // namespace
 }  // namespace varimap

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "fixtures/map_shapes.h"
@@ -11,6 +13,7 @@
 #include "varimap/core/error.h"
 #include "varimap/mesh/bridges.h"
 #include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/sheets.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -290,6 +293,31 @@ TriangleMesh cubes(const std::vector<Vec3>& corners) {
         for (int w = 0; w < v; ++w)
             if (mesh.vertices.row(w) == mesh.vertices.row(v)) v = w;
     return mesh;
+}
+
+/// So many pages around one edge, in equal angles; every other one turned, or none.
+TriangleMesh book(int pages, bool turn) {
+    TriangleMesh mesh{Points(2 + pages, 3), Faces(pages, 3)};
+    mesh.vertices.row(0) << 0, 0, 0;
+    mesh.vertices.row(1) << 0, 0, 1;
+    for (int p = 0; p < pages; ++p) {
+        const double angle = 2 * std::numbers::pi * (p + .5) / pages;
+        mesh.vertices.row(2 + p) << std::cos(angle), std::sin(angle), .5;
+        mesh.faces.row(p) << (turn && p % 2 ? 1 : 0), (turn && p % 2 ? 0 : 1), 2 + p;
+    }
+    return mesh;
+}
+
+TEST(MeshRepair, PagesOfABookHangTogetherInPairs) {
+    for (const int pages : {8, 64, 66, 2000}) {
+        const Sheets flat = find_sheets(book(pages, false)), wedges = find_sheets(book(pages, true));
+        EXPECT_EQ(flat.cut_edges, 1);
+        EXPECT_EQ(flat.origin.size(), 2u * unsigned(pages));  // four for each two
+        EXPECT_EQ(wedges.origin.size(), 2u * unsigned(pages));
+        for (int p = 0; p < pages / 2; ++p) EXPECT_EQ(flat.faces(p, 0), flat.faces(p + pages / 2, 0));
+        for (int p = 1; p < pages; p += 2)
+            EXPECT_EQ(wedges.faces(p, 1), wedges.faces((p + 1) % pages, 0)) << p;
+    }
 }
 
 TEST(MeshRepair, SeparatesSolidsThatTouch) {

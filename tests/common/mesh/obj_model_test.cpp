@@ -91,6 +91,17 @@ TEST(Materials, ReadsOptionsOfImagesAndKeywordsInEitherCase) {
     EXPECT_EQ(skin->texture_offset, Vec2(.25, 0));
 }
 
+TEST(Materials, NumbersThatAreNotFinitePlaceNoImage) {
+    const TemporaryFolder folder;
+    write_file_atomically(folder / "a.png", "");
+    write_file_atomically(folder / "a.mtl", "newmtl skin\nmap_Kd -s inf 2 -o 1 nan a.png\n");
+    const Materials materials = read_from(folder, "a.mtl");
+    ASSERT_EQ(materials.list.size(), 1u);
+    EXPECT_EQ(materials.list[0].texture, folder / "a.png");
+    EXPECT_EQ(materials.list[0].texture_scale, Vec2(1, 2));
+    EXPECT_EQ(materials.list[0].texture_offset, Vec2(1, 0));
+}
+
 TEST(Materials, LibrariesMayShareALine) {
     const TemporaryFolder folder;
     write_file_atomically(folder / "a.mtl", "newmtl a\n");

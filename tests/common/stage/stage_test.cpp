@@ -474,6 +474,30 @@ TEST_F(IfStale, FilesThatAreNoArtifactsHaveAStamp) {
     EXPECT_TRUE(make(false, "6"));
 }
 
+TEST_F(IfStale, AFlagMakesAnotherFileThatIsNoArtifact) {
+    const auto made_with = [&](std::vector<std::string> flags) {
+        const std::string page = folder / "page", stamp = folder / "stamp", hashes = folder / "hashes";
+        std::vector<std::string> words{"varimap-page", in, page, "--if-stale", hashes, "--stamp", stamp};
+        words.insert(words.end(), flags.begin(), flags.end());
+        std::vector<char*> argv;
+        for (auto& word : words) argv.push_back(word.data());
+        Stage stage("page", "A stage for tests");
+        const std::string& source = stage.input("source", "any file");
+        const std::string& output = stage.output("page", 0, "file to write");
+        const bool& mirror = stage.flag("mirror", "another page");
+        EXPECT_EQ(stage.main(int(argv.size()), argv.data(),
+                             [&] {
+                                 stage.record_file("source", source);
+                                 stage.write_file(output, mirror ? "mirrored" : "upright");
+                             }),
+                  0);
+        return read_file(page);
+    };
+    EXPECT_EQ(made_with({}), "upright");
+    EXPECT_EQ(made_with({"--mirror"}), "mirrored");
+    EXPECT_EQ(made_with({}), "upright");
+}
+
 TEST_F(IfStale, AFileAtRestIsReadOnceAndAChangedOneAgain) {
     const KnownHashes known(folder / "hashes");
     const auto rest = [&](const std::string& path) {
@@ -567,6 +591,14 @@ TEST_F(StageRun, AnErrorFileTakesTheMessage) {
     EXPECT_EQ(run.code, 3);
     EXPECT_THAT(run.err, testing::Not(HasSubstr("error")));
     EXPECT_EQ(read_file(errors), "3 varimap-sample: error: bad\\x1b[2J\n");
+}
+
+TEST_F(StageRun, WhatAnErrorFileCannotTakeIsSaidOnStderr) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const Outcome run =
+        run_sample({in, out, "--error-file", "/dev/full"}, [](Stage&) { throw InputError("bad"); });
+    EXPECT_EQ(run.code, 3);
+    EXPECT_THAT(run.err, HasSubstr("varimap-sample: error: bad\n"));
 }
 
 TEST_F(StageRun, AnErrorFileTakesWhatIsSaidOfTheCommandLine) {

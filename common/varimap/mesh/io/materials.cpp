@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "varimap/artifact/artifact.h"
@@ -48,7 +49,8 @@ ImageOptions read_options(const std::vector<std::string_view>& words) {
         Vec2* placed = option == "-s" ? &options.scale : option == "-o" ? &options.offset : nullptr;
         for (Eigen::Index axis = 0; i + 1 < words.size() && is_option_value(words[i], option); ++axis, ++i) {
             double number;
-            if (placed != nullptr && axis < 2 && to_number(words[i], number)) (*placed)[axis] = number;
+            if (placed != nullptr && axis < 2 && to_number(words[i], number) && std::isfinite(number))
+                (*placed)[axis] = number;
         }
     }
     return options;
