@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 
 namespace varimap {
@@ -112,8 +113,7 @@ class Layout {
 
     void set_root(int surface) {
         Place& place = places_[std::size_t(surface)];
-        place.to_root.resize(std::size_t(samples_[std::size_t(surface)].rows()));
-        std::iota(place.to_root.begin(), place.to_root.end(), 0);
+        place.to_root = all_indices(samples_[std::size_t(surface)].rows());
         place.from_root = place.to_root;
     }
 
@@ -239,8 +239,7 @@ class Layout {
 /// The surfaces whose pairs are the surest.
 std::vector<int> roots(const std::vector<std::vector<Neighbour>>& neighbours,
                        const std::vector<PairOfMaps>& pairs) {
-    std::vector<int> order(neighbours.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = all_indices(std::ssize(neighbours));
     std::vector<double> sum(order.size());
     for (std::size_t s = 0; s < order.size(); ++s)
         for (const Neighbour& n : neighbours[s]) sum[s] += pairs[n.pair].maps.front().probability;

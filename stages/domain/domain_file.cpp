@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -13,6 +12,7 @@
 #include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/index_set.h"
 #include "varimap/core/lower_case.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -133,8 +133,7 @@ void require_enough(int points, const std::string& path) {
 }
 
 void require_distinct(const Points& points, const std::string& path) {
-    std::vector<int> order(std::size_t(points.rows()));
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = all_indices(points.rows());
     const auto key = [&](int i) { return std::tuple(points(i, 0), points(i, 1), points(i, 2), i); };
     std::sort(order.begin(), order.end(), [&](int i, int k) { return key(i) < key(k); });
     for (std::size_t n = 1; n < order.size(); ++n)

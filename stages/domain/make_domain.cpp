@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/geodesic_coordinates.h"
 
@@ -18,8 +18,7 @@ namespace {
 /// The points nearest to one, by distance and number.
 std::vector<int> nearest(int point, const Points& points, int count) {
     const Eigen::VectorXd squared = (points.rowwise() - points.row(point)).rowwise().squaredNorm();
-    std::vector<int> others(std::size_t(points.rows()));
-    std::iota(others.begin(), others.end(), 0);
+    std::vector<int> others = all_indices(points.rows());
     others.erase(others.begin() + point);
     count = std::min(count, int(others.size()));
     std::partial_sort(others.begin(), others.begin() + count, others.end(),

@@ -89,9 +89,9 @@ double ShapeAgreement::stretch(const MapPair& maps) const {
 double ShapeAgreement::relief(const PointMap& map, const Side& source, const Side& target) const {
     // About that of right maps of animals that differ; where one surface has none, it tells no map from
     // another.
-    constexpr double without_relief = 0.75;
+    constexpr double without_relief = 0.75, least_relief = 1e-6;  // less is rounding, as of a file far from 0
     const auto agreement = [&](const Eigen::VectorXd& here, const Eigen::VectorXd& there) {
-        if (here.isZero() || there.isZero()) return without_relief;
+        if (here.isZero(least_relief) || there.isZero(least_relief)) return without_relief;
         const double r = correlation(here, pulled_back(there, target.mesh, map), source.mass);
         return sheets_ ? std::max(r, agreement_of_bent_sheets) : r;
     };

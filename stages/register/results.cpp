@@ -25,7 +25,7 @@ namespace {
 
 /// A comma-separated field: in quotes, unless it is plain.
 std::string field(const std::string& text) {
-    return text.find_first_of(",\"\n") == std::string::npos ? text : in_quotes(text);
+    return text.find_first_of(",\"\r\n") == std::string::npos ? text : in_quotes(text);
 }
 
 std::string points_csv(const Points& points) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "varimap/core/error.h"
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/io/polygon_cutting.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -104,8 +104,7 @@ bool states_space(std::string_view line) {
 
 /// Faces without a material first: behind a `usemtl` every face has one.
 std::vector<int> order_of_faces(const std::vector<int>& material) {
-    std::vector<int> faces(material.size());
-    std::iota(faces.begin(), faces.end(), 0);
+    std::vector<int> faces = all_indices(std::ssize(material));
     std::stable_partition(faces.begin(), faces.end(), [&](int f) { return material[std::size_t(f)] < 0; });
     return faces;
 }
