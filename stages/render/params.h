@@ -27,7 +27,8 @@ struct RenderParams {
                  10);
         list.add("azimuth", azimuth, "turns the camera to the right around the surfaces, degrees", -360, 360);
         list.add("elevation", elevation, "raises the camera, degrees", -89, 89);
-        list.add("up", up, "axis of the source that points up; auto guesses", {"auto", "x", "y", "z"});
+        list.add("up", up, "axis of the source that points up, - before it: down; auto guesses",
+                 {"auto", "x", "y", "z", "-x", "-y", "-z"});
         list.add("ratio_range", ratio_range, "distortion: end of the scale of mass and area ratios", 1.01,
                  1e6);
         list.add("conformal_range", conformal_range, "distortion: end of the scale of conformal distortion",

@@ -23,12 +23,14 @@ View view_along(int towards, double sign, int up) {
 
 View natural_view(const TriangleMesh& mesh, const std::string& up_name) {
     Vec3 areas = projected_areas(mesh);
-    const int up = up_name == "auto" ? likely_up(mesh) : up_name[0] - 'x';
+    const int up = up_name == "auto" ? likely_up(mesh) : up_name.back() - 'x';
     areas[up] = 0;
     if (up != x) areas[x] /= 1.1;
     const int towards = int(std::max_element(areas.begin(), areas.end()) - areas.begin());
     // Figures face +z where y is up, and -y where z is up.
-    return view_along(towards, up == z && towards == y ? -1 : 1, up);
+    View view = view_along(towards, up == z && towards == y ? -1 : 1, up);
+    if (up_name.starts_with('-')) view.topRows(2) *= -1;
+    return view;
 }
 
 View matching_view(const TriangleMesh& mesh, const Points& images, const std::vector<bool>& has_image,

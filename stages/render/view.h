@@ -9,9 +9,10 @@ namespace varimap {
 /// Rotation from a mesh's coordinates to those of a viewer: rows point right, up, and towards the viewer.
 using View = Eigen::Matrix3d;
 
-/// Looks along a coordinate axis, at the side that shows much of the surface. `up` is "x", "y", "z" or "auto"
-/// (y or z: surfaces seen along the one have the other upright; of those seen along x, the axis on which they
-/// stand on zero, else the shorter one, as four-legged animals do).
+/// Looks along a coordinate axis, at the side that shows much of the surface. `up` is "x", "y" or "z", "-x",
+/// "-y" or "-z" where that axis points down, or "auto" (y or z: surfaces seen along the one have the other
+/// upright; of those seen along x, the axis on which they stand on zero, else the shorter one, as four-legged
+/// animals do).
 View natural_view(const TriangleMesh& mesh, const std::string& up);
 
 /// Of the 24 views along axes of `mesh`, that which shows the images of its vertices most like `other_view`

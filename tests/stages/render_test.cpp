@@ -381,6 +381,9 @@ TEST(View, IsARotationThatKeepsUpUp) {
         EXPECT_NEAR(view.determinant(), 1, 1e-12) << up;
     }
     EXPECT_EQ(Vec3(natural_view(mesh, "z").row(1)), Vec3::UnitZ());
+    EXPECT_EQ(Vec3(natural_view(mesh, "-z").row(1)), Vec3(-Vec3::UnitZ()));
+    EXPECT_EQ(natural_view(mesh, "-y").row(2), natural_view(mesh, "y").row(2));
+    EXPECT_GT(natural_view(mesh, "-y").determinant(), 0);
     EXPECT_EQ(Vec3(natural_view(mesh, "auto").row(1)), Vec3::UnitY());
     EXPECT_LT((moved(natural_view(mesh, "y"), 180, 0).row(2) + natural_view(mesh, "y").row(2)).norm(), 1e-12);
 }
