@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/remesh.h"
@@ -46,10 +48,20 @@ std::string remeshed_ply(const PointMap& map, const Surface& source, const Surfa
     return to_ply(cross_remeshed_polygons(moved, polygons, map, source, target), format);
 }
 
+/// What tells of the tables and meshes of an earlier run goes before the first of them changes: a run that
+/// ends on the way leaves nothing that tells of another map.
+void remove_reports(const std::string& folder) {
+    for (const char* name : {"quality.json", "picture.png"}) {
+        std::error_code ignored;
+        std::filesystem::remove(std::filesystem::path(folder) / name, ignored);
+    }
+}
+
 void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, const SamplePlan& plan,
                 const Surface& A, const Surface& B, const std::array<PolygonSoup, 2>& polygons,
                 PlyFormat format) {
     make_folder(folder);
+    remove_reports(folder);
     stage.write_file(folder + "/source_to_target.csv", to_csv(map.A_to_B));
     stage.write_file(folder + "/target_to_source.csv", to_csv(map.B_to_A));
     stage.write_file(folder + "/source_to_target.npz", to_npz(map.A_to_B, file_as_read(B)));

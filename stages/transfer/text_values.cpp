@@ -7,6 +7,7 @@
 #include "stages/transfer/text_rows.h"
 #include "stages/transfer/values.h"
 #include "varimap/core/error.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/shortest_text.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -79,6 +80,15 @@ void require_number(const TextRow& row, std::size_t number, const std::string& n
             path, row.line, excerpt(row.words[0]), number, excerpt(name)));
 }
 
+/// The name of a single column may be several words.
+void join_name(TextRows& text) {
+    auto& first = text.rows[0].words;
+    if (text.separator != ' ' || text.rows.size() < 2 || text.rows[1].words.size() != 1) return;
+    double ignored;
+    if (std::none_of(first.begin(), first.end(), [&](const auto& w) { return to_number(w, ignored); }))
+        first = {fmt::format("{}", fmt::join(first, " "))};
+}
+
 /// What a file looks like besides its values.
 struct TableLayout {
     std::string names;  ///< the first line, if it names columns
@@ -123,13 +133,14 @@ Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::s
 
 ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind,
                             const TriangleMesh& mesh) {
-    const TextRows text =
-        split_rows(bytes, path, kind == ValueKind::label ? Content::words : Content::numbers);
+    TextRows text = split_rows(bytes, path, kind == ValueKind::label ? Content::words : Content::numbers);
+    join_name(text);
     const auto& first = text.rows[0].words;
     const bool named = has_names(text, kind, mesh);
     TableLayout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
-    ValueTable table{Place::vertex, read_cells(text, named ? 1 : 0, path, layout)};
+    const bool of_faces = layout.numbered && lower_case(first[0]) == "face";
+    ValueTable table{of_faces ? Place::face : Place::vertex, read_cells(text, named ? 1 : 0, path, layout)};
     const auto write = [layout](const std::vector<ValueTable>& tables, const TriangleMesh&) {
         return to_text(tables[0].values, layout);
     };

@@ -110,9 +110,10 @@ void require_weights(const ValueTable& table, const std::string& path) {
     }
 }
 
-Place require_place(Eigen::Index rows, const TriangleMesh& mesh, const std::string& mesh_file,
+Place require_place(const ValueTable& table, const TriangleMesh& mesh, const std::string& mesh_file,
                     const std::string& path) {
-    if (const auto place = place_of(std::size_t(rows), mesh)) return *place;
+    const Eigen::Index rows = table.values.rows();
+    if (const auto place = place_of(std::size_t(rows), mesh, table.place)) return *place;
     throw InputError(
         fmt::format("{}: {} rows, but {} has {} vertices and {} triangles: these are values of another mesh",
                     path, rows, mesh_file, mesh.vertex_count(), mesh.face_count()));
@@ -120,9 +121,12 @@ Place require_place(Eigen::Index rows, const TriangleMesh& mesh, const std::stri
 
 }  // namespace
 
-std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh) {
-    if (rows == std::size_t(mesh.vertex_count())) return Place::vertex;
-    if (rows == std::size_t(mesh.face_count())) return Place::face;
+std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh, Place said) {
+    const bool fits_vertices = rows == std::size_t(mesh.vertex_count()),
+               fits_faces = rows == std::size_t(mesh.face_count());
+    if (fits_vertices && fits_faces) return said;
+    if (fits_vertices) return Place::vertex;
+    if (fits_faces) return Place::face;
     return std::nullopt;
 }
 
@@ -161,7 +165,7 @@ ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMes
                      : has_ending(path, ".ply") ? parse_ply_values(bytes, path, kind)
                                                 : parse_text_values(bytes, path, kind, mesh);
     for (ValueTable& table : file.tables) {
-        table.place = require_place(table.values.rows(), mesh, mesh_file, path);
+        table.place = require_place(table, mesh, mesh_file, path);
         if (kind == ValueKind::weight) require_weights(table, path);
     }
     return file;

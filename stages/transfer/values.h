@@ -15,7 +15,7 @@ enum class Place : int { vertex, face };
 
 /// Numbers of the vertices or the faces of a mesh, a row for each.
 struct ValueTable {
-    Place place = Place::vertex;
+    Place place = Place::vertex;  ///< of readers: what the file says
     Eigen::MatrixXd values;
     std::vector<int> label_columns = {};  ///< how many each label takes, such as a colour; empty: one each
 };
@@ -27,8 +27,9 @@ enum class ValueKind : int {
     weight   ///< as numbers; rows that sum to 1 do so exactly
 };
 
-/// What a table of that many rows belongs to; nothing where they are those of another mesh.
-std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh);
+/// What a table of that many rows belongs to, where both are possible what it says of itself; nothing where
+/// they are those of another mesh.
+std::optional<Place> place_of(std::size_t rows, const TriangleMesh& mesh, Place said = Place::vertex);
 
 /// The table for the other surface. A row without an image is NaN. For faces of `to`, seven of its inner
 /// points are asked. Keeps the order of the columns.

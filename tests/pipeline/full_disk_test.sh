@@ -28,6 +28,16 @@ done
 map a.off b.off -o limited
 same_results good limited
 
+# Of a map that is replaced, no quality.json or picture is left that tells of another one than the tables.
+# One table can be written, the one behind it, which is larger, cannot.
+limit=$((($(stat -c %s good/source_to_target.csv) + 1023) / 1024 + 1))
+cp -r good replaced
+code=0
+(ulimit -f $limit && exec "$varimap" map "${small_picture[@]}" a.off b.off -o replaced --set relax.area_weight=3) &>log || code=$?
+((code == 6)) || fail "exit $code with a limit of $limit kB on files"
+! cmp -s {good,replaced}/source_to_target.csv || fail "the first table was not written"
+[[ ! -e replaced/quality.json && ! -e replaced/picture.png ]] || fail "a report of another map was left"
+
 # Where no disk can be mounted, that is all.
 [[ -n $mounted ]] || { echo "no full disk: mounting is not permitted here"; exit 0; }
 

@@ -246,6 +246,34 @@ TEST_F(Transfer, ReadsFilesOnce) {
     EXPECT_EQ(parse_mesh(files.at("source_on_target.obj"), "a.obj").faces, ball_.faces);
 }
 
+/// Vertices that no face uses make them as many as the faces.
+TEST_F(Transfer, AColumnCalledFaceNumbersFaces) {
+    TriangleMesh mesh = ball_;
+    mesh.vertices.conservativeResize(mesh.face_count(), 3);
+    mesh.vertices.bottomRows(mesh.face_count() - ball_.vertex_count()).setZero();
+    std::string rows;
+    for (int f = 0; f < mesh.face_count(); ++f) rows += fmt::format("{},{}\n", f, .5 * f);
+    const auto place_in = [&](const std::string& name) {
+        return read_values(write(name + ".csv", name + ",value\n" + rows), ValueKind::number, mesh, "a.obj")
+            .tables[0]
+            .place;
+    };
+    EXPECT_EQ(place_in("face"), Place::face);
+    EXPECT_EQ(place_in("vertex"), Place::vertex);
+    EXPECT_EQ(place_in("index"), Place::vertex);
+}
+
+TEST_F(Transfer, TheNameOfOneColumnMayBeSeveralWords) {
+    std::string text = "bone density\n";
+    for (int v = 0; v < ball_.vertex_count(); ++v) text += fmt::format("{}\n", .5 * v);
+    const ValueFile file = read_values(write("a.csv", text), ValueKind::number, ball_, "a.obj");
+    EXPECT_EQ(file.tables[0].values.rows(), ball_.vertex_count());
+    EXPECT_THAT(file.write(file.tables, ball_), StartsWith("\"bone density\"\n0\n0.5\n"));
+    EXPECT_THROW(read_values(write("b.csv", "1 2\n" + text.substr(text.find('\n') + 1)), ValueKind::number,
+                             ball_, "a.obj"),
+                 InputError);
+}
+
 TEST_F(Transfer, HonoursTheAxesOfBothMeshes) {
     Correspondence map = identity_onto(ball_);
     map.to.space = Space::ras;

@@ -92,8 +92,11 @@ void warn_of_other_holes(const Opening& a, const Opening& b) {
 void warn_of_part(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface() || is_cut_out(A) || is_cut_out(B)) return;
     const Opening a = widest_opening(A), b = widest_opening(B);
-    warn_of_part(a, b, "source", "target");
-    warn_of_part(b, a, "target", "source");
+    // A sheet's rim leads out to all sides of it as it lies flat, and to one as it is rolled up.
+    if (!is_sheet(A.input) || !is_sheet(B.input)) {
+        warn_of_part(a, b, "source", "target");
+        warn_of_part(b, a, "target", "source");
+    }
     warn_of_other_holes(a, b);
 }
 

@@ -64,6 +64,29 @@ TEST(UnlikeSurfaces, PartsAreSaid) {
     EXPECT_EQ(warnings_of(whole, whole, warn_of_part), 0u);
 }
 
+/// A strip of 2 by 1, rolled up by an angle.
+TriangleMesh rolled(double angle) {
+    constexpr int n = 20, m = 10;
+    TriangleMesh mesh{Points((n + 1) * (m + 1), 3), Faces(2 * n * m, 3)};
+    for (int i = 0, f = 0; i <= n; ++i)
+        for (int k = 0; k <= m; ++k) {
+            const int v = i * (m + 1) + k;
+            const double at = 2. * i / n, turn = angle * at / 2;
+            const double x = angle > 0 ? 2 * std::sin(turn) / angle : at;
+            mesh.vertices.row(v) << x, double(k) / m, angle > 0 ? 2 * (1 - std::cos(turn)) / angle : 0;
+            if (i == n || k == m) continue;
+            mesh.faces.row(f++) << v, v + m + 1, v + m + 2;
+            mesh.faces.row(f++) << v, v + m + 2, v + 1;
+        }
+    return mesh;
+}
+
+TEST(UnlikeSurfaces, ARolledSheetIsNoPartOfAFlatOne) {
+    const Surface flat = preprocess(rolled(0), {}), curled = preprocess(rolled(3), {});
+    EXPECT_EQ(warnings_of(flat, curled, warn_of_part), 0u);
+    EXPECT_EQ(warnings_of(curled, flat, warn_of_part), 0u);
+}
+
 TEST(UnlikeSurfaces, HolesAreNamedWhereAnOpeningMayBeOne) {
     const auto asked = [](const TriangleMesh& part) {
         EXPECT_EQ(warnings_of(preprocess(part, {}), ball(false, false), warn_of_part), 1u);
