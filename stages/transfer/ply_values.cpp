@@ -66,10 +66,10 @@ void spread_over_triangles(PlyColumns& columns) {
     }
 }
 
-ValueTable to_table(const std::vector<PlyColumn>& columns) {
+ValueTable to_table(const std::vector<PlyColumn>& columns, Place place) {
     const Eigen::Index rows = Eigen::Index(columns[0].values.size());
-    ValueTable table{Place::vertex, Eigen::MatrixXd(rows, Eigen::Index(columns.size())),
-                     label_columns(columns)};
+    ValueTable table{place, Eigen::MatrixXd(rows, Eigen::Index(columns.size())), label_columns(columns),
+                     true};
     for (std::size_t c = 0; c < columns.size(); ++c)
         table.values.col(Eigen::Index(c)) = Eigen::Map<const Eigen::VectorXd>(columns[c].values.data(), rows);
     return table;
@@ -98,8 +98,8 @@ ValueFile parse_ply_values(std::string_view bytes, const std::string& path, Valu
     std::erase_if(columns.vertex, [](const PlyColumn& column) { return is_geometry(column.name); });
     spread_over_triangles(columns);
     ValueFile file;
-    for (const auto* of : {&columns.vertex, &columns.face})
-        if (!of->empty()) file.tables.push_back(to_table(*of));
+    if (!columns.vertex.empty()) file.tables.push_back(to_table(columns.vertex, Place::vertex));
+    if (!columns.face.empty()) file.tables.push_back(to_table(columns.face, Place::face));
     if (file.tables.empty())
         throw InputError(path + ": holds no properties besides positions, normals and faces");
     file.write = [columns, kind, format = ply_format(bytes)](const std::vector<ValueTable>& tables,

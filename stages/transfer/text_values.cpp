@@ -139,8 +139,10 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
     const bool named = has_names(text, kind, mesh);
     TableLayout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
-    const bool of_faces = layout.numbered && lower_case(first[0]) == "face";
-    ValueTable table{of_faces ? Place::face : Place::vertex, read_cells(text, named ? 1 : 0, path, layout)};
+    const std::string numbers = layout.numbered ? lower_case(first[0]) : "";
+    ValueTable table{numbers == "face" ? Place::face : Place::vertex,
+                     read_cells(text, named ? 1 : 0, path, layout)};
+    table.says_place = numbers == "face" || numbers == "vertex";
     const auto write = [layout](const std::vector<ValueTable>& tables, const TriangleMesh&) {
         return to_text(tables[0].values, layout);
     };

@@ -11,6 +11,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 
 namespace varimap {
@@ -166,6 +167,11 @@ ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMes
                                                 : parse_text_values(bytes, path, kind, mesh);
     for (ValueTable& table : file.tables) {
         table.place = require_place(table, mesh, mesh_file, path);
+        if (!table.says_place && mesh.vertex_count() == mesh.face_count())
+            warn(
+                "{}: there are as many triangles as vertices, and these are taken for values of vertices; a "
+                "table whose first column is called face and numbers its rows holds those of triangles",
+                path);
         if (kind == ValueKind::weight) require_weights(table, path);
     }
     return file;

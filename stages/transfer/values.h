@@ -18,6 +18,7 @@ struct ValueTable {
     Place place = Place::vertex;  ///< of readers: what the file says
     Eigen::MatrixXd values;
     std::vector<int> label_columns = {};  ///< how many each label takes, such as a colour; empty: one each
+    bool says_place = false;              ///< of readers: the file tells vertices from faces
 };
 
 /// How values are carried to places between those that have some.

@@ -260,7 +260,14 @@ TEST_F(Transfer, AColumnCalledFaceNumbersFaces) {
     };
     EXPECT_EQ(place_in("face"), Place::face);
     EXPECT_EQ(place_in("vertex"), Place::vertex);
+    const std::size_t before = logged_warnings().size();
     EXPECT_EQ(place_in("index"), Place::vertex);
+    EXPECT_EQ(logged_warnings().size(), before + 1);
+
+    const PlyColumn column{"heat", "double", std::vector<double>(std::size_t(mesh.face_count()), 1.5)};
+    const std::string ply = to_ply(mesh, PlyColumns{{}, {column}, {}}, PlyFormat::ascii);
+    EXPECT_EQ(read_values(write("a.ply", ply), ValueKind::number, mesh, "a.obj").tables[0].place,
+              Place::face);
 }
 
 TEST_F(Transfer, TheNameOfOneColumnMayBeSeveralWords) {

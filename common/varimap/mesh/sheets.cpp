@@ -114,7 +114,7 @@ void SheetFinder::join_beside_wedges(const std::vector<Flank>& flanks) {
     }
 }
 
-/// Of so many faces none is flatter with another than with the one on the other side of them.
+/// Of so many faces each goes with the one that is half of them away: as flat as can be where they are even.
 void SheetFinder::join_opposite(const std::vector<Flank>& flanks) {
     const std::size_t half = flanks.size() / 2;
     for (std::size_t i = 0; i < half; ++i) join(flanks[i].side, flanks[i + half].side);
