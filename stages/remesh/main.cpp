@@ -48,8 +48,13 @@ std::string remeshed_ply(const PointMap& map, const Surface& source, const Surfa
     return to_ply(cross_remeshed_polygons(moved, polygons, map, source, target), format);
 }
 
-/// What tells of the tables and meshes of an earlier run goes before the first of them changes: a run that
-/// ends on the way leaves nothing that tells of another map.
+bool would_change(const std::string& path, const std::string& bytes) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) && read_file(path) != bytes;
+}
+
+/// What tells of the tables and meshes of another map goes before the first of them changes, so that a run
+/// that ends on the way leaves none beside new ones.
 void remove_reports(const std::string& folder) {
     for (const char* name : {"quality.json", "picture.png"}) {
         std::error_code ignored;
@@ -61,9 +66,11 @@ void export_map(Stage& stage, const std::string& folder, const SurfaceMap& map, 
                 const Surface& A, const Surface& B, const std::array<PolygonSoup, 2>& polygons,
                 PlyFormat format) {
     make_folder(folder);
-    remove_reports(folder);
-    stage.write_file(folder + "/source_to_target.csv", to_csv(map.A_to_B));
-    stage.write_file(folder + "/target_to_source.csv", to_csv(map.B_to_A));
+    const std::string there = folder + "/source_to_target.csv", back = folder + "/target_to_source.csv",
+                      there_table = to_csv(map.A_to_B), back_table = to_csv(map.B_to_A);
+    if (would_change(there, there_table) || would_change(back, back_table)) remove_reports(folder);
+    stage.write_file(there, there_table);
+    stage.write_file(back, back_table);
     stage.write_file(folder + "/source_to_target.npz", to_npz(map.A_to_B, file_as_read(B)));
     stage.write_file(folder + "/target_to_source.npz", to_npz(map.B_to_A, file_as_read(A)));
     stage.write_file(folder + "/source_masses.csv",
