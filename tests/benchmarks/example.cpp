@@ -39,4 +39,8 @@ const Example& example(int vertices) {
     return found->second;
 }
 
+void at_sizes(benchmark::internal::Benchmark* benchmark) {
+    benchmark->Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
 }  // namespace varimap::benchmarks

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include "varimap/mesh/geodesic_graph.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/multilevel/level_transfer.h"
@@ -19,5 +21,8 @@ struct Example {
 
 /// Built once for each size.
 const Example& example(int vertices);
+
+/// Of examples of 5,000 and 20,000 vertices, in wall-clock milliseconds.
+void at_sizes(benchmark::internal::Benchmark* benchmark);
 
 }  // namespace varimap::benchmarks

@@ -88,11 +88,13 @@ void collapse(benchmark::State& state) {
     state.SetBytesProcessed(state.iterations() * (mesh.vertex_count() - left) * 2500);
 }
 
-#define AT_SIZES Arg(5)->Arg(6)->Unit(benchmark::kMillisecond)
-BENCHMARK(relaxation_sweep)->AT_SIZES;
-BENCHMARK(fold_removal)->AT_SIZES;
-BENCHMARK(normal_check)->AT_SIZES;
-BENCHMARK(collapse)->AT_SIZES;
+void at_subdivisions(benchmark::internal::Benchmark* benchmark) {
+    benchmark->Arg(5)->Arg(6)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(relaxation_sweep)->Apply(at_subdivisions);
+BENCHMARK(fold_removal)->Apply(at_subdivisions);
+BENCHMARK(normal_check)->Apply(at_subdivisions);
+BENCHMARK(collapse)->Apply(at_subdivisions);
 
 }  // namespace
 }  // namespace varimap::benchmarks

@@ -91,13 +91,12 @@ void closest_point_tree(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(ClosestPoint(e.mesh));
 }
 
-#define AT_SIZES Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime()
-BENCHMARK(sampling)->AT_SIZES;
-BENCHMARK(closest_point)->AT_SIZES;
-BENCHMARK(closest_point_from_near)->AT_SIZES;
-BENCHMARK(closest_point_tree)->AT_SIZES;
-BENCHMARK(edges)->AT_SIZES;
-BENCHMARK(strips)->AT_SIZES;
+BENCHMARK(sampling)->Apply(at_sizes);
+BENCHMARK(closest_point)->Apply(at_sizes);
+BENCHMARK(closest_point_from_near)->Apply(at_sizes);
+BENCHMARK(closest_point_tree)->Apply(at_sizes);
+BENCHMARK(edges)->Apply(at_sizes);
+BENCHMARK(strips)->Apply(at_sizes);
 
 }  // namespace
 }  // namespace varimap::benchmarks

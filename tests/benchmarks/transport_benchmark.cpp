@@ -84,13 +84,12 @@ void masses_in_bounds(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * count);
 }
 
-#define AT_SIZES Arg(5000)->Arg(20000)->Unit(benchmark::kMillisecond)->UseRealTime()
-BENCHMARK(sinkhorn_iterations)->AT_SIZES;
-BENCHMARK(sinkhorn_iterations_in_log_domain)->AT_SIZES;
-BENCHMARK(cost)->AT_SIZES;
-BENCHMARK(support_growth)->AT_SIZES;
-BENCHMARK(centres)->AT_SIZES;
-BENCHMARK(masses_in_bounds)->AT_SIZES;
+BENCHMARK(sinkhorn_iterations)->Apply(at_sizes);
+BENCHMARK(sinkhorn_iterations_in_log_domain)->Apply(at_sizes);
+BENCHMARK(cost)->Apply(at_sizes);
+BENCHMARK(support_growth)->Apply(at_sizes);
+BENCHMARK(centres)->Apply(at_sizes);
+BENCHMARK(masses_in_bounds)->Apply(at_sizes);
 
 }  // namespace
 }  // namespace varimap::benchmarks

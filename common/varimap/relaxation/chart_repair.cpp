@@ -31,7 +31,7 @@ constexpr int most_counted = 20'000;
 /// Faces of a cluster around which the rings are as wide as that. Tried: none, 200, 100; of a pair of 320,000
 /// vertices 337, 31 and 19 faces end reversed, of 14 pairs of 5,000 to 14,000 25, 34 and 60.
 constexpr double usual_cluster = 200;
-constexpr int polish_sweeps = 15;  ///< sweeps
+constexpr int polish_sweeps = 15;
 constexpr int careful_polish_sweeps = 6;
 constexpr int most_with_care = 200;  ///< vertices
 /// For a part of more vertices than that which was mapped anew: its layouts are far from an isometry, and

@@ -12,8 +12,7 @@ namespace varimap {
 namespace {
 
 constexpr int backtracks = 7;
-constexpr double longest_newton_step =
-    2;  ///< of a Newton step, in lengths of the vertex's longest source edge
+constexpr double longest_newton_step = 2;  ///< in lengths of the vertex's longest source edge
 /// Move, in those lengths, that wakes the neighbours. With 0.01 more faces stay reversed.
 constexpr double waking_step = 0.003;
 
