@@ -68,6 +68,14 @@ lock() {  # FOLDER: one run at a time; the lock lasts until the last stage has e
     flock "$fd"
 }
 
+# with_temporary_folder FUNCTION ARGUMENT...: calls FUNCTION FOLDER ARGUMENT... in a shell of its own, whose end removes FOLDER, also
+# by an interrupt.
+with_temporary_folder() (
+    temporary=$(mktemp -d 2>/dev/null) || fail 6 "no folder for temporary files can be written to"
+    trap 'rm -rf -- "$temporary"' EXIT
+    "$1" "$temporary" "${@:2}"
+)
+
 # is_mesh FILE: whether its ending makes it a mesh of the folder that it is in. A file that is named itself is one in any case.
 is_mesh() { [[ ${1,,} =~ \.(obj|ply|off|stl|gltf|glb|fbx|dae|3mf)$ ]]; }
 # meshes_in PATH: sets `mesh_files` to the meshes of a folder, or to PATH itself; no program takes their names for options.
@@ -85,10 +93,12 @@ meshes_in() {
 # is_foreign MESH: whether it must be imported, being of a format that no stage reads.
 is_foreign() { [[ ${1##*/} == *.* && ! ${1,,} =~ \.(obj|ply|off|stl)$ ]]; }
 
-# artifact_stem PATH: the name of a mesh's artifacts: the mesh's own, in letters that make can handle.
+# artifact_stem PATH: the name of a mesh's artifacts: the mesh's own, in letters that make can handle, as many as leave room for those
+# of a pair and their endings.
 artifact_stem() {
     local stem=${1##*/}
     stem=$(tr -c '[:alnum:]_-' _ <<<"${stem%.*}" | sed 's/_$//; s/--*/-/g; s/^-//; s/-$//')
+    stem=${stem::90}
     echo "${stem:-mesh}"
 }
 
@@ -184,16 +194,19 @@ require_map_options() {
 
 # The values of these are looked at when there is a mesh. It is alone, and so no part: `--part VALUE` is passed over.
 require_repairs() {  # OPTION...
-    local folder options=() code=0 said
+    local options=()
     while (($#)); do
         if [[ $1 == --part ]]; then shift 2; continue; fi
         options+=("$1")
         shift
     done
-    folder=$(mktemp -d 2>/dev/null) || fail 6 "no folder for temporary files can be written to"
+    with_temporary_folder try_repairs "${options[@]}"
+}
+try_repairs() {  # FOLDER OPTION...
+    local folder=$1 code=0 said
+    shift
     printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >"$folder/a.off"
-    said=$("$varimap" map "$folder/a.off" "$folder/a.off" "${options[@]}" --until preprocess -q -j 1 -o "$folder/out" 2>&1 >/dev/null) || code=$?
-    rm -rf -- "$folder"
+    said=$("$varimap" map "$folder/a.off" "$folder/a.off" "$@" --until preprocess -q -j 1 -o "$folder/out" 2>&1 >/dev/null) || code=$?
     ((code != 2)) || fail 2 "${said#*: error: }"
 }
 

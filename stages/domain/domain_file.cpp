@@ -176,6 +176,7 @@ DomainFile polyline_from_obj(const std::string& path) {
     TextScanner row(without_byte_order_mark(bytes, path), path);
     std::vector<Vec3> points;
     std::vector<DomainEdge> edges;
+    std::set<std::pair<int, int>> known;
     while (row.next_line()) {
         if (row.words()[0] == "v") {
             if (row.words().size() < 4) row.fail("a vertex needs three coordinates");
@@ -184,7 +185,7 @@ DomainFile polyline_from_obj(const std::string& path) {
             for (std::size_t k = 2; k < row.words().size(); ++k) {
                 const int a = obj_vertex(row, k - 1, points.size()), b = obj_vertex(row, k, points.size());
                 if (a == b) row.fail("a line joins a vertex to itself");
-                edges.push_back(edge_between(a, b));
+                if (known.insert(std::minmax(a, b)).second) edges.push_back(edge_between(a, b));
             }
         }
     }

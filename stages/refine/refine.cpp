@@ -48,9 +48,9 @@ Centres spread(const Coupling& plan, TracedDescent& descent, const PairContext& 
 }
 
 /// The plan's centres in space, though it was found in other coordinates.
-Centres centres_in_space(const LevelPair& level, const Coupling& plan, const PairContext& context) {
+Centres centres_in_space(const LevelPair& level, const Solution& solution, const PairContext& context) {
     const LevelPair placed = in_space(level, context);
-    Centres centres = update_centres(placed.A.side, placed.B.side, plan).centres;
+    Centres centres = update_centres(placed.A.side, placed.B.side, solution.plan, solution.relaxed).centres;
     pull_landmarks(placed.A.side, placed.B.side, placed.partners, centres);
     return centres;
 }
@@ -96,10 +96,9 @@ Plan refine(const PairContext& context, const Diffusion& diffusion, const Refine
     }
     Plan plan;
     plan.plan = to_sample_plan(descent.level(), solution.plan, params.alternation.area_bound);
-    const Centres centres = levels < all ? spread(solution.plan, descent, context, params)
-                            : has_coordinates(context)
-                                ? centres_in_space(descent.level(), solution.plan, context)
-                                : solution.step.centres;
+    const Centres centres = levels < all               ? spread(solution.plan, descent, context, params)
+                            : has_coordinates(context) ? centres_in_space(descent.level(), solution, context)
+                                                       : solution.step.centres;
     plan.centre_A = space_part(centres.row);
     plan.centre_B = space_part(centres.column);
     if (!plan.centre_A.allFinite() || !plan.centre_B.allFinite())

@@ -61,7 +61,8 @@ ShapeComparison compare_shapes(const Registration& all, const Extents& extents, 
         result.distances.push_back(part.distance);
     }
     result.mean = std::move(wholes.mean);
-    result.is_outlier = outliers(result.distances);
+    constexpr double rounding = 1e-9;  // of copies of one surface
+    result.is_outlier = outliers(result.distances, rounding * mean_size);
     return result;
 }
 

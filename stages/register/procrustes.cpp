@@ -117,13 +117,14 @@ PrincipalComponents principal_components(const Alignment& alignment, const Eigen
     return result;
 }
 
-std::vector<bool> outliers(const std::vector<double>& distances) {
+std::vector<bool> outliers(const std::vector<double>& distances, double resolution) {
     std::vector<bool> found(distances.size(), false);
     if (distances.size() < 5) return found;
     const Eigen::VectorXd values = Eigen::VectorXd::Map(distances.data(), Eigen::Index(distances.size()));
     const double middle = upper_median(values);
-    const double spread = 1.4826 * upper_median((values.array() - middle).abs());
-    for (std::size_t i = 0; i < distances.size(); ++i) found[i] = distances[i] > middle + 3 * spread;
+    const double spread = 3 * 1.4826 * upper_median((values.array() - middle).abs());
+    for (std::size_t i = 0; i < distances.size(); ++i)
+        found[i] = distances[i] > middle + std::max(spread, resolution);
     return found;
 }
 

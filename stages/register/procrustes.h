@@ -48,7 +48,7 @@ PrincipalComponents principal_components(const Alignment& alignment, const Eigen
                                          int count);
 
 /// Which of these are farther above the median than three times 1.4826 times the median absolute deviation,
-/// three standard deviations if they were normal; none of fewer than five.
-std::vector<bool> outliers(const std::vector<double>& distances);
+/// three standard deviations if they were normal, and than `resolution`; none of fewer than five.
+std::vector<bool> outliers(const std::vector<double>& distances, double resolution);
 
 }  // namespace varimap

@@ -90,13 +90,14 @@ Frame similarity(const Moments& sums, bool mirrored) {
     return std::sqrt(sums.to / sums.from) * nearest_rotation(sums.covariance, mirrored);
 }
 
+/// Vertices without a frame, as those without an image, do not count, and take the mean of their neighbours.
 std::vector<Frame> smoothed(const std::vector<Frame>& frames, const Adjacency& neighbours) {
     std::vector<Frame> result = frames;
     parallel_for_each_index(int(frames.size()), 512, [&](int v) {
-        int count = 1;
+        int count = frames[std::size_t(v)].isZero(0) ? 0 : 1;
         for (const int w : neighbours[v])
             if (!frames[std::size_t(w)].isZero(0)) result[std::size_t(v)] += frames[std::size_t(w)], ++count;
-        result[std::size_t(v)] /= count;
+        if (count > 1) result[std::size_t(v)] /= count;
     });
     return result;
 }

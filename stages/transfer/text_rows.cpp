@@ -74,6 +74,9 @@ bool needs_quotes(std::string_view word, char separator) {
 
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content) {
     bytes = without_byte_order_mark(bytes, path);
+    // Such as .npz and .xlsx, whose bytes could not be told from words.
+    if (bytes.find('\0') != bytes.npos)
+        throw InputError(path + ": is no text; save it as .csv or .txt (values may be .npy or .ply, too)");
     const bool blanks_belong = content == Content::words && has_ending(path, ".csv");
     TextRows text;
     std::vector<int> empty;  // lines since the last row

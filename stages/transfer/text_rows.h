@@ -26,8 +26,8 @@ struct TextRows {
 
 /// The first line tells the separator; where it holds none, blanks separate, but in a .csv of words they
 /// belong to these. Quotes are those of RFC 4180, within a line. A comment begins a line, or stands behind
-/// numbers that blanks separate. Throws InputError for UTF-16, for quotes that are not closed, and where
-/// there are no rows.
+/// numbers that blanks separate. Throws InputError for UTF-16, for files that are no text, for quotes that
+/// are not closed, and where there are no rows.
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content);
 /// Whether a column of that name numbers the rows, or holds numbers of vertices or faces.
 bool is_index_name(std::string_view name);

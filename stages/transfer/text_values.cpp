@@ -7,6 +7,7 @@
 #include "stages/transfer/text_rows.h"
 #include "stages/transfer/values.h"
 #include "varimap/core/error.h"
+#include "varimap/core/log.h"
 #include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/shortest_text.h"
@@ -89,6 +90,15 @@ void join_name(TextRows& text) {
         first = {fmt::format("{}", fmt::join(first, " "))};
 }
 
+void warn_of_decimal_commas(const TextRows& text, const std::string& path) {
+    const auto is_split_decimal = [](const TextRow& row) {
+        long long number;
+        return row.words.size() == 2 && to_integer(row.words[0], number) && to_integer(row.words[1], number);
+    };
+    if (text.separator == ',' && std::ranges::all_of(text.rows, is_split_decimal))
+        warn("{}: read as two columns of whole numbers; if these are decimals, write them with points", path);
+}
+
 /// What a file looks like besides its values.
 struct TableLayout {
     std::string names;  ///< the first line, if it names columns
@@ -135,6 +145,7 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
                             const TriangleMesh& mesh) {
     TextRows text = split_rows(bytes, path, kind == ValueKind::label ? Content::words : Content::numbers);
     join_name(text);
+    if (kind == ValueKind::number) warn_of_decimal_commas(text, path);
     const auto& first = text.rows[0].words;
     const bool named = has_names(text, kind, mesh);
     TableLayout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};

@@ -141,6 +141,8 @@ class Transfer {
     void add_cut(const Texture& texture, const std::string& name);
     void add_baked(const Texture& texture, const std::string& name);
     std::string add_materials(const Materials& materials, const std::string& name);
+    std::string add_materials_of_shape(const ObjModel& model, const std::string& path,
+                                       const std::string& name);
     TextureImage baked(const Texture& texture, const ObjModel& target, const std::string& target_file) const;
 
     const TransferRequest& request_;
@@ -204,9 +206,7 @@ void Transfer::add_mesh(const std::string& path) {
     require_same_mesh(same_faces(mesh, map_.from) || same_vertices(mesh, map_.from), path, mesh,
                       map_.from_file, map_.from);
     const std::string name = reverse_ ? "target_on_source" : "source_on_target";
-    const ObjModel model = parse_obj_model(bytes, path);
-    std::string library;
-    if (!model.libraries.empty()) library = add_materials(read_materials_of(model, path), name);
+    const std::string library = add_materials_of_shape(parse_obj_model(bytes, path), path, name);
     warn_of_followers(map_.there, path);
     add(name + ".obj", with_vertices(bytes, carried_vertices(map_), map_.to.space, library, path,
                                      reverses_orientation(map_)));
@@ -225,6 +225,18 @@ void Transfer::add_texture(const std::string& path) {
         add_baked({model, materials}, name);
     else
         add_cut({model, materials}, name);
+}
+
+/// A shape does without what colours it. Returns what the OBJ names as its library.
+std::string Transfer::add_materials_of_shape(const ObjModel& model, const std::string& path,
+                                             const std::string& name) {
+    if (model.libraries.empty()) return "";
+    try {
+        return add_materials(read_materials_of(model, path), name);
+    } catch (const IoError& missing) {
+        warn("{}; {}.obj is written without materials", missing.what(), name);
+        return "";
+    }
 }
 
 /// Returns what the OBJ names as its library: nothing where no material is described.

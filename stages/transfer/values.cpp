@@ -152,6 +152,7 @@ void keep_largest(Eigen::MatrixXd& weights, int count) {
     if (count >= weights.cols()) return;
     std::vector<int> order(std::size_t(weights.cols()));
     for (auto row : weights.rowwise()) {
+        if (row.hasNaN()) continue;  // without an image
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return row[a] > row[b]; });
         for (std::size_t k = std::size_t(count); k < order.size(); ++k) row[order[k]] = 0;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/io/mesh_file.h"
 
 namespace varimap {
@@ -15,6 +17,8 @@ Verification in_file(Verification found, const FileLink& link) {
     if (link.is_identity()) return found;
     for (int& face : found.reversed_faces) face = link.face[std::size_t(face)];
     for (int& vertex : found.branch_vertices) vertex = number_in_file(vertex, link);
+    std::sort(found.reversed_faces.begin(), found.reversed_faces.end());
+    make_set(found.branch_vertices);  // a vertex that was split counts once
     return found;
 }
 

@@ -18,6 +18,13 @@ same plain/source_to_target.csv "$odd/my results/source_to_target.csv"
 map --landmarks "$odd/tips of limbs.txt" "$odd/one/my figure.off" "$odd/two/my figure.off" -o "$odd/my results"
 expect_ran ""
 
+# Longer than names of artifacts can be, and alike at their beginnings.
+long=$(printf 'x%.0s' {1..200})
+cp plain.off "${long}1.off"
+cp bent.off "${long}2.off"
+map "${long}1.off" "${long}2.off" -o long --landmarks tips.txt
+same plain/source_to_target.csv long/source_to_target.csv
+
 # From the folder of the meshes, with the project reached through a link.
 ln -s "$VARIMAP_SOURCE" "$odd/the project"
 cp -r plain.off bent.off tips.txt "$odd"

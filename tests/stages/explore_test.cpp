@@ -707,6 +707,8 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     Candidate turned = rival;
     turned.turned_about_axis = true;  // both look nearly the same
     EXPECT_LT(confidence_of({best, turned}).probability, sure.probability - .01);
+    turned.score = -27;  // scores say half as much
+    EXPECT_THAT(doubt({best, turned}), testing::HasSubstr("another is 22% as probable"));
     close.moved_mass = .03;  // the same map, but for an ear
     EXPECT_EQ(confidence_of({best, close}).margin, 10);
     close.moved_mass = .8;

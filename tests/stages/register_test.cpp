@@ -133,9 +133,14 @@ TEST(PrincipalComponents, OfOneShapeAreNone) {
 }
 
 TEST(Outliers, AreFarFromTheOthers) {
-    EXPECT_THAT(outliers({1, 1.1, .9, 1.05, 5}), ElementsAre(false, false, false, false, true));
-    EXPECT_THAT(outliers({1, 1.1, .9, 1.05, 1.2}), Each(false));
-    EXPECT_THAT(outliers({1, 50}), Each(false));
+    EXPECT_THAT(outliers({1, 1.1, .9, 1.05, 5}, 0), ElementsAre(false, false, false, false, true));
+    EXPECT_THAT(outliers({1, 1.1, .9, 1.05, 1.2}, 0), Each(false));
+    EXPECT_THAT(outliers({1, 50}, 0), Each(false));
+}
+
+TEST(Outliers, AreNoRounding) {
+    EXPECT_THAT(outliers({0, 0, 0, 0, 1e-12}, 1e-9), Each(false));
+    EXPECT_THAT(outliers({0, 0, 0, 0, 1e-3}, 1e-9), ElementsAre(false, false, false, false, true));
 }
 
 Answer identity_answer() {

@@ -35,6 +35,10 @@ TEST(TextRows, CommentsBeginLinesAndStandBehindNumbers) {
                 ElementsAre(Words{"nose #1", "0", "0", "1"}));
 }
 
+TEST(TextRows, RefusesFilesThatAreNoText) {
+    EXPECT_THAT(refusal(std::string("PK\3\4a,b\n1,2\n") + '\0'), HasSubstr("is no text"));
+}
+
 TEST(TextRows, WordsOfOneColumnMayBeLeftEmpty) {
     EXPECT_THAT(rows("part\na\n\nb\n\n\n"), ElementsAre(Words{"part"}, Words{"a"}, Words{""}, Words{"b"}));
     EXPECT_THAT(rows("\nname,part\n\n1,a\n"), ElementsAre(Words{"name", "part"}, Words{"1", "a"}));

@@ -616,6 +616,9 @@ TEST_F(Transfer, WeightsStaySumsOfOne) {
     keep_largest(carried.values, 4);
     EXPECT_LT((carried.values.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-15 * 8);
     EXPECT_LE((carried.values.array() > 0).rowwise().count().maxCoeff(), 4);
+    carried.values.row(7).setConstant(std::numeric_limits<double>::quiet_NaN());
+    keep_largest(carried.values, 2);
+    EXPECT_TRUE(carried.values.row(7).array().isNaN().all()) << "without an image";
 }
 
 TEST_F(Transfer, WeightsOfIntegersBecomeFractions) {
@@ -1208,6 +1211,29 @@ TEST_F(Transfer, WritesNoEmptyLibrary) {
     }
 }
 
+TEST_F(Transfer, CarriesShapesWhoseMaterialsAreNotThere) {
+    TransferRequest request;
+    request.mesh = write("b.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    const auto files = carry(request, identity_onto(ball_));
+    ASSERT_EQ(files.size(), 1u);
+    const std::string& shape = files.begin()->second;
+    EXPECT_THAT(shape, Not(HasSubstr("mtllib")));
+    EXPECT_EQ(parse_mesh(shape, "b.obj").faces, ball_.faces);
+}
+
+TEST_F(Transfer, WarnsOfWhatMayBeDecimalCommas) {
+    std::string commas, fractions;
+    for (int v = 0; v < ball_.vertex_count(); ++v) {
+        commas += fmt::format("{},{}\n", v, v % 7);
+        fractions += fmt::format("{},.{}\n", v, v % 7);
+    }
+    TransferRequest request;
+    request.values = {write("heat.txt", commas)};
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)), HasSubstr("two columns of whole numbers"));
+    request.values = {write("heat.txt", fractions)};
+    EXPECT_EQ(warnings_of(request, identity_onto(ball_)), "");
+}
+
 TEST_F(Transfer, RefusesTexturesThatAreNotThere) {
     TransferRequest request;
     request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
@@ -1288,6 +1314,16 @@ TEST_F(Transfer, AShapeMovesWhatWasLeftOutOfTheMap) {
     risen.vertices.col(2).array() += .3;
     const Points truth = shapes::moved(risen, 3, 1.2, {1, -2, 3}).vertices;
     EXPECT_LT((carry_shape(pair.map, risen.vertices) - truth).rowwise().norm().maxCoeff(), .01);
+}
+
+TEST_F(Transfer, AShapeMovesAsMuchBesideWhatHasNoImage) {
+    const TriangleMesh plane = shapes::square(20);
+    Correspondence half = identity_onto(plane);
+    const double middle = plane.vertices.col(0).mean();
+    for (int v = 0; v < plane.vertex_count(); ++v)
+        if (plane.vertices(v, 0) > middle) half.back[std::size_t(v)] = {};
+    const Points risen = plane.vertices.rowwise() + Eigen::RowVector3d(0, 0, .1);
+    EXPECT_LT((carry_shape(half, risen) - risen).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 /// The same map between meshes whose faces all have vertices of their own.

@@ -165,7 +165,8 @@ void Cutting::apply(RepairedMesh& repaired) const {
     repaired.mesh.vertices = std::move(vertices);
     repaired.mesh.faces = std::move(faces);
     repaired.counts.cut_handles += cuts();
-    close_loops(repaired, rims);
+    const std::vector<char> closed = close_loops(repaired, rims);
+    repaired.counts.unfilled_holes += int(std::count(closed.begin(), closed.end(), 0));
 }
 
 /// Candidates around some vertices, the shortest first.

@@ -33,7 +33,9 @@ std::vector<int> fan(const TriangleMesh& mesh, const Edges& edges, int vertex, i
         std::rotate(faces.begin(), std::min_element(faces.begin(), faces.end()), faces.end());
         return faces;
     }
-    for (next = beyond(face, 0); next >= 0; next = beyond(next, 0)) faces.insert(faces.begin(), next);
+    std::vector<int> before;  // the farthest last
+    for (next = beyond(face, 0); next >= 0; next = beyond(next, 0)) before.push_back(next);
+    faces.insert(faces.begin(), before.rbegin(), before.rend());
     return faces;
 }
 

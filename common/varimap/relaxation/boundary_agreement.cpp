@@ -13,21 +13,23 @@ namespace {
 constexpr double most_longer = 2;
 constexpr double radius = 0.05;  ///< of the constraints, in sqrt(area), as of those of the inverse
 
-/// Per loop the point of it that is closest to x.
-std::vector<Vec3> closest_on_loops(const Vec3& x, const TriangleMesh& mesh, const Boundary& boundary) {
-    std::vector<Vec3> closest(std::size_t(boundary.loops));
-    std::vector<double> least(closest.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
-        const auto [a, b] = boundary.edges[i];
+/// The point of a loop, given by its edges, that is closest to x.
+Vec3 closest_on_loop(const Vec3& x, const TriangleMesh& mesh, const std::vector<std::array<int, 2>>& loop) {
+    Vec3 closest = x;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b] : loop) {
         const Vec3 from = mesh.vertex(a), to = mesh.vertex(b);
         const Vec3 point = from + closest_on_segment(x, from, to) * (to - from);
-        const auto loop = std::size_t(boundary.loop[i]);
-        if (const double d = (point - x).squaredNorm(); d < least[loop]) {
-            least[loop] = d;
-            closest[loop] = point;
-        }
+        if (const double d = (point - x).squaredNorm(); d < least) least = d, closest = point;
     }
     return closest;
+}
+
+std::vector<std::vector<std::array<int, 2>>> edges_of_loops(const Boundary& boundary) {
+    std::vector<std::vector<std::array<int, 2>>> edges(std::size_t(boundary.loops));
+    for (std::size_t i = 0; i < boundary.edges.size(); ++i)
+        edges[std::size_t(boundary.loop[i])].push_back(boundary.edges[i]);
+    return edges;
 }
 
 }  // namespace
@@ -51,25 +53,33 @@ std::vector<BoundaryAgreement::Vertex> BoundaryAgreement::vertices_of(const Tria
     return vertices;
 }
 
-/// Per loop of the source and of the target: the mean distance of the images of the one from the other.
+/// Per loop of the source and of the target: the mean distance of the images of the one from the other;
+/// infinite where there are none.
 Eigen::MatrixXd BoundaryAgreement::mean_distances() const {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(source_.loops, target_.loops);
     Eigen::VectorXd lengths = Eigen::VectorXd::Zero(source_.loops);
     for (const Vertex& on : vertices_) {
         if (!map_.has_image(on.vertex)) continue;
         const Vec3& image = map_.image(on.vertex);
-        const std::vector<Vec3> closest = closest_on_loops(image, map_.target(), target_);
         for (int j = 0; j < target_.loops; ++j)
-            sums(on.loop, j) += on.length * (closest[std::size_t(j)] - image).norm();
+            sums(on.loop, j) +=
+                on.length *
+                (closest_on_loop(image, map_.target(), target_loops_[std::size_t(j)]) - image).norm();
         lengths[on.loop] += on.length;
     }
-    return sums.array().colwise() / lengths.array();
+    for (int i = 0; i < source_.loops; ++i)
+        if (lengths[i] > 0)
+            sums.row(i) /= lengths[i];
+        else
+            sums.row(i).setConstant(std::numeric_limits<double>::infinity());
+    return sums;
 }
 
 BoundaryAgreement::BoundaryAgreement(const SlidingMap& map)
     : map_(map),
       source_(find_boundary(map.source())),
       target_(find_boundary(map.target())),
+      target_loops_(edges_of_loops(target_)),
       vertices_(vertices_of(map.source(), source_)),
       partner_(std::size_t(source_.loops), -1) {}
 
@@ -94,8 +104,9 @@ std::vector<SoftConstraint> BoundaryAgreement::constraints(double weight) const 
     for (const Vertex& on : vertices_) {
         const int loop = partner_[std::size_t(on.loop)];
         if (loop < 0 || !map_.is_mapped(on.point.face)) continue;
-        const std::vector<Vec3> closest = closest_on_loops(map_.image(on.vertex), map_.target(), target_);
-        constraints.push_back({on.point, closest[std::size_t(loop)], weight * on.length, radius});
+        const Vec3 closest =
+            closest_on_loop(map_.image(on.vertex), map_.target(), target_loops_[std::size_t(loop)]);
+        constraints.push_back({on.point, closest, weight * on.length, radius});
     }
     return constraints;
 }

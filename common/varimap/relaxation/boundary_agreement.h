@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "varimap/mesh/boundary.h"
@@ -36,8 +37,9 @@ class BoundaryAgreement {
 
     const SlidingMap& map_;
     Boundary source_, target_;
-    std::vector<Vertex> vertices_;  ///< ascending
-    std::vector<int> partner_;      ///< per loop of the source that of the target, or -1
+    std::vector<std::vector<std::array<int, 2>>> target_loops_;  ///< their edges
+    std::vector<Vertex> vertices_;                               ///< ascending
+    std::vector<int> partner_;  ///< per loop of the source that of the target, or -1
 };
 
 }  // namespace varimap

@@ -5,6 +5,7 @@
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/mass.h"
+#include "varimap/mesh/topology.h"
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
@@ -69,7 +70,7 @@ VertexData<bool> movable(VertexData<bool> marks, const VertexData<bool>& fixed) 
 }
 
 void relax(SlidingMap& map, const VertexData<bool>& held, const std::vector<SoftConstraint>& constraints) {
-    const double moving = double(std::count(held.begin(), held.end(), 0)) / double(held.size());
+    const double moving = double(std::count(held.begin(), held.end(), 0)) / count_used_vertices(map.source());
     const FoldRemoval remove_folds{missed_fold_sweeps, missed_fold_visits * moving};
     remove_folds(map, held);
     GlobalRelaxation global(map, held);

@@ -37,7 +37,7 @@ PartReplacement::PartReplacement(SlidingMap& map, const VertexData<bool>& fixed,
       source_graph_(map.source()),
       target_graph_(map.target()),
       cells_(map, target_graph_, usual_cell_radius(map)),
-      context_{map, fixed, cells_, {}, landmarks, options.rules},
+      context_{map, fixed, cells_, {}, landmarks, options.rules, count_used_vertices(map.source())},
       rejected_(map.source().face_count()) {}
 
 double PartReplacement::try_part(const OpenPart& part, const Proposals& proposals) {
@@ -69,7 +69,7 @@ bool PartReplacement::replace_part(const std::vector<int>& part, const Proposals
 }
 
 void PartReplacement::replace_parts(const Proposals& proposals) {
-    const double most_visits = options_.most_visits * count_used_vertices(map_.source());
+    const double most_visits = options_.most_visits * context_.vertices;
     visits_ = 0;
     for (int round = 0; round < options_.rounds; ++round) {
         bool changed = false;

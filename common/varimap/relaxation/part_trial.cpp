@@ -34,8 +34,9 @@ constexpr int untwisting = 3;
 }  // namespace
 
 OpenPart::OpenPart(const SlidingMap& map, const FaceData<bool>& inside, const VertexData<bool>& fixed)
-    : open(fixed.size(), true), held(fixed.size(), true), area(area_of(map, inside)) {
+    : open(fixed.size(), false), held(fixed.size(), true), area(area_of(map, inside)) {
     const TriangleMesh& source = map.source();
+    for (int f = 0; f < source.face_count(); ++f) mark_corners(source, f, open);
     for (int f = 0; f < source.face_count(); ++f)
         for (int k = 0; k < 3; ++k)
             if (!inside[f]) open[source.faces(f, k)] = false;
@@ -90,8 +91,7 @@ void PartTrial::relax() {
 
 void PartTrial::remove_folds() {
     const Timer timer("parts, removal of folds");
-    const double share =
-        double(std::count(part_.held.begin(), part_.held.end(), 0)) / double(part_.held.size());
+    const double share = double(std::count(part_.held.begin(), part_.held.end(), 0)) / context_.vertices;
     FoldRemoval{fold_sweeps, fold_visits * share, fold_strikes}(context_.map, part_.held);
 }
 
@@ -103,14 +103,14 @@ bool PartTrial::untwists() {
 }
 
 bool PartTrial::enters_the_same() const {
-    const double few = lost_vertices / double(part_.open.size());
+    const double few = lost_vertices / context_.vertices;
     const std::vector<char> now = context_.cells.occupied(context_.map.points());
     return context_.cells.lost_area(occupied_before_, now) <= few &&
            context_.cells.lost_area(now, occupied_before_) <= few;
 }
 
 double PartTrial::tolerated_loss() const {
-    return std::max(lost_vertices / double(part_.open.size()), std::min(lost_share * part_.area, lost_most));
+    return std::max(lost_vertices / context_.vertices, std::min(lost_share * part_.area, lost_most));
 }
 
 bool PartTrial::covers_as_much() const {

@@ -24,7 +24,7 @@ struct TrialRules {
 
 /// A part of the source that is to be mapped anew.
 struct OpenPart {
-    VertexData<bool> open;   ///< placed anew: all faces of the vertex belong to the part
+    VertexData<bool> open;   ///< placed anew: all faces of the vertex, one at least, belong to the part
     VertexData<bool> held;   ///< stay while the part is relaxed: all but those and the ring around them
     std::vector<int> faces;  ///< those that move, ascending
     double area = 0;
@@ -41,6 +41,7 @@ struct TrialContext {
     std::vector<SoftConstraint> constraints;  ///< by which alternatives are judged
     std::vector<SoftConstraint> landmarks;    ///< those of them that hold while a part is relaxed
     TrialRules rules;
+    int vertices;  ///< of the source, that faces use
 };
 
 /// Proposes new images for the open vertices in the map, to be relaxed and judged.

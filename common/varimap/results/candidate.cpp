@@ -31,15 +31,20 @@ namespace {
 
 // Chosen by hand on generated families and on half of the known pairs of animals, people and apes.
 
-/// How probable it is that a rival is the right map rather than the best one: as much as not where both are
-/// as good, three quarters with a few rivals; less for one that differs on a limb alone. Of surfaces that
-/// look nearly the same turned about an axis, scores say half as much: of five teeth and bones whose turned
-/// maps were better, by .4 to 3.2, one was wrong, by 2.4.
-double doubt_by(const Candidate& rival, const Candidate& best) {
-    constexpr double even = 0.75, whole = 0.25, worth_of_turned = 0.5;
+/// How probable a rival is, compared with the best one, by their scores. Of surfaces that look nearly the
+/// same turned about an axis these say half as much: of five teeth and bones whose turned maps were better,
+/// by .4 to 3.2, one was wrong, by 2.4.
+double relative_probability(const Candidate& rival, const Candidate& best) {
+    constexpr double worth_of_turned = 0.5;
     const double worth = rival.turned_about_axis || best.turned_about_axis ? worth_of_turned : 1;
-    return even * std::exp(-worth * std::max(0.0, rival.score - best.score)) *
-           std::min(1.0, rival.moved_mass / whole);
+    return std::exp(-worth * std::max(0.0, rival.score - best.score));
+}
+
+/// How probable it is that a rival is the right map rather than the best one: as much as not where both are
+/// as good, three quarters with a few rivals; less for one that differs on a limb alone.
+double doubt_by(const Candidate& rival, const Candidate& best) {
+    constexpr double even = 0.75, whole = 0.25;
+    return even * relative_probability(rival, best) * std::min(1.0, rival.moved_mass / whole);
 }
 
 /// How probable it is that a map which looked right at low resolution is right, by the Dirichlet energy that
@@ -79,6 +84,15 @@ double plausibility_of_handedness(double mirror_gain) {
 bool is_rival(const Candidate& candidate) {
     constexpr double detail = 0.05;  // what differs on less, a foot or an ear, is no other map
     return !is_mirrored(candidate) && candidate.moved_mass > detail;
+}
+
+/// Of the first candidate's rivals the one that is most probable; 0 without any.
+double most_probable_rival(const std::vector<Candidate>& candidates) {
+    double most = 0;
+    for (std::size_t k = 1; k < candidates.size(); ++k)
+        if (is_rival(candidates[k]))
+            most = std::max(most, relative_probability(candidates[k], candidates.front()));
+    return most;
 }
 
 }  // namespace
@@ -128,7 +142,7 @@ std::string probability_in_words(const Confidence& confidence) {
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished) {
-    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 2, mirrored = 0.05,
+    constexpr double strained = 1.3, strained_in_the_end = 1.2, unlike = 0.6, close = 0.135, mirrored = 0.05,
                      covered = 0.92;
     const Confidence confidence = confidence_of(candidates, finished);
     if (confidence.confident || candidates.empty()) return "";
@@ -137,10 +151,9 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
     std::string why;
     const auto add = [&](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
     if (fits_mirrored(best)) add("the surfaces fit better as mirror images");
-    if (confidence.margin < close)
-        add(confidence.margin > 0
-                ? fmt::format("another is {:.0f}% as probable", 100 * std::exp(-confidence.margin))
-                : std::string("another is as probable"));
+    if (const double rival = most_probable_rival(candidates); rival > close)
+        add(rival < 1 ? fmt::format("another is {:.0f}% as probable", 100 * rival)
+                      : std::string("another is as probable"));
     if (std::any_of(candidates.begin(), candidates.end(),
                     [](const Candidate& one) { return one.turned_about_axis; }))
         add("turned about an axis it looks nearly the same");

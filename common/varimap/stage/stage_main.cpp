@@ -29,6 +29,23 @@ namespace varimap {
 
 namespace fs = std::filesystem;
 
+#if defined(__AVX2__) && defined(__FMA__)
+namespace {
+
+/// Comes before all else that was compiled for such processors, and would end without a word.
+[[gnu::constructor(101)]] void require_processor() {
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return;
+    std::fputs(
+        "varimap: error: built for processors with AVX2 and FMA, and this one has not both; build varimap on "
+        "this machine, or anywhere with -DVARIMAP_PROCESSOR=x86-64\n",
+        stderr);
+    ::_exit(int(ExitCode::input_output));
+}
+
+}  // namespace
+#endif
+
 struct Stage::State {
     CommandLine line;
     std::string output_kind;

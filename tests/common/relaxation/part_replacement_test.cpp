@@ -11,14 +11,15 @@ namespace {
 
 /// A figure, another pose of it, and a map between them that is damaged on one leg.
 struct LegTrial {
-    TriangleMesh rest = shapes::figure(0.15), posed = shapes::figure_pose(0.5)(rest);
+    TriangleMesh rest, posed = shapes::figure_pose(0.5)(rest);
     VertexData<bool> leg = shapes::on_leg(rest), fixed{rest.vertex_count()};
     SlidingMap map;
     const PointMap nothing_known = PointMap(rest.vertex_count());  ///< of the other direction
     PartReplacement replacement;
 
-    explicit LegTrial(PointMap (*damaged)(const TriangleMesh&), const PartReplacementOptions& options = {})
-        : map(damaged(rest), rest, posed), replacement(map, fixed, options) {}
+    explicit LegTrial(PointMap (*damaged)(const TriangleMesh&), const PartReplacementOptions& options = {},
+                      TriangleMesh figure = shapes::figure(0.15))
+        : rest(std::move(figure)), map(damaged(rest), rest, posed), replacement(map, fixed, options) {}
     double error() const { return shapes::mean_error(map.points(), posed, leg); }
     /// Faces of the leg; elsewhere the figure itself has a few.
     int reversed() const {
@@ -34,8 +35,29 @@ struct LegTrial {
     }
 };
 
+void expect_same(const PointMap& a, const PointMap& b) {
+    int different = 0;
+    for (std::size_t v = 0; v < a.size(); ++v)
+        different += a[v].face != b[v].face || a[v].barycentric != b[v].barycentric;
+    EXPECT_EQ(different, 0);
+}
+
 PointMap half_a_turn(const TriangleMesh& figure) {
     return shapes::twisted_leg(figure, 0.5);
+}
+/// One leg crumpled, the images of another's vertices in the opposite order.
+PointMap two_legs(const TriangleMesh& figure) {
+    PointMap map = shapes::crumpled_leg(figure);
+    TriangleMesh across = figure;
+    across.vertices.col(0) *= -1;
+    const std::vector<char> other_leg = shapes::on_leg(across);
+    std::vector<int> vertices;
+    for (int v = 0; v < figure.vertex_count(); ++v)
+        if (other_leg[std::size_t(v)]) vertices.push_back(v);
+    const PointMap at = shapes::at_vertices(figure);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        map[std::size_t(vertices[i])] = at[std::size_t(vertices[vertices.size() - 1 - i])];
+    return map;
 }
 PointMap whole_turn(const TriangleMesh& figure) {
     return shapes::twisted_leg(figure, 1);
@@ -62,6 +84,21 @@ TEST(PartReplacement, UntwistsALimbThatTheOtherDirectionTwistsBack) {
     LegTrial trial(half_a_turn, options);
     trial.replacement.continue_surroundings(shapes::twisted_leg(trial.rest, -0.5));
     trial.expect_undone();
+}
+
+TEST(PartReplacement, VerticesWithoutFacesCountForNothing) {
+    TriangleMesh more = shapes::figure(0.15);
+    const Eigen::Index used = more.vertices.rows();
+    more.vertices.conservativeResize(60 * used, 3);
+    more.vertices.bottomRows(59 * used).setZero();
+    LegTrial trial(two_legs), other(two_legs, {}, more);
+    trial.replacement.continue_surroundings(trial.nothing_known);
+    other.replacement.continue_surroundings(other.nothing_known);
+    EXPECT_EQ(trial.replacement.report().tried, 2);
+    EXPECT_EQ(other.replacement.report().tried, 2);
+    PointMap images = other.map.points();
+    images.resize(std::size_t(used));
+    expect_same(trial.map.points(), images);
 }
 
 TEST(PartReplacement, UnmirrorsALimb) {
@@ -91,13 +128,6 @@ TEST(PartReplacement, TakesAWholeMapFromTheInverse) {
     trial.replacement.adopt_inverse(shapes::at_vertices(trial.rest), true);
     trial.expect_undone();
     EXPECT_GT(trial.replacement.report().area_percent, 100 - 1e-9);
-}
-
-void expect_same(const PointMap& a, const PointMap& b) {
-    int different = 0;
-    for (std::size_t v = 0; v < a.size(); ++v)
-        different += a[v].face != b[v].face || a[v].barycentric != b[v].barycentric;
-    EXPECT_EQ(different, 0);
 }
 
 TEST(PartReplacement, KeepsALimbThatTheInverseHasWorse) {
