@@ -38,7 +38,7 @@ def little_repaired:
         # Where the directions disagree on a limb, one of them has lost it. Right maps have .03 at most where shapes are alike.
         (.p95 // empty | check("there and back, 95 %"; "\(fixed(4)) sqrt(area)"; .; 0.03; 0.1))),
     (.exploration // empty | check("choice among mirrored and turned maps";
-        if .continued > 1 then "candidate \(.continued), as asked" elif .confident then "sure" else "not sure" end;
+        if .continued > 1 then "candidate \(.continued), as asked\(if .probability then " (the first: \(.probability | fixed(2)))" else "" end)" elif .confident then "sure" else "not sure" end;
         if .confident or .continued > 1 then 0 else 2 - (.probability // 0) end; 1; 1))] as $checks
 | (.exploration.continued // 1) as $continued | (.stages // {}) as $stages
 # Every textured mesh is welded at its seams: nothing to look at.

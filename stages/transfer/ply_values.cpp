@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <limits>
 
+#include "stages/transfer/same_mesh.h"
 #include "stages/transfer/values.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
+#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/ply_columns.h"
 #include "varimap/mesh/io/text_scanner.h"
 
@@ -66,6 +68,33 @@ void spread_over_triangles(PlyColumns& columns) {
     }
 }
 
+Points positions_in(const PlyColumns& columns) {
+    const std::size_t count = columns.vertex.empty() ? 0 : columns.vertex[0].values.size();
+    Points positions = Points::Zero(Eigen::Index(count), 3);
+    for (const PlyColumn& column : columns.vertex)
+        for (int axis = 0; axis < 3; ++axis)
+            if (column.name == std::string(1, "xyz"[axis]))
+                positions.col(axis) =
+                    Eigen::Map<const Eigen::VectorXd>(column.values.data(), positions.rows());
+    return positions;
+}
+
+/// Values go by the numbers of vertices and faces, which another program may have changed. A mesh in another
+/// pose has the same faces, a cloud of points none.
+void require_same_order(const PlyColumns& columns, std::string_view bytes, const std::string& path,
+                        const TriangleMesh& mesh, const std::string& mesh_file) {
+    TriangleMesh own{positions_in(columns), {}};
+    if (own.vertex_count() != mesh.vertex_count()) return;  // of faces, or of another mesh
+    if (!columns.corners.empty()) {
+        own = parse_mesh(bytes, path);
+        if (own.face_count() != mesh.face_count() && columns.face.empty()) own.faces.resize(0, 3);
+    }
+    if (same_faces(own, mesh) || (columns.face.empty() && same_vertices(own, mesh))) return;
+    require_same_mesh(own.face_count() == 0, path, own, mesh_file, mesh);
+    warn("{}: its vertices lie elsewhere than those of {}; its values are taken in its order of vertices",
+         path, mesh_file);
+}
+
 ValueTable to_table(const std::vector<PlyColumn>& columns, Place place) {
     const Eigen::Index rows = Eigen::Index(columns[0].values.size());
     ValueTable table{place, Eigen::MatrixXd(rows, Eigen::Index(columns.size())), label_columns(columns),
@@ -92,8 +121,10 @@ std::vector<PlyColumn> to_columns(const std::vector<PlyColumn>& like, const Valu
 
 }  // namespace
 
-ValueFile parse_ply_values(std::string_view bytes, const std::string& path, ValueKind kind) {
+ValueFile parse_ply_values(std::string_view bytes, const std::string& path, ValueKind kind,
+                           const TriangleMesh& mesh, const std::string& mesh_file) {
     PlyColumns columns = parse_ply_columns(bytes, path);
+    require_same_order(columns, bytes, path, mesh, mesh_file);
     warn_of_lists(bytes, path);
     std::erase_if(columns.vertex, [](const PlyColumn& column) { return is_geometry(column.name); });
     spread_over_triangles(columns);

@@ -9,6 +9,7 @@
 #include "stages/transfer/text_rows.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/listed.h"
 #include "varimap/core/log.h"
 #include "varimap/core/lower_case.h"
@@ -110,9 +111,11 @@ int number_of(const TextRow& row, const std::string& path, int first, int count,
 std::string carry_vertices(const TextRows& rows, const std::string& path, int first,
                            const Correspondence& map, const PointCarrier& there) {
     const PointMap at_vertex = points_at_vertices(map.from);
-    std::string text = name_line(rows);
+    std::string text;
+    if (has_name(rows)) text = rows.rows[0].before + name_line(rows);
     std::vector<std::string> without;
     for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
+        text += rows.rows[i].before;
         const int v = number_of(rows.rows[i], path, first, map.from.vertex_count(), "vertices");
         const SurfacePoint image = there(at_vertex[std::size_t(v)]);
         if (image.face >= 0)
@@ -121,7 +124,7 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, int fi
             without.push_back(std::to_string(v + first));
     }
     refuse_those_without_image(without, path, "vertex", "vertices");
-    return text;
+    return text + rows.behind;
 }
 
 std::string carry_rows(TextRows rows, const std::string& path, const Correspondence& map,
@@ -141,9 +144,9 @@ std::string carry_rows(TextRows rows, const std::string& path, const Corresponde
     for (std::size_t i = 0; i < rows.rows.size(); ++i) {
         for (std::size_t axis = 0; axis < 3 && i >= first; ++axis)
             rows.rows[i].words[columns[axis]] = fmt::format("{}", images[i - first][Eigen::Index(axis)]);
-        text += join(rows.rows[i].words, rows.separator) + "\n";
+        text += rows.rows[i].before + join(rows.rows[i].words, rows.separator) + "\n";
     }
-    return text;
+    return text + rows.behind;
 }
 
 }  // namespace
@@ -152,6 +155,9 @@ std::string carry_points(const std::string& path, const LandmarkReading& reading
                          const PointCarrier& there) {
     const std::string bytes = read_file(path);
     if (is_picked_points(path)) return carry_picked(path, bytes, reading.space, map, there);
+    for (const char* mesh : {".obj", ".ply", ".off", ".stl"})
+        if (has_ending(path, mesh))
+            throw InputError(path + ": is a mesh; give its points as lines of x y z (.txt or .csv)");
     TextRows rows = split_rows(bytes, path, Content::numbers);
     const bool vertices = std::all_of(rows.rows.begin(), rows.rows.end(),
                                       [](const TextRow& row) { return row.words.size() == 1; });

@@ -210,6 +210,28 @@ Points follow_known(const WeldedMesh& welded, const std::vector<char>& known, bo
 
 }  // namespace
 
+Points laid_onto(const TriangleMesh& mesh, const Points& shape) {
+    constexpr double much = 0.1;       // of the mesh's size; chosen by hand, as the other
+    constexpr double most_left = 0.5;  // of the displacements
+    const std::vector<int> used = used_vertices(mesh.faces, mesh.vertex_count()).vertex;
+    const Vec3 from = mean_of(shape, used), to = mean_of(mesh.vertices, used);
+    Moments sums;
+    double before = 0;
+    for (const int v : used) {
+        const Vec3 source = shape.row(v).transpose() - from, target = mesh.vertex(v) - to;
+        sums.covariance += target * source.transpose();
+        sums.from += source.squaredNorm();
+        sums.to += target.squaredNorm();
+        before += (shape.row(v) - mesh.vertices.row(v)).squaredNorm();
+    }
+    if (!(before > much * much * sums.to)) return shape;
+    const Frame frame = similarity(sums, false);
+    const Points laid = ((shape.rowwise() - from.transpose()) * frame.transpose()).rowwise() + to.transpose();
+    double after = 0;
+    for (const int v : used) after += (laid.row(v) - mesh.vertices.row(v)).squaredNorm();
+    return after < most_left * most_left * before ? laid : shape;
+}
+
 Points carry_shape(const Correspondence& map, const Points& shape) {
     const WeldedMesh from = welded(map.from, map.there), to = welded(map.to, map.back);
     const std::vector<Frame> frames =

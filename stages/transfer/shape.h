@@ -11,6 +11,10 @@ namespace varimap {
 /// here. Vertices without an image follow those near them, as in carried_vertices.
 Points carry_shape(const Correspondence& map, const Points& shape);
 
+/// A mesh in another shape, laid onto it by the best similarity where most of what moves it is one: of other
+/// axes, units or place, which would be carried as a displacement of every vertex. Otherwise as it is.
+Points laid_onto(const TriangleMesh& mesh, const Points& shape);
+
 /// The vertices of `map.from` at their images on `map.to`. Those without an image follow the vertices nearest
 /// to them that have one: by the best similarity from these to their images, one for all vertices that hang
 /// together, so that a small part that was left out of the map keeps its form.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
@@ -84,15 +85,22 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
         const std::string_view line = split_off_line(bytes);
         const std::string_view start = trimmed(line);
         if (start.empty()) empty.push_back(number);
-        if (start.empty() || start.starts_with('#')) continue;
+        if (start.empty() || start.starts_with('#')) {
+            text.behind += std::string(line) + '\n';
+            text.passed_over += text.rows.empty() ? 0 : 1;
+            continue;
+        }
         // Between the words of one column they are words left empty, as tables have them.
-        if (blanks_belong && !text.rows.empty() && text.rows[0].words.size() == 1)
+        if (blanks_belong && !text.rows.empty() && text.rows[0].words.size() == 1) {
             for (const int blank : empty) text.rows.push_back({blank, {""}});
+            text.passed_over -= int(empty.size());
+        }
         empty.clear();
         LineSplitter splitter(line, number, path);
         if (text.rows.empty()) text.separator = separator_of(line);
         if (text.separator == ' ' && blanks_belong) text.separator = ',';
-        text.rows.push_back({number, splitter.words(text.separator, content)});
+        text.rows.push_back(
+            {number, splitter.words(text.separator, content), std::exchange(text.behind, {})});
     }
     if (text.rows.empty()) throw InputError(path + ": holds no rows");
     return text;

@@ -10,6 +10,7 @@ namespace varimap {
 struct TextRow {
     int line = 0;  ///< from 1
     std::vector<std::string> words;
+    std::string before = {};  ///< empty lines and comments between the row before and this one, as they stand
 };
 
 /// What a table holds besides names.
@@ -22,6 +23,8 @@ enum class Content : int {
 struct TextRows {
     char separator = ' ';  ///< between the words: a comma, semicolon, tab, or blanks
     std::vector<TextRow> rows;
+    std::string behind = {};  ///< the same behind the last row
+    int passed_over = 0;      ///< lines that are no rows, behind the first one
 };
 
 /// The first line tells the separator; where it holds none, blanks separate, but in a .csv of words they

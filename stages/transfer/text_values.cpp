@@ -6,6 +6,7 @@
 
 #include "stages/transfer/text_rows.h"
 #include "stages/transfer/values.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/lower_case.h"
@@ -44,9 +45,24 @@ class Dictionary {
     std::vector<std::string> words_;
 };
 
+/// Rows are as many as the mesh has vertices or triangles. Where a line that holds none was passed over, they
+/// are so also if the first one, which no other is like, names columns, and the missing one is counted.
+void require_certain_names(const TextRows& text, const std::string& path) {
+    const auto& rows = text.rows;
+    if (text.passed_over == 0) return;
+    if (std::any_of(rows.begin() + 1, rows.end(),
+                    [&](const TextRow& row) { return row.words == rows[0].words; }))
+        return;
+    throw InputError(fmt::format(
+        "{}: '{}' may name columns or be the first row, for {} over; write something there, or leave these "
+        "lines out",
+        path, excerpt(join(rows[0].words, text.separator)),
+        counted(text.passed_over, "line without a row is passed", "lines without a row are passed")));
+}
+
 /// A first line that may name the columns does so where the rows without it are those of the mesh. Where
 /// their number does not tell, it does above numbers, and in front of rows that it says are numbered.
-bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh) {
+bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh, const std::string& path) {
     const auto& rows = text.rows;
     if (rows.size() < 2) return false;
     const bool names_rows = is_index_name(rows[0].words[0]);
@@ -55,6 +71,7 @@ bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh) {
     if (names_rows && (kind != ValueKind::label || is_first_number(rows[1]))) return true;
     const bool all_fit = place_of(rows.size(), mesh).has_value();
     const bool others_fit = place_of(rows.size() - 1, mesh).has_value();
+    if (all_fit && !others_fit) require_certain_names(text, path);
     if (all_fit != others_fit) return others_fit;
     return names_rows || kind != ValueKind::label || any_number(rows[1]);
 }
@@ -64,6 +81,9 @@ double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& 
     const std::string_view word = row.words[column];
     if (kind == ValueKind::label) return words.number_of(word);
     double value;
+    if (word.empty())
+        throw InputError(
+            fmt::format("{}:{}: a number is missing; write nan where there is none", path, row.line));
     if (!to_number(word, value))
         throw InputError(fmt::format("{}:{}: '{}' is not a number; give words as --labels", path, row.line,
                                      excerpt(word)));
@@ -147,7 +167,7 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
     join_name(text);
     if (kind == ValueKind::number) warn_of_decimal_commas(text, path);
     const auto& first = text.rows[0].words;
-    const bool named = has_names(text, kind, mesh);
+    const bool named = has_names(text, kind, mesh, path);
     TableLayout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
     const std::string numbers = layout.numbered ? lower_case(first[0]) : "";

@@ -9,6 +9,7 @@
 
 #include "stages/transfer/gltf.h"
 #include "stages/transfer/points.h"
+#include "stages/transfer/same_mesh.h"
 #include "stages/transfer/seams.h"
 #include "stages/transfer/shape.h"
 #include "stages/transfer/values.h"
@@ -27,36 +28,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double same_place = 1e-3;  ///< of vertices of one mesh in two files, relative to its extent
-
 std::string name_of(const std::string& path) {
     return fs::path(path).filename().string();
 }
 std::string stem_of(const std::string& path) {
     return fs::path(path).stem().string();
-}
-
-bool same_faces(const TriangleMesh& a, const TriangleMesh& b) {
-    return a.vertex_count() == b.vertex_count() && a.face_count() == b.face_count() && a.faces == b.faces;
-}
-
-bool same_vertices(const TriangleMesh& a, const TriangleMesh& b) {
-    if (a.vertex_count() != b.vertex_count()) return false;
-    const Box box = bounding_box(a);
-    return (a.vertices - b.vertices).rowwise().norm().maxCoeff() <= same_place * (box.high - box.low).norm();
-}
-
-void require_same_mesh(bool same, const std::string& path, const TriangleMesh& found,
-                       const std::string& mesh_file, const TriangleMesh& mesh) {
-    if (same) return;
-    if (found.vertex_count() == mesh.vertex_count() && found.face_count() == mesh.face_count())
-        throw InputError(
-            fmt::format("{}: is not the mesh {} of the map: it has as many vertices and triangles, "
-                        "but in another order, or other places and polygons",
-                        path, mesh_file));
-    throw InputError(fmt::format(
-        "{}: is not the mesh {} of the map in the same order: {} vertices and {} triangles, there {} and {}",
-        path, mesh_file, found.vertex_count(), found.face_count(), mesh.vertex_count(), mesh.face_count()));
 }
 
 /// Options that change nothing would hide that something else was meant.
@@ -190,7 +166,11 @@ void Transfer::add_values(const std::string& path, ValueKind kind) {
 void Transfer::add_shape(const std::string& path) {
     const TriangleMesh shape = read_mesh(path);
     require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
-    const Points moved = carry_shape(map_, shape.vertices);
+    const Points laid = laid_onto(map_.from, shape.vertices);
+    if (laid != shape.vertices)
+        warn("{}: lies elsewhere than {}, or in other axes or units, and is laid onto it first", path,
+             map_.from_file);
+    const Points moved = carry_shape(map_, laid);
     warn_of_followers(map_.back, map_.to_file);
     if (has_ending(map_.to_file, ".obj"))
         add(stem_of(path) + ".obj",

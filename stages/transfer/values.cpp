@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
@@ -97,18 +98,27 @@ void normalise_rows(Eigen::MatrixXd& weights) {
     }
 }
 
-void require_weights(const ValueTable& table, const std::string& path) {
-    for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
-        const auto weights = table.values.row(row);
-        const double sum = weights.sum(), least = weights.minCoeff();
-        if (std::abs(sum - 1) <= sum_tolerance && least >= 0) continue;
-        const std::string found =
-            least < 0 ? fmt::format("holds {:.4g}", least) : fmt::format("sums to {:.4g}", sum);
-        throw InputError(
-            fmt::format("{}: row {} (from 0) {}; weights must be at least 0 and sum to 1; give "
-                        "other values as --values",
-                        path, row, found));
+/// Rows become shares. Programs write rows that do not sum to 1, and zeros where no bone moves a vertex.
+void make_shares(ValueTable& table, const std::string& path) {
+    int scaled = 0, empty = 0;
+    for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+        auto row = table.values.row(i);
+        const double sum = row.sum(), least = row.minCoeff();
+        if (!(least >= 0) || !std::isfinite(sum))
+            throw InputError(
+                fmt::format("{}: row {} (from 0) holds {:.4g}; weights are numbers of at least 0; give other "
+                            "values as --values",
+                            path, i, least >= 0 ? row.maxCoeff() : least));
+        if (std::abs(sum - 1) <= sum_tolerance) continue;
+        ++(sum > 0 ? scaled : empty);
+        if (sum > 0) row /= sum;
     }
+    if (scaled > 0)
+        warn("{}: {} to a sum of 1", path,
+             counted(scaled, "row of weights is scaled", "rows of weights are scaled"));
+    if (empty > 0)
+        warn("{}: {}, and counts for nothing where the others are mixed", path,
+             counted(empty, "row holds no weight", "rows hold no weight"));
 }
 
 Place require_place(const ValueTable& table, const TriangleMesh& mesh, const std::string& mesh_file,
@@ -164,7 +174,7 @@ ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMes
                       const std::string& mesh_file) {
     const std::string bytes = read_file(path);
     ValueFile file = has_ending(path, ".npy")   ? parse_npy_values(bytes, path, kind)
-                     : has_ending(path, ".ply") ? parse_ply_values(bytes, path, kind)
+                     : has_ending(path, ".ply") ? parse_ply_values(bytes, path, kind, mesh, mesh_file)
                                                 : parse_text_values(bytes, path, kind, mesh);
     for (ValueTable& table : file.tables) {
         table.place = require_place(table, mesh, mesh_file, path);
@@ -173,7 +183,7 @@ ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMes
                 "{}: there are as many triangles as vertices, and these are taken for values of vertices; a "
                 "table whose first column is called face and numbers its rows holds those of triangles",
                 path);
-        if (kind == ValueKind::weight) require_weights(table, path);
+        if (kind == ValueKind::weight) make_shares(table, path);
     }
     return file;
 }

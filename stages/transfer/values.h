@@ -25,7 +25,7 @@ struct ValueTable {
 enum class ValueKind : int {
     number,  ///< interpolated at vertices; of faces, the mean over the place
     label,   ///< never mixed: that with the largest share, each by itself where a row holds several
-    weight   ///< as numbers; rows that sum to 1 do so exactly
+    weight   ///< as numbers; rows are scaled to a sum of 1, but for those that hold none
 };
 
 /// What a table of that many rows belongs to, where both are possible what it says of itself; nothing where
@@ -48,16 +48,18 @@ struct ValueFile {
 };
 
 /// Reads .npy (a row for each vertex or face), .ply (properties besides position and normal; those of a
-/// polygon are those of each of its triangles), or lines of numbers (.csv, .txt and others: split by comma,
-/// semicolon, tab or blanks; the first line may hold names, and a first column called vertex, face or index
-/// numbers the rows). Of labels, words are accepted, too. Rows are those of vertices or faces by their
-/// number. Throws InputError (another number of rows, no number, weights that do not sum to 1), IoError.
+/// polygon are those of each of its triangles; a mesh in another order is refused), or lines of numbers
+/// (.csv, .txt and others: split by comma, semicolon, tab or blanks; the first line may hold names, and a
+/// first column called vertex, face or index numbers the rows). Of labels, words are accepted, too. Rows are
+/// those of vertices or faces by their number. Throws InputError (another number of rows, no number, weights
+/// below 0), IoError.
 ValueFile read_values(const std::string& path, ValueKind kind, const TriangleMesh& mesh,
                       const std::string& mesh_file);
 
 // The readers of one format each.
 ValueFile parse_npy_values(std::string_view bytes, const std::string& path, ValueKind kind);
-ValueFile parse_ply_values(std::string_view bytes, const std::string& path, ValueKind kind);
+ValueFile parse_ply_values(std::string_view bytes, const std::string& path, ValueKind kind,
+                           const TriangleMesh& mesh, const std::string& mesh_file);
 ValueFile parse_text_values(std::string_view bytes, const std::string& path, ValueKind kind,
                             const TriangleMesh& mesh);
 

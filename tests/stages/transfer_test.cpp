@@ -29,6 +29,7 @@
 namespace varimap {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -621,6 +622,55 @@ TEST_F(Transfer, WeightsStaySumsOfOne) {
     EXPECT_TRUE(carried.values.row(7).array().isNaN().all()) << "without an image";
 }
 
+TEST_F(Transfer, WeightsAreScaledToSumsOfOneWithAWord) {
+    TransferRequest request;
+    request.weights = {write("w.txt", by_turns("3 1", "0 0"))};
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
+                AllOf(HasSubstr("81 rows of weights are scaled"), HasSubstr("81 rows hold no weight")));
+    const std::string carried = carry(request, identity_onto(ball_)).at("w.txt");
+    EXPECT_TRUE(carried.starts_with("0.75 0.25\n0 0\n")) << carried.substr(0, 40);
+}
+
+TEST_F(Transfer, WarnsOfIntegersThatAreRounded) {
+    std::vector<std::int64_t> numbers(162, (1ll << 60) + 1);
+    TransferRequest request;
+    request.values = {write("a.npy", to_npy("<i8", {162}, numbers))};
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)), HasSubstr("beyond 2^53"));
+    request.labels.swap(request.values);
+    EXPECT_EQ(warnings_of(request, identity_onto(ball_)), "");
+}
+
+/// Another program may have written the mesh anew.
+TEST_F(Transfer, RefusesPlyValuesOfAMeshInAnotherOrder) {
+    const PlyColumns heat{{{"heat", "double", std::vector<double>(162, 1)}}, {}, {}};
+    TransferRequest request;
+    request.values = {write("a.ply", to_ply(shapes::shuffled(ball_, 7), heat, PlyFormat::binary))};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("but in another order"));
+    const TriangleMesh elsewhere = shapes::moved(ball_, 2, .3, {1, 2, 3});
+    request.values = {write("a.ply", to_ply(elsewhere, heat, PlyFormat::binary))};
+    EXPECT_EQ(warnings_of(request, identity_onto(ball_)), "") << "faces tell the order";
+    const TriangleMesh cloud{ball_.vertices, Faces(0, 3)}, other_cloud{elsewhere.vertices, Faces(0, 3)};
+    request.values = {write("a.ply", to_ply(cloud, heat, PlyFormat::binary))};
+    EXPECT_EQ(warnings_of(request, identity_onto(ball_)), "");
+    request.values = {write("a.ply", to_ply(other_cloud, heat, PlyFormat::binary))};
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)), HasSubstr("its vertices lie elsewhere"));
+}
+
+/// With one label missing a heading makes up for it.
+TEST_F(Transfer, RefusesLabelsOfWhichALineWasPassedOver) {
+    std::string rows;
+    for (int v = 1; v < ball_.vertex_count(); ++v) rows += fmt::format("{}\n", v % 5);
+    TransferRequest request;
+    for (const std::string& text : {"part\n" + rows + "\n", "part\n# 7\n" + rows, "\n\npart\n\n" + rows}) {
+        request.labels = {write("a.txt", text)};
+        EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("'part' may name columns"));
+    }
+    request.labels = {write("a.txt", "arm\narm\n" + rows.substr(rows.find('\n') + 1) + "\n")};
+    EXPECT_EQ(refusal(request, identity_onto(ball_)), "none") << "a label that stands twice is no heading";
+    request.labels = {write("a.txt", "# parts\n\npart\n3\n" + rows + "\n")};
+    EXPECT_EQ(refusal(request, identity_onto(ball_)), "none");
+}
+
 TEST_F(Transfer, WeightsOfIntegersBecomeFractions) {
     const Correspondence map = onto_middle(ball_, {.25, .25, .5});
     std::vector<std::uint8_t> weights;
@@ -720,14 +770,13 @@ TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
     EXPECT_THAT(refusal(request, map), HasSubstr("a.npy: not an .npy file"));
     request.values = {write("a.npy", to_npy("<f8", {162, 1, 1}, std::vector<double>(162)))};
     EXPECT_THAT(refusal(request, map), HasSubstr("its shape is not one of rows and columns"));
-    std::string two;
-    for (int v = 0; v < ball_.vertex_count(); ++v) two += "0.5 0.6\n";
+    request.values = {write("a.csv", by_turns("1,2", "3,"))};
+    EXPECT_THAT(refusal(request, map), HasSubstr("a.csv:2: a number is missing; write nan"));
     request = {};
-    request.weights = {write("w.txt", two)};
-    EXPECT_THAT(refusal(request, map), HasSubstr("w.txt: row 0 (from 0) sums to 1.1"));
-    request.weights = {write("w.csv", by_turns("-0.5,1.5", "0.5,0.5"))};
-    EXPECT_THAT(refusal(request, map),
-                HasSubstr("w.csv: row 0 (from 0) holds -0.5; weights must be at least 0"));
+    for (const auto& [row, found] : {std::pair{"-0.5,1.5", "-0.5"}, {"inf,0", "inf"}, {"nan,1", "nan"}}) {
+        request.weights = {write("w.csv", by_turns(row, "0.5,0.5"))};
+        EXPECT_THAT(refusal(request, map), HasSubstr(fmt::format("w.csv: row 0 (from 0) holds {}", found)));
+    }
     request = {};
     request.values = {write("id.csv", "id,heat\n" + by_turns("7,1", "8,2"))};
     EXPECT_THAT(refusal(request, map),
@@ -1324,6 +1373,32 @@ TEST_F(Transfer, AShapeMovesAsMuchBesideWhatHasNoImage) {
         if (plane.vertices(v, 0) > middle) half.back[std::size_t(v)] = {};
     const Points risen = plane.vertices.rowwise() + Eigen::RowVector3d(0, 0, .1);
     EXPECT_LT((carry_shape(half, risen) - risen).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_F(Transfer, AShapeMayLieElsewhere) {
+    Correspondence map = identity_onto(ball_);
+    map.to_file = "b.ply";
+    TriangleMesh bulging = ball_;
+    bulging.vertices.row(5) *= 1.1;
+    EXPECT_EQ(laid_onto(ball_, bulging.vertices), bulging.vertices);
+    const Points away = shapes::moved(bulging, 1000, 1.5, {4, 5, 6}).vertices;
+    EXPECT_LT((laid_onto(ball_, away) - bulging.vertices).rowwise().norm().maxCoeff(), .01);
+    TriangleMesh bent = ball_;
+    bent.vertices.col(2).array() += bent.vertices.col(0).array().square();
+    EXPECT_EQ(laid_onto(ball_, bent.vertices), bent.vertices) << "its motion is not one of the whole";
+    TransferRequest request;
+    request.shapes = {write("away.ply", to_ply({away, ball_.faces}))};
+    EXPECT_THAT(warnings_of(request, map), HasSubstr("lies elsewhere than a.obj"));
+}
+
+TEST_F(Transfer, LinesBetweenPointsStay) {
+    const std::string text = "# curve 1\n1\n2\n\n# curve 2\n3\n# end\n";
+    TransferRequest request;
+    request.points = {write("a.txt", text)};
+    EXPECT_EQ(carry(request, identity_onto(ball_)).at("a.txt"), text);
+    request.points = {write("a.obj", "v 1 0 0\nl 1 2 3\n")};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("a.obj: is a mesh; give its points as lines"));
 }
 
 /// The same map between meshes whose faces all have vertices of their own.

@@ -47,6 +47,27 @@ void warn_of_other_names(const std::vector<std::pair<Named, Named>>& rows,
             excerpt(other->second.name));
 }
 
+/// The rows in front of which lines of the file hold none.
+std::vector<size_t> rows_behind_gaps(const std::vector<Named>& list) {
+    std::vector<size_t> rows;
+    for (size_t i = 1; i < list.size(); ++i)
+        if (list[i].line > list[i - 1].line + 1) rows.push_back(i);
+    return rows;
+}
+
+/// An empty line may stand for a landmark that was not found: then rows behind it are no partners.
+void require_same_gaps(const std::vector<Named> (&lists)[2], const std::vector<std::string>& files) {
+    const std::vector<size_t> gaps[2]{rows_behind_gaps(lists[0]), rows_behind_gaps(lists[1])};
+    if (gaps[0].empty() || gaps[1].empty() || gaps[0] == gaps[1]) return;
+    const auto first = [&](int side) {
+        return row_of(files[size_t(side)], lists[side][gaps[side][0]].line - 1).place;
+    };
+    throw InputError(fmt::format(
+        "{} and {}: lines without a landmark stand at other places in the two lists, which are matched "
+        "row by row; leave them out, and the partners of those that are missing",
+        first(0), first(1)));
+}
+
 }  // namespace
 
 std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
@@ -68,6 +89,7 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
     if (lists[0].size() != lists[1].size())
         throw InputError(fmt::format("{} names {} vertices but {} names {}; they are matched row by row",
                                      files[0], lists[0].size(), files[1], lists[1].size()));
+    require_same_gaps(lists, files);
     for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
     warn_of_other_names(pairs, files);
     return pairs;

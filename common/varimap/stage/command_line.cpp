@@ -44,8 +44,11 @@ void add_positionals(CLI::App& app, CommandLine& line) {
 }
 
 void add_options(CLI::App& app, CommandLine& line) {
-    for (auto& option : line.options)
-        app.add_option("--" + option.name, option.value, option.help)->take_last()->type_name("TEXT");
+    for (auto& option : line.options) {
+        CLI::Option* added = app.add_option("--" + option.name, option.value, option.help)->type_name("TEXT");
+        // Of two files one would be passed over.
+        if (option.use != CommandLine::Use::input) added->take_last();
+    }
     for (auto& list : line.list_options)
         app.add_option("--" + list.name, list.values, list.help)
             ->expected(list.minimum, list.maximum)

@@ -128,6 +128,21 @@ TEST_F(VertexList, MatchesVerticesByNameWhereAllHaveOne) {
     EXPECT_THROW(read_vertex_pairs(targets, rows, IndexBase::zero, &mesh_, &mesh_), InputError);
 }
 
+/// One that was not found shifts those behind it.
+TEST_F(VertexList, RefusesEmptyLinesAtDifferentPlaces) {
+    const auto full = write("full.txt", "3\n0\n7\n"), third = write("third.txt", "# tips\n3\n0\n\n7\n"),
+               second = write("second.txt", "5\n\n6\n2\n");
+    EXPECT_EQ(read_vertex_pairs(full, second, IndexBase::zero, &mesh_, &mesh_).size(), 3u);
+    EXPECT_EQ(read_vertex_pairs(third, third, IndexBase::zero, &mesh_, &mesh_).size(), 3u);
+    try {
+        read_vertex_pairs(third, second, IndexBase::zero, &mesh_, &mesh_);
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("third.txt:4 and"));
+        EXPECT_THAT(error.what(), HasSubstr("second.txt:2: lines without a landmark stand at other places"));
+    }
+}
+
 TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
     const std::pair<const char*, const char*> cases[] = {
         {"1\nx\n", ":2: 'x' is not a number"},
