@@ -79,7 +79,8 @@ TEST_F(DomainFiles, ACurveWhoseLastPointIsItsFirstIsClosed) {
 }
 
 TEST_F(DomainFiles, ObjLinesArePolylines) {
-    const Domain y = make("y.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 0 1\nl 1 2 3\nl -3 -1\nl 2 1\n");  // one edge twice
+    const Domain y =
+        make("y.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 0 1\nl 1 2 3\nl -3 -1\nl 2 1\n");  // one edge twice
     EXPECT_EQ(y.mass.size(), 4);
     EXPECT_EQ(y.edges.size(), 3u);
 }
