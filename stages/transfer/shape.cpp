@@ -210,7 +210,7 @@ Points follow_known(const WeldedMesh& welded, const std::vector<char>& known, bo
 
 }  // namespace
 
-Points laid_onto(const TriangleMesh& mesh, const Points& shape) {
+std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape) {
     constexpr double much = 0.1;       // of the mesh's size; chosen by hand, as the other
     constexpr double most_left = 0.5;  // of the displacements
     const std::vector<int> used = used_vertices(mesh.faces, mesh.vertex_count()).vertex;
@@ -224,12 +224,12 @@ Points laid_onto(const TriangleMesh& mesh, const Points& shape) {
         sums.to += target.squaredNorm();
         before += (shape.row(v) - mesh.vertices.row(v)).squaredNorm();
     }
-    if (!(before > much * much * sums.to)) return shape;
+    if (!(before > much * much * sums.to)) return std::nullopt;
     const Frame frame = similarity(sums, false);
     const Points laid = ((shape.rowwise() - from.transpose()) * frame.transpose()).rowwise() + to.transpose();
     double after = 0;
     for (const int v : used) after += (laid.row(v) - mesh.vertices.row(v)).squaredNorm();
-    return after < most_left * most_left * before ? laid : shape;
+    return after < most_left * most_left * before ? std::optional(laid) : std::nullopt;
 }
 
 Points carry_shape(const Correspondence& map, const Points& shape) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "varimap/results/correspondence.h"
 
 namespace varimap {
@@ -12,8 +14,8 @@ namespace varimap {
 Points carry_shape(const Correspondence& map, const Points& shape);
 
 /// A mesh in another shape, laid onto it by the best similarity where most of what moves it is one: of other
-/// axes, units or place, which would be carried as a displacement of every vertex. Otherwise as it is.
-Points laid_onto(const TriangleMesh& mesh, const Points& shape);
+/// axes, units or place, which would be carried as a displacement of every vertex. Otherwise nothing.
+std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape);
 
 /// The vertices of `map.from` at their images on `map.to`. Those without an image follow the vertices nearest
 /// to them that have one: by the best similarity from these to their images, one for all vertices that hang

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <set>
 
 #include "stages/transfer/gltf.h"
@@ -166,11 +167,11 @@ void Transfer::add_values(const std::string& path, ValueKind kind) {
 void Transfer::add_shape(const std::string& path) {
     const TriangleMesh shape = read_mesh(path);
     require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
-    const Points laid = laid_onto(map_.from, shape.vertices);
-    if (laid != shape.vertices)
+    const std::optional<Points> laid = laid_onto(map_.from, shape.vertices);
+    if (laid)
         warn("{}: lies elsewhere than {}, or in other axes or units, and is laid onto it first", path,
              map_.from_file);
-    const Points moved = carry_shape(map_, laid);
+    const Points moved = carry_shape(map_, laid.value_or(shape.vertices));
     warn_of_followers(map_.back, map_.to_file);
     if (has_ending(map_.to_file, ".obj"))
         add(stem_of(path) + ".obj",
