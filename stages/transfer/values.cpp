@@ -117,8 +117,8 @@ void make_shares(ValueTable& table, const std::string& path) {
         warn("{}: {} to a sum of 1", path,
              counted(scaled, "row of weights is scaled", "rows of weights are scaled"));
     if (empty > 0)
-        warn("{}: {}, and counts for nothing where the others are mixed", path,
-             counted(empty, "row holds no weight", "rows hold no weight"));
+        warn("{}: {} for nothing where the others are mixed", path,
+             counted(empty, "row holds no weight, and counts", "rows hold no weight, and count"));
 }
 
 Place require_place(const ValueTable& table, const TriangleMesh& mesh, const std::string& mesh_file,
