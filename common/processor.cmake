@@ -1,6 +1,7 @@
 # What every executable is built for: x86-64-v3, which has AVX2 and fused products (Intel since 2013, AMD since 2015), unless this
-# machine has not. All takes four fifths of the time of a build for any x86-64 processor. It is one build for all of these, for kernels
-# chosen at run time would gain less and make last digits depend on the machine.
+# machine has not. All takes four fifths of the time of a build for any x86-64 processor, half of which is gained by products that the
+# compiler fuses: a b - c d of equal products may be other than 0. It is one build for all of these processors, for kernels chosen at run
+# time would gain less and make last digits depend on the machine.
 include(CheckCXXSourceRuns)
 
 set(VARIMAP_PROCESSOR "" CACHE STRING

@@ -97,6 +97,8 @@ rm -r spaced/artifacts
 "$varimap" view spaced --landmark_space as-is >out.txt 2>log || fail "view --landmark_space (exit $?)"
 grep -q 'tip3' spaced/view.html || fail "axes that are said are not heeded"
 expect_exit 2 "$varimap" view spaced --landmark-space
+"$varimap" view spaced -o elsewhere.html >out.txt 2>log || fail "view -o (exit $?)"
+[[ -s elsewhere.html ]] || fail "no page where -o says"
 cp a.off kept.off
 awk 'NR == 2 { n = $1 } NR == 3 { first = $0; next } { print } NR == n + 2 { print first }' kept.off >a.off
 expect_exit 4 "$varimap" view spaced
