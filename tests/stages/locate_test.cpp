@@ -160,13 +160,15 @@ TEST(LocateStage, SaysWhichLandmarksAreExchanged) {
     EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("landmarks 2 and 4 look exchanged"));
 }
 
-/// The part is strained much then, which is said as well.
+/// Where the part comes to lie by them is one of several places, at some of which it is strained so much that
+/// this is said as well.
 TEST(LocateStage, SaysThatAllLandmarksAreExchanged) {
     const Pair pair;
     const std::size_t before = logged_warnings().size();
-    pair.locate(false, pair.exchanged({{0, 1}, {2, 3}}));
-    ASSERT_EQ(logged_warnings().size(), before + 2);
-    EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
+    const double strain = pair.locate(false, pair.exchanged({{0, 1}, {2, 3}})).strain;
+    const bool much = strain > PartRegion::much_strain;
+    ASSERT_EQ(logged_warnings().size(), before + (much ? 2 : 1)) << strain;
+    if (much) EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
     EXPECT_THAT(logged_warnings().back(),
                 testing::HasSubstr("landmarks 1 with 2 and 3 with 4 look exchanged"));
 }
