@@ -168,7 +168,9 @@ TEST(LocateStage, SaysThatAllLandmarksAreExchanged) {
     const double strain = pair.locate(false, pair.exchanged({{0, 1}, {2, 3}})).strain;
     const bool much = strain > PartRegion::much_strain;
     ASSERT_EQ(logged_warnings().size(), before + (much ? 2 : 1)) << strain;
-    if (much) EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
+    if (much) {
+        EXPECT_THAT(logged_warnings()[before], testing::HasSubstr("had to be strained"));
+    }
     EXPECT_THAT(logged_warnings().back(),
                 testing::HasSubstr("landmarks 1 with 2 and 3 with 4 look exchanged"));
 }
