@@ -349,14 +349,20 @@ VertexImages true_images(const KnownPair& pair) {
 
 /// A shaft with a hexagonal head, of which one side is cut off further in.
 KnownPair bolt() {
-    const auto f = [](const Vec3& p) {
-        double head = std::max(p.x() - .75, std::abs(p.z()) - .4);
+    // Rounded: at sharp edges the mesh's vertices would go to and fro between two planes.
+    const auto larger = [](double a, double b) {
+        constexpr double reach = .05;
+        const double near = std::max(0., 1 - std::abs(a - b) / reach);
+        return std::max(a, b) + reach * near * near / 4;
+    };
+    const auto f = [&](const Vec3& p) {
+        double head = larger(p.x() - .75, std::abs(p.z()) - .4);
         for (int k = 0; k < 6; ++k) {
             const double angle = k * M_PI / 3;
-            head = std::max(head, std::cos(angle) * p.x() + std::sin(angle) * p.y() - 1);
+            head = larger(head, std::cos(angle) * p.x() + std::sin(angle) * p.y() - 1);
         }
-        const double shaft = std::max(std::hypot(p.x(), p.y()) - .5, std::abs(p.z() - 1.5) - 1.5);
-        return std::min(head, shaft);
+        const double shaft = larger(std::hypot(p.x(), p.y()) - .5, std::abs(p.z() - 1.5) - 1.5);
+        return -larger(-head, -shaft);
     };
     const TriangleMesh mesh = shapes::level_set(f, {-1.217, -1.243, -.631}, {1.2, 1.2, 3.2}, .131),
                        other = shapes::level_set(f, {-1.253, -1.229, -.617}, {1.2, 1.2, 3.2}, .137);
