@@ -10,6 +10,7 @@
 
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/text_scanner.h"
@@ -82,6 +83,12 @@ std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& poin
     return text + std::string(done, bytes.end());
 }
 
+/// Whether a column of that name holds the axis: x, or Points:0 as ParaView writes it.
+bool names_axis(std::string_view name, std::size_t axis) {
+    const std::string lower = lower_case(name);
+    return lower == std::string(1, "xyz"[axis]) || lower == fmt::format("points:{}", axis);
+}
+
 }  // namespace
 
 std::string with_positions(const std::string& path, const std::string& file,
@@ -99,7 +106,7 @@ std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const Text
     std::size_t named = 0, numbers = 0;
     for (std::size_t c = 0; c < first.size(); ++c)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            if (first[c].size() == 1 && (first[c][0] | 32) == "xyz"[axis]) columns[axis] = c, ++named;
+            if (names_axis(first[c], axis)) columns[axis] = c, ++named;
     if (named == 3 && rows.rows.size() > 1) return {columns, 1};
     for (std::size_t c = 0; c < first.size(); ++c)
         if (is_number(first[c]) && numbers++ < 3) columns[numbers - 1] = c;

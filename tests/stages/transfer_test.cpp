@@ -1391,6 +1391,15 @@ TEST_F(Transfer, AShapeMayLieElsewhere) {
     EXPECT_THAT(warnings_of(request, map), HasSubstr("lies elsewhere than a.obj"));
 }
 
+TEST_F(Transfer, CarriesColumnsOfParaView) {
+    const Vec3 p = ball_.vertex(5);
+    TransferRequest request;
+    request.points = {write(
+        "a.csv",
+        fmt::format("\"heat\",\"Points:0\",\"Points:1\",\"Points:2\"\n7,{},{},{}\n", p[0], p[1], p[2]))};
+    EXPECT_THAT(carry(request, identity_onto(ball_)).at("a.csv"), HasSubstr("\n7,"));
+}
+
 TEST_F(Transfer, LinesBetweenPointsStay) {
     const std::string text = "# curve 1\n1\n2\n\n# curve 2\n3\n# end\n";
     TransferRequest request;
