@@ -50,20 +50,22 @@ hashes_beside() { (cd -- "${1%/*}" && sha256sum -- "${@:2}" 2>/dev/null) || true
 # short_hash: sixteen digits of the SHA-256 of what is read.
 short_hash() { sha256sum | cut -c 1-16; }
 
-# split_csv LIST: as lines of fields separated by \037; quotes as in RFC 4180, lines of # alone and blank ones left out.
+# split_csv LIST: as lines of fields separated by \037; quotes as in RFC 4180, lines of # alone and blank ones left out. The first line
+# tells what separates: commas, or where it has none semicolons or tabs.
 split_csv() {
     tr -d '\r' <"$1" | sed '1s/^\xef\xbb\xbf//' | awk '
         /^[ \t]*(#|$)/ { next }
+        separator == "" { separator = /,/ ? "," : /;/ ? ";" : /\t/ ? "\t" : "," }
         {
             line = $0; field = ""; out = ""; quoted = 0
             for (i = 1; i <= length(line); i++) {
                 c = substr(line, i, 1)
                 if (quoted && c == "\"" && substr(line, i + 1, 1) == "\"") { field = field c; i++ }
                 else if (c == "\"") quoted = !quoted
-                else if (c == "," && !quoted) { out = out field "\037"; field = "" }
+                else if (c == separator && !quoted) { out = out field "\037"; field = "" }
                 else field = field c
             }
-            if (quoted || line ~ /[\t\037]/) { print "\036" NR; exit }
+            if (quoted || index(line, "\037") || (separator != "\t" && index(line, "\t"))) { print "\036" NR; exit }
             print out field
         }'
 }

@@ -106,6 +106,15 @@ exec {held}>&-
 wait $! || fail "a batch that waited (exit $?)"
 grep -q '^batch: the other run is process [0-9]* on .*, kill -- -[0-9]* ends these$' log || fail "who holds OUT: $(cat log)"
 
+# What separates columns the first line tells.
+for separator in ',' ';' $'\t'; do
+    printf 'source%starget\n%s\n' "$separator" "meshes/a.off${separator}meshes/b.off" >separated.csv
+    batch separated.csv -o separated --plan
+    cut -d ' ' -f 1,2 separated/batch/pending >"separated as $(printf %d "'$separator").txt"
+done
+[[ $(cat separated\ as\ *.txt | sort | uniq -c | awk '$1 == 3 { print $2, $3 }' | xargs) == "pair a--b surface a surface b" ]] ||
+    fail "lists with semicolons or tabs: $(cat separated\ as\ *.txt)"
+
 # What is replaced while a batch runs is not done, and told.
 mkdir moving
 cp meshes/a.off meshes/b.off moving
