@@ -175,19 +175,32 @@ Vec3 mean_of(const Points& places, const std::vector<int>& vertices) {
     return places(vertices, Eigen::all).colwise().mean().transpose();
 }
 
-/// Puts a part where the best similarity from anchors to their images takes it.
-void move_part(const std::vector<int>& part, const std::vector<int>& anchors, const Points& places,
-               bool mirrored, Points& images) {
-    const Vec3 from = mean_of(places, anchors), to = mean_of(images, anchors);
+/// A similarity of space.
+struct Motion {
+    Vec3 from, to;
+    Frame frame;
+    Vec3 operator()(const Vec3& place) const { return to + frame * (place - from); }
+};
+
+/// That which takes these vertices nearest to their images.
+Motion best_motion(const Points& places, const Points& images, const std::vector<int>& vertices,
+                   bool mirrored) {
+    const Vec3 from = mean_of(places, vertices), to = mean_of(images, vertices);
     Moments sums;
-    for (const int v : anchors) {
+    for (const int v : vertices) {
         const Vec3 source = places.row(v).transpose() - from, target = images.row(v).transpose() - to;
         sums.covariance += target * source.transpose();
         sums.from += source.squaredNorm();
         sums.to += target.squaredNorm();
     }
-    const Frame frame = sums.from > 0 ? similarity(sums, mirrored) : Frame(Frame::Identity());
-    for (const int v : part) images.row(v) = (to + frame * (places.row(v).transpose() - from)).transpose();
+    return {from, to, sums.from > 0 ? similarity(sums, mirrored) : Frame(Frame::Identity())};
+}
+
+/// Puts a part where the best similarity from anchors to their images takes it.
+void move_part(const std::vector<int>& part, const std::vector<int>& anchors, const Points& places,
+               bool mirrored, Points& images) {
+    const Motion motion = best_motion(places, images, anchors, mirrored);
+    for (const int v : part) images.row(v) = motion(places.row(v).transpose()).transpose();
 }
 
 /// Images of all vertices, of which those of the known ones are given.
@@ -214,22 +227,17 @@ std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape) {
     constexpr double much = 0.1;       // of the mesh's size; chosen by hand, as the other
     constexpr double most_left = 0.5;  // of the displacements
     const std::vector<int> used = used_vertices(mesh.faces, mesh.vertex_count()).vertex;
-    const Vec3 from = mean_of(shape, used), to = mean_of(mesh.vertices, used);
-    Moments sums;
-    double before = 0;
-    for (const int v : used) {
-        const Vec3 source = shape.row(v).transpose() - from, target = mesh.vertex(v) - to;
-        sums.covariance += target * source.transpose();
-        sums.from += source.squaredNorm();
-        sums.to += target.squaredNorm();
-        before += (shape.row(v) - mesh.vertices.row(v)).squaredNorm();
-    }
-    if (!(before > much * much * sums.to)) return std::nullopt;
-    const Frame frame = similarity(sums, false);
-    const Points laid = ((shape.rowwise() - from.transpose()) * frame.transpose()).rowwise() + to.transpose();
-    double after = 0;
-    for (const int v : used) after += (laid.row(v) - mesh.vertices.row(v)).squaredNorm();
-    return after < most_left * most_left * before ? std::optional(laid) : std::nullopt;
+    const auto apart = [&](const Points& other) {
+        return (other(used, Eigen::all) - mesh.vertices(used, Eigen::all)).norm();
+    };
+    const Vec3 centre = mean_of(mesh.vertices, used);
+    const double before = apart(shape), size = apart(centre.transpose().replicate(shape.rows(), 1));
+    if (!(before > much * size)) return std::nullopt;
+    const Motion motion = best_motion(shape, mesh.vertices, used, false);
+    Points laid(shape.rows(), 3);
+    for (Eigen::Index v = 0; v < shape.rows(); ++v)
+        laid.row(v) = motion(shape.row(v).transpose()).transpose();
+    return apart(laid) < most_left * before ? std::optional(laid) : std::nullopt;
 }
 
 Points carry_shape(const Correspondence& map, const Points& shape) {
