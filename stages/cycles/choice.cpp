@@ -17,7 +17,7 @@ namespace {
 constexpr double tolerance = .1;  // distance at which a map hardly agrees with the layout any more
 constexpr double chance = .05;    // that a layout is right which none of a pair's maps agrees with
 constexpr double clearly = 4;     // by that much (log) a layout is more probable that gives up a first map
-constexpr std::size_t most_loops = 60;       // for each pair; the nearest by number
+constexpr std::size_t most_loops = 60;       // for each pair; over the first surfaces
 constexpr std::size_t most_neighbours = 20;  // over which a surface is tried to be laid out; the surest
 constexpr std::size_t most_roots = 10;       // layouts
 constexpr std::size_t stride = 3;            // of a thousand samples

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/explore/telling_vertex.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/pulled_back.h"
@@ -50,7 +51,9 @@ Candidates with_previews(const std::vector<Appraised>& list, const PairContext& 
     constexpr std::size_t shown = 3;
     Candidates found = candidates_of(list, context);
     if (confidence_of(found.list).confident) return found;
-    for (std::size_t k = 0; k < std::min(list.size(), shown); ++k)
+    const std::size_t count = std::min(list.size(), shown);
+    if (count > 1) found.telling = telling_vertex(list, count, context);
+    for (std::size_t k = 0; k < count; ++k)
         found.previews.push_back(preview(list[k].map.maps.B_to_A, context.B().surface, context.A().surface));
     return found;
 }

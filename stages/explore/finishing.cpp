@@ -105,8 +105,7 @@ class JointDescent {
         go_on(context_.euclidean_level(index, is_last ? 0 : 1), euclidean_ironing_);
     }
     void enter(LevelPair level) {
-        add_shape_term(level, context_, options_.shape_weight);
-        add_landmark_term(level, context_, options_.vicinity_weight);
+        add_descriptor_terms(level, context_, options_.descriptors);
         descent_.enter(std::move(level));
     }
     void go_on(LevelPair level, const IroningOptions& ironing) {

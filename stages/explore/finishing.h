@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "stages/explore/appraisal.h"
+#include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/multilevel/matching.h"
 #include "varimap/relaxation/untangling.h"
@@ -14,8 +15,7 @@ namespace varimap {
 struct FinishingOptions {
     AlternationOptions alternation;
     IroningOptions ironing;
-    double shape_weight = 0.25;  ///< of add_shape_term, as in varimap-diffuse and varimap-refine
-    double vicinity_weight = 0;  ///< of add_landmark_term, the same
+    DescriptorWeights descriptors;  ///< as in varimap-diffuse and varimap-refine
     /// Rounds of ironing on the Euclidean levels, where mirrored limbs are placed anew in any case: left as
     /// they are, they make the right map look worse than a wrong one.
     int euclidean_rounds = 3;

@@ -12,7 +12,19 @@ using namespace varimap;
 
 namespace {
 
-void report(const std::vector<Candidate>& candidates, bool has_landmarks, const PairContext& context) {
+/// ", first at vertex 12 of the source: candidate 1 has it at vertex 34 of the target, 2 at 56"; or "".
+std::string where_to_tell(const TellingVertex& told) {
+    if (told.images.empty()) return "";
+    std::string text =
+        fmt::format(", first at vertex {} of the source: candidate 1 has it at vertex {} of the target",
+                    told.source, told.images.front());
+    for (std::size_t k = 1; k < told.images.size(); ++k)
+        text += fmt::format(", {} at {}", k + 1, told.images[k]);
+    return text;
+}
+
+void report(const Candidates& found, bool has_landmarks, const PairContext& context) {
+    const std::vector<Candidate>& candidates = found.list;
     for (size_t k = 0; k < candidates.size(); ++k)
         log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, alignment {:.3f}, "
             "stretch "
@@ -35,9 +47,10 @@ void report(const std::vector<Candidate>& candidates, bool has_landmarks, const 
             mirror_advice(context));
     else if (!confidence.confident)
         warn(
-            "the choice among the candidates is not sure ({}): look at candidates.png, {}or give {}landmarks",
+            "the choice among the candidates is not sure ({}): look at candidates.png, {}or give "
+            "{}landmarks{}",
             doubt(candidates), candidates.size() > 1 ? "try --candidate 2, " : "",
-            has_landmarks ? "more " : "");
+            has_landmarks ? "more " : "", where_to_tell(found.telling));
 }
 
 void report_self_maps(const std::vector<Candidate>& self_maps) {
@@ -166,7 +179,7 @@ int main(int argc, char** argv) {
         else if (landmarks_decide(found))
             log("varimap-diffuse follows the landmarks");
         else
-            report(found.list, !landmark_files.empty(), context);
+            report(found, !landmark_files.empty(), context);
         found.sketched_A = inputs.sketched("A");
         found.sketched_B = inputs.sketched("B");
         stage.record_number("candidates", double(found.list.size()));

@@ -41,10 +41,7 @@ struct ExploreParams {
                  1000000);
         list.add("composed", composed, "of how many maps compositions with self-maps are tried", 0, 100);
         list.add("finished", finishing.most, "maps that are finished and compared at most", 1, 100);
-        list.add("shape_weight", finishing.shape_weight,
-                 "as in varimap-diffuse, for the maps that are finished", 0.0, 100.0);
-        list.add("vicinity_weight", finishing.vicinity_weight,
-                 "as in varimap-diffuse, for the maps that are finished", 0.0, 1000.0);
+        varimap::describe(list, finishing.descriptors);
         landmark_reading.describe(list);
         list.add("landmark_weight", landmark_weight,
                  "how firmly landmarks hold (1: pinned; less: the map may disagree)", 1e-3, 1.0);

@@ -126,6 +126,11 @@ void refuse_other_parts(const std::string& path) {
                          "which are not read; export it as STL or OBJ");
 }
 
+bool has_texture_coordinates(const aiScene& scene) {
+    return std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes,
+                       [](const aiMesh* mesh) { return mesh->HasTextureCoords(0); });
+}
+
 }  // namespace
 
 bool is_importable(const std::string& path) {
@@ -147,6 +152,11 @@ ImportedScene read_scene(const std::string& path) {
     } catch (const InputError& error) {
         throw InputError(path + ": " + error.what());
     }
+    if (result.uv.empty() && has_texture_coordinates(*scene))
+        warnings.emplace_back(
+            "texture coordinates are left out, since a part of the scene has none; give it some, or export "
+            "it "
+            "without that part");
     result.warnings = std::move(warnings);
     if (result.soup.ends.empty()) throw InputError(path + ": the file holds no faces");
     return result;

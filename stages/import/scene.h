@@ -23,8 +23,9 @@ struct SceneImage {
 /// What a file of a scene shows: the polygons of all its objects, each where its node puts it.
 struct ImportedScene {
     PolygonSoup soup;
-    std::vector<Eigen::Vector2d> uv;       ///< per entry of soup.corners, v upwards; empty: the file has none
-    std::vector<int> material;             ///< per polygon: of `materials`; -1: none
+    std::vector<Eigen::Vector2d>
+        uv;                     ///< per entry of soup.corners, v upwards; empty unless all polygons have some
+    std::vector<int> material;  ///< per polygon: of `materials`; -1: none
     std::vector<SceneMaterial> materials;  ///< with names of their own
     std::vector<SceneImage> images;
     std::vector<std::string> missing_images;  ///< as the file names them

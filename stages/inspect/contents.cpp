@@ -148,6 +148,10 @@ void visit(const Candidates& candidates, ContentsVisitor& visitor) {
     visitor.fact("previews", fmt::format("{}", candidates.previews.size()));
     for (std::size_t k = 0; k < candidates.previews.size(); ++k)
         visit_points(fmt::format("preview_{:02}", k + 1), candidates.previews[k], visitor);
+    const TellingVertex& told = candidates.telling;
+    if (!told.images.empty())
+        visitor.fact("told apart by", fmt::format("vertex {} of A's file, at {} of B's", told.source,
+                                                  fmt::join(told.images, ", ")));
 }
 
 std::string range_of_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {

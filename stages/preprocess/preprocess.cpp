@@ -51,22 +51,21 @@ void log_edge_lengths(const char* when, const TriangleMesh& mesh) {
 /// converge. Measured: 1.4e-7 fails, 1e-5 does not.
 constexpr double thinnest_face = 1e-6;
 
-void require_no_thin_faces(const ThinFaceRemoval& repair) {
+void require_no_thin_faces(const ThinFaceRemoval& repair, const FileLink& link) {
     int count = 0, first = -1;
     for (int f = 0; f < repair.mesh.face_count(); ++f)
         if (thinness(repair.mesh, f) < thinnest_face && count++ == 0) first = repair.origin[f];
     if (count > 0)
         throw InputError(
             fmt::format("{} faces have no area, or a height below 1e-6 of their length, and cannot be "
-                        "removed, the first is "
-                        "face {}; mesh this place anew",
-                        count, first));
+                        "removed, the first is {}; mesh this place anew",
+                        count, face_in_words(first, link)));
 }
 
 /// The used vertices without thin faces. vertex_of_input leads to what is left.
-ThinFaceRemoval repaired(Normalised& normalised) {
+ThinFaceRemoval repaired(Normalised& normalised, const FileLink& link) {
     ThinFaceRemoval repair = remove_thin_faces(normalised.mesh, thinnest_face);
-    require_no_thin_faces(repair);
+    require_no_thin_faces(repair, link);
     if (repair.collapsed + repair.turned == 0) return repair;
     std::vector<std::string> done;
     if (repair.collapsed > 0) done.push_back(counted(repair.collapsed, "side collapsed", "sides collapsed"));
@@ -124,7 +123,7 @@ int thinnest_of(const TriangleMesh& mesh) {
     return thinnest;
 }
 
-void report_end(const Bisection& bisection, double target, const TriangleMesh& input,
+void report_end(const Bisection& bisection, double target, const Surface& surface,
                 const PreprocessParams& params) {
     const int vertices = bisection.mesh.vertex_count();
     if (bisection.longest_left == 0) return;
@@ -134,19 +133,21 @@ void report_end(const Bisection& bisection, double target, const TriangleMesh& i
                         "choose a larger "
                         "target_edge_length or a larger max_vertices",
                         target, params.max_vertices));
-    const int thinnest = thinnest_of(input);
+    const int thinnest = thinnest_of(surface.input);
+    const double height = thinness(surface.input, thinnest);
+    const std::string worst = face_in_words(thinnest, surface.link);
     if (bisection.longest_left > longest_of_slivers)
-        throw InputError(fmt::format(
-            "the surface is a sliver: at {} vertices bisection still leaves edges of {:.2g} "
-            "sqrt(area), the worst is face {} (height {:.1g} of its length); mesh it with rounder "
-            "faces, or set target_edge_length",
-            vertices, bisection.longest_left, thinnest, thinness(input, thinnest)));
+        throw InputError(
+            fmt::format("the surface is a sliver: at {} vertices bisection still leaves edges of {:.2g} "
+                        "sqrt(area), the worst is {} (height {:.1g} of its length); mesh it with rounder "
+                        "faces, or set target_edge_length",
+                        vertices, bisection.longest_left, worst, height));
     warn(
-        "slivers, the worst is face {} (height {:.1g} of its length): bisection ends at {} vertices, four "
+        "slivers, the worst is {} (height {:.1g} of its length): bisection ends at {} vertices, four "
         "times "
         "those of the input or 2500, with edges up to {:.3f} where {:.3f} were wanted; the map is coarse "
         "there",
-        thinnest, thinness(input, thinnest), vertices, bisection.longest_left, target);
+        worst, height, vertices, bisection.longest_left, target);
 }
 
 /// Holes are filled on request alone.
@@ -190,8 +191,15 @@ RepairedMesh prepared(const TriangleMesh& file, const PreprocessParams& params, 
 }
 
 Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
+    return preprocess(RepairedMesh{input, {}, {}}, params);
+}
+
+Surface preprocess(RepairedMesh repaired_input, const PreprocessParams& params) {
+    report(repaired_input.counts, params);
     Surface surface;
-    surface.input = input;
+    surface.input = std::move(repaired_input.mesh);
+    surface.link = std::move(repaired_input.link);
+    const TriangleMesh& input = surface.input;
     Normalised used = normalise(input, surface);
     const TriangleMesh& normalised = used.mesh;
     const TopologySummary topology = summarise_topology(normalised);
@@ -199,24 +207,17 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
         input.vertex_count() - normalised.vertex_count());
     log_edge_lengths("input", normalised);
 
-    const ThinFaceRemoval repair = repaired(used);
+    const ThinFaceRemoval repair = repaired(used, surface.link);
     const double target = target_edge_length(params, normalised.vertex_count());
     const Bisection bisection =
         bisect_longest_edges(repair.mesh, target, most_vertices(params, normalised.vertex_count()));
-    report_end(bisection, target, input, params);
+    report_end(bisection, target, surface, params);
     record_ways(bisection, repair, used.vertex_of_input, surface);
     surface.mesh = bisection.mesh;
     surface.mass = voronoi_masses(surface.mesh);
     if (params.mirror) surface = with_reversed_orientation(std::move(surface));
     log("target edge length {:.4f}", target);
     log_edge_lengths("output", surface.mesh);
-    return surface;
-}
-
-Surface preprocess(RepairedMesh input, const PreprocessParams& params) {
-    report(input.counts, params);
-    Surface surface = preprocess(input.mesh, params);
-    surface.link = std::move(input.link);
     return surface;
 }
 

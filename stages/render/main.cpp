@@ -36,6 +36,11 @@ PointPairs read_landmarks_on(const std::vector<std::string>& files, const Repair
     return pairs;
 }
 
+/// Of the repaired mesh; -1 where the file's vertex has none there.
+int vertex_on(const RepairedMesh& mesh, int vertex_of_file) {
+    return mesh.link.is_identity() ? vertex_of_file : mesh.link.vertex[std::size_t(vertex_of_file)];
+}
+
 /// The first candidates, which there are previews of, beside the picture. `rough`: a copy, since the stamp is
 /// to hold the parameters that were asked for.
 void write_candidates(Stage& stage, const std::string& picture, Candidates candidates, const RepairedMesh& A,
@@ -43,7 +48,10 @@ void write_candidates(Stage& stage, const std::string& picture, Candidates candi
     const std::string beside = (std::filesystem::path(picture).parent_path() / "candidates.png").string();
     rough.samples = std::min(rough.samples, 2);  // rough maps need no smooth picture
     for (PointMap& preview : candidates.previews) preview = from_file(preview, B.link, A.link);
-    stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, rough)));
+    TellingVertex& told = candidates.telling;
+    if (!told.images.empty()) told.source = vertex_on(A, told.source);
+    for (int& image : told.images) image = vertex_on(B, image);
+    stage.write_file(beside, to_png(render_candidates(A.mesh, B.mesh, candidates.previews, told, rough)));
     log("the first candidates to {}", beside);
 }
 

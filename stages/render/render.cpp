@@ -104,7 +104,8 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
 }
 
 Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
-                        const std::vector<PointMap>& target_to_source, const RenderParams& params) {
+                        const std::vector<PointMap>& target_to_source, const TellingVertex& told,
+                        const RenderParams& params) {
     const TriangleMesh at_unit_area = unit_area(source);
     const SourceColour colour(at_unit_area, params.checker);
     const ClosestPoint closest(at_unit_area);
@@ -115,7 +116,11 @@ Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
     std::vector<std::unique_ptr<Figure>> figures;
     figures.push_back(
         figure(at_unit_area, [&](const SurfacePoint& p) { return colour(position(at_unit_area, p)); }));
-    std::vector<Exhibit> exhibits{{figures[0].get(), source_view, "source"}};
+    const auto marked = [](const TriangleMesh& mesh, int vertex) {
+        return vertex < 0 ? std::vector<Vec3>() : std::vector<Vec3>{mesh.vertex(vertex)};
+    };
+    std::vector<Exhibit> exhibits{
+        {figures[0].get(), source_view, "source", marked(at_unit_area, told.source)}};
     for (const PointMap& map : target_to_source) {
         require_fit(map, target, source, "a candidate", "target", "source");
         const auto back = std::make_shared<ImageMesh>(map, target, source);
@@ -125,7 +130,9 @@ Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
         const View view = exhibits.size() > 1 ? exhibits[1].view  // the same for all, for comparison
                                               : matching_view(back->source, back->image.vertices,
                                                               have_image(map), source_view);
-        exhibits.push_back({figures.back().get(), view, fmt::format("candidate {}", exhibits.size())});
+        exhibits.push_back(
+            {figures.back().get(), view, fmt::format("candidate {}", exhibits.size()),
+             marked(back->source, told.images.empty() ? -1 : told.images[exhibits.size() - 1])});
     }
     return draw_panels(exhibits, {}, params);
 }

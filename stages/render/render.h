@@ -5,6 +5,7 @@
 
 #include "stages/render/params.h"
 #include "varimap/mesh/triangle_mesh.h"
+#include "varimap/results/candidates.h"
 
 namespace varimap {
 
@@ -26,9 +27,11 @@ Image render(const TriangleMesh& source, const TriangleMesh& target, const Point
              const PointMap& target_to_source, const RenderParams& params, const PointPairs& landmarks = {});
 
 /// Several maps beside each other, with labels: the source, then the target with the source's colours carried
-/// by each of them, all from the same two views. Throws InputError where a map does not fit the meshes.
+/// by each of them, all from the same two views. `told`: a vertex of `source`, marked as its images on
+/// `target` are. Throws InputError where a map does not fit the meshes.
 Image render_candidates(const TriangleMesh& source, const TriangleMesh& target,
-                        const std::vector<PointMap>& target_to_source, const RenderParams& params);
+                        const std::vector<PointMap>& target_to_source, const TellingVertex& told,
+                        const RenderParams& params);
 
 /// How the map changes areas and angles (the rows of Fig. 15): three columns with the transported mass by the
 /// mass at each vertex, the area ratio of each triangle, and its conformal distortion (quality.h), on the

@@ -26,11 +26,18 @@ Rgba sample_image(const TextureImage& image, const Vec2& uv) {
     const double y = (1 - (uv[1] - std::floor(uv[1]))) * image.height - .5;
     const int left = int(std::floor(x)), top = int(std::floor(y));
     const double right_share = x - left, low_share = y - top;
-    const Rgba above =
-        (1 - right_share) * texel(image, left, top) + right_share * texel(image, left + 1, top);
-    const Rgba below =
-        (1 - right_share) * texel(image, left, top + 1) + right_share * texel(image, left + 1, top + 1);
-    return (1 - low_share) * above + low_share * below;
+    // What cannot be seen has no colour to blend in; where nothing can, the colours below are kept.
+    Rgba mean = Rgba::Zero(), seen = Rgba::Zero();
+    for (const int column : {0, 1})
+        for (const int row : {0, 1}) {
+            const double share =
+                (column == 0 ? 1 - right_share : right_share) * (row == 0 ? 1 - low_share : low_share);
+            const Rgba colour = texel(image, left + column, top + row);
+            mean += share * colour;
+            seen += share * colour[3] * colour;
+        }
+    if (mean[3] > 0) mean.head<3>() = seen.head<3>() / mean[3];
+    return mean;
 }
 
 TextureImage read_png(const std::string& path) {

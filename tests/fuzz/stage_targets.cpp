@@ -220,7 +220,7 @@ void run_render(const Artifacts& all, const std::string&) {
     const TriangleMesh &A = good().A.surface.input, &B = good().B.surface.input;
     require_previews(all.candidates, A, B);
     if (!all.candidates.previews.empty())
-        to_png(render_candidates(A, B, all.candidates.previews, render_params()));
+        to_png(render_candidates(A, B, all.candidates.previews, all.candidates.telling, render_params()));
 }
 
 void run_inspect(const Artifacts& all, const std::string& name) {

@@ -67,6 +67,7 @@ TEST(Explore, FindsTheMapOfAFigureOntoItsPose) {
     EXPECT_FALSE(is_mirrored(found.list[0]));
     EXPECT_EQ(found.list[0].moved_mass, 0);
     EXPECT_TRUE(found.previews.empty());  // sure
+    EXPECT_TRUE(found.telling.images.empty());
 }
 
 TEST(Explore, RanksRivalsBehindTheMap) {
@@ -528,6 +529,13 @@ TEST(Explore, PreviewsMapsWhereItIsNotSure) {
     const TriangleMesh &mesh = pair.A.surface.input, &other = pair.B.surface.input;
     const Candidates found = explored(pair.context());
     ASSERT_EQ(found.previews.size(), std::min(found.list.size(), size_t(3)));
+    ASSERT_GT(found.previews.size(), 1u);
+    const TellingVertex& told = found.telling;
+    ASSERT_EQ(told.images.size(), found.previews.size());
+    // The maps turn the ellipsoid about its axes: they take its ends to different ones.
+    EXPECT_GT((other.vertex(told.images[0]) - other.vertex(told.images[1])).norm(), .5);
+    for (const int image : told.images)
+        EXPECT_LT((other.vertex(image).cwiseAbs() - mesh.vertex(told.source).cwiseAbs()).norm(), .3);
     for (const PointMap& map : found.previews) {
         ASSERT_EQ(int(map.size()), other.vertex_count());
         double sum = 0;

@@ -32,6 +32,7 @@ using scenes::raw;
 using scenes::text_fbx;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAreArray;
 using namespace std::string_literals;
 
@@ -99,16 +100,17 @@ std::string glb() {
     return glb_file(json, raw(place) + raw(corners));
 }
 
-/// Three triangles: with a material that has an image inside the file, with one that names an image that is
-/// not there, and without any.
-std::string painted_glb(const std::string& image) {
+/// Three triangles, the first `painted` with texture coordinates: with a material that has an image inside
+/// the file, with one that names an image that is not there, and without any.
+std::string painted_glb(const std::string& image, int painted = 3) {
     const std::vector<float> place{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, uv{0, 0, 1, 0, 0, 1, 1, 1};
     const std::vector<std::uint32_t> corners{0, 2, 1, 0, 1, 3, 1, 2, 3};
     const std::string data = raw(place) + raw(uv) + raw(corners) + image;
     std::string primitives, accessors;
     for (const int k : {0, 1, 2}) {
-        primitives += fmt::format(R"({}{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":{}{}}})",
-                                  k > 0 ? "," : "", k + 2, k < 2 ? fmt::format(R"(,"material":{})", k) : "");
+        primitives += fmt::format(R"({}{{"attributes":{{"POSITION":0{}}},"indices":{}{}}})", k > 0 ? "," : "",
+                                  k < painted ? R"(,"TEXCOORD_0":1)" : "", k + 2,
+                                  k < 2 ? fmt::format(R"(,"material":{})", k) : "");
         accessors += fmt::format(
             R"(,{{"bufferView":2,"byteOffset":{},"componentType":5125,"count":3,"type":"SCALAR"}})", 12 * k);
     }
@@ -126,6 +128,15 @@ std::string painted_glb(const std::string& image) {
 "buffers":[{{"byteLength":{}}}]}})",
         primitives, accessors, image.size(), data.size());
     return glb_file(json, data);
+}
+
+TEST(Import, SaysWhereTextureCoordinatesAreLeftOut) {
+    const TemporaryFolder folder;
+    const ImportedScene scene = import(folder, "a.glb", painted_glb("image", 2));
+    EXPECT_TRUE(scene.uv.empty());
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("texture coordinates are left out")));
+    EXPECT_THAT(import(folder, "b.glb", painted_glb("image")).warnings, IsEmpty());
+    EXPECT_THAT(import(folder, "c.glb", painted_glb("image", 0)).warnings, IsEmpty());
 }
 
 TEST(Import, MaterialsAndImagesBecomeFilesBesideTheObj) {

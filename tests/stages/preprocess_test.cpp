@@ -148,6 +148,19 @@ TEST(Preprocess, NamesThePlaceOfWhatItCannotRepair) {
     }
 }
 
+TEST(Preprocess, NamesFacesByTheirNumbersInTheFile) {
+    TriangleMesh file = sliver(1e-9);
+    const Faces faces = file.faces;
+    file.faces.resize(5, 3);
+    file.faces << 1, 1, 2, faces;  // the first has no area and is dropped
+    try {
+        preprocess(prepared(file, {}, "a.off"), {});
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the first is face 1;"));
+    }
+}
+
 TEST(Preprocess, EndsBisectionOfSliversInProportion) {
     EXPECT_EQ(preprocess(sliver(3e-4), {}).mesh.vertex_count(), 10000);
     EXPECT_NO_THROW(compute_eigenbasis(preprocess(sliver(3e-4), {}), {}));

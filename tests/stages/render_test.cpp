@@ -175,7 +175,7 @@ TEST_F(Render, ShowsWhatHasNoImageInGrey) {
 TEST_F(Render, ShowsCandidatesBesideEachOther) {
     PointMap other = map_;
     std::reverse(other.begin(), other.end());
-    const Image image = render_candidates(mesh_, mesh_, {map_, other}, small());
+    const Image image = render_candidates(mesh_, mesh_, {map_, other}, {}, small());
     const int column = image.width / 3;
     const auto difference = [&](int first, int second) {
         int count = 0;
@@ -193,7 +193,15 @@ TEST_F(Render, ShowsCandidatesBesideEachOther) {
             for (int x = 0; x < column; ++x) black += pixel(image, panel * column + x, y) == Pixel{0, 0, 0};
         EXPECT_GT(black, 50) << panel;
     }
-    EXPECT_THROW(render_candidates(mesh_, mesh_, {PointMap(3)}, small()), InputError);
+    EXPECT_THROW(render_candidates(mesh_, mesh_, {PointMap(3)}, {}, small()), InputError);
+    const Image marked = render_candidates(mesh_, mesh_, {map_, other}, {0, {0, 0}}, small());
+    for (int panel : {0, 1, 2}) {
+        int changed = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = panel * column; x < (panel + 1) * column; ++x)
+                changed += pixel(image, x, y) != pixel(marked, x, y);
+        EXPECT_GT(changed, 20) << panel;
+    }
 }
 
 TEST_F(Render, MarksReversedTrianglesOnDemand) {

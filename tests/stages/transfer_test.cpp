@@ -16,6 +16,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
+#include "stages/transfer/image.h"
 #include "stages/transfer/seams.h"
 #include "stages/transfer/shape.h"
 #include "stages/transfer/values.h"
@@ -163,6 +164,17 @@ class Transfer : public ::testing::Test {
     TemporaryFolder folder_;
     const TriangleMesh ball_ = shapes::ellipsoid(2, {1, .8, 1.3});
 };
+
+TEST(SampleImage, MixesNoColourOfWhatCannotBeSeen) {
+    TextureImage image;
+    image.width = 2, image.height = 1;
+    image.rgba = {255, 0, 0, 255, 0, 0, 255, 0};
+    EXPECT_TRUE(sample_image(image, {.5, .5}).isApprox(Rgba(255, 0, 0, 127.5)));
+    image.rgba = {200, 0, 0, 255, 0, 100, 0, 255};
+    EXPECT_TRUE(sample_image(image, {.5, .5}).isApprox(Rgba(100, 50, 0, 255)));
+    image.rgba = {200, 0, 0, 0, 0, 100, 0, 0};  // an image whose opacity means something else
+    EXPECT_TRUE(sample_image(image, {.5, .5}).isApprox(Rgba(100, 50, 0, 0)));
+}
 
 TEST_F(Transfer, CarriesPointsOfTheIdentityOntoThemselves) {
     const Vec3 p = position(ball_, {7, {.2, .3, .5}});

@@ -60,7 +60,7 @@ std::vector<Named> side_of_pairs(const std::vector<ListRow>& rows, const std::st
     const int first = number_of_first(reading.base);
     std::vector<Named> list;
     for (const ListRow& row : rows)
-        list.push_back({row.line, to_vertex(row, side, first, path, &mesh), row.name});
+        list.push_back({row.line, to_vertex(row, side, first, path, &mesh), row.name, {}, first});
     return list;
 }
 
@@ -78,7 +78,7 @@ void require_used(const std::vector<Named>& list, const std::string& path, const
         if (named.vertex == no_vertex || used[v]) continue;
         const VertexFate fate = fates.empty() ? VertexFate::unused : fates[v];
         throw InputError(fmt::format("{}: {} vertex {} belongs to no face that is mapped: {}; choose another",
-                                     row_of(path, named.line).place, role, named.vertex,
+                                     row_of(path, named.line).place, role, named.number_in_file(),
                                      reason_without_face(fate)));
     }
 }
@@ -91,7 +91,7 @@ void require_distinct(const std::vector<Named>& list, const std::string& path, c
         const Row row = row_of(path, named.line);
         if (!added)
             throw InputError(fmt::format("{}: {} vertex {} is already the landmark of {} {}", row.place, role,
-                                         named.vertex, row.unit, it->second));
+                                         named.number_in_file(), row.unit, it->second));
     }
 }
 

@@ -89,7 +89,7 @@ std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std:
     const int first = first_number(rows, base, mesh, path);
     std::vector<Named> list;
     for (const ListRow& row : rows)
-        list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name});
+        list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name, {}, first});
     return list;
 }
 

@@ -1,5 +1,7 @@
 #include "varimap/mesh/file_link.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "varimap/core/index_set.h"
@@ -119,6 +121,11 @@ TriangleMesh in_numbers_of_file(const TriangleMesh& mesh, const FileLink& link) 
 
 int number_in_file(int vertex, const FileLink& link) {
     return link.is_identity() ? vertex : link.origin[std::size_t(vertex)];
+}
+
+std::string face_in_words(int face, const FileLink& link) {
+    const int number = link.is_identity() ? face : link.face[std::size_t(face)];
+    return number < 0 ? "a face that a repair added" : fmt::format("face {}", number);
 }
 
 }  // namespace varimap

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "varimap/core/enum_names.h"
@@ -61,5 +62,7 @@ PointMap from_file(const PointMap& map, const FileLink& source, const FileLink& 
 TriangleMesh in_numbers_of_file(const TriangleMesh& mesh, const FileLink& link);
 /// The number of a vertex of the mesh in the file.
 int number_in_file(int vertex, const FileLink& link);
+/// A face of the mesh by its number in the file: "face 12", or "a face that a repair added".
+std::string face_in_words(int face, const FileLink& link);
 
 }  // namespace varimap

@@ -22,8 +22,8 @@ class GlobalRelaxation {
     /// The constraints whose energy is added from now on; keeps a reference.
     void set_constraints(const std::vector<SoftConstraint>& constraints);
 
-    /// One step, shorter where faces would get far worse by it; where that does not lower the energy, halved
-    /// for all vertices for as long as the energy falls. Returns the share of it lost, 0 where the map stays
+    /// One step, shorter where faces would get far worse by it; where that does not lower the energy, shorter
+    /// for all vertices, until it does or is a hundredth. Returns the share of it lost, 0 where the map stays
     /// as it is.
     double step(const RobustEnergy& energy);
 

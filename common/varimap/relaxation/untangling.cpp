@@ -15,11 +15,23 @@ namespace varimap {
 
 namespace {
 
-/// Calls body for both, side by side, with what the other's images are before.
+/// What belongs to the one direction and to the other.
+template <class T>
+struct OfEach {
+    T there, back;
+};
+
+/// Calls body for both, side by side, with what the other's images are before, and with what belongs to it.
+template <class T, class Body>
+void with_each_other(UntangledDirection& there, UntangledDirection& back, const OfEach<T>& own,
+                     const Body& body) {
+    const PointMap A_to_B = there.points(), B_to_A = back.points();
+    tbb::parallel_invoke([&] { body(there, B_to_A, own.there); }, [&] { body(back, A_to_B, own.back); });
+}
 template <class Body>
 void with_each_other(UntangledDirection& there, UntangledDirection& back, const Body& body) {
-    const PointMap A_to_B = there.points(), B_to_A = back.points();
-    tbb::parallel_invoke([&] { body(there, B_to_A); }, [&] { body(back, A_to_B); });
+    with_each_other(there, back, OfEach<int>{},
+                    [&](UntangledDirection& map, const PointMap& inverse, int) { body(map, inverse); });
 }
 
 /// A round of both directions, which draw each other towards their inverses.
@@ -40,6 +52,16 @@ void weigh_relief(UntangledDirection& there, UntangledDirection& back) {
         log("reliefs agree by {:.2f} before the map is relaxed: they count by {:.2f}", agreement, trust);
 }
 
+/// As their surroundings have them, then as the other direction does; as a whole where that is much better.
+void replace_strained_parts(UntangledDirection& there, UntangledDirection& back) {
+    with_each_other(there, back,
+                    [](UntangledDirection& map, const PointMap& inverse) { map.replace_parts(inverse); });
+    with_each_other(there, back, OfEach<bool>{there.is_much_worse_than(back), back.is_much_worse_than(there)},
+                    [](UntangledDirection& map, const PointMap& inverse, bool is_much_worse) {
+                        map.reconcile(inverse, is_much_worse);
+                    });
+}
+
 /// The last round.
 void settle(UntangledDirection& there, UntangledDirection& back) {
     tbb::parallel_invoke([&] { there.start_settling(); }, [&] { back.start_settling(); });
@@ -49,16 +71,46 @@ void settle(UntangledDirection& there, UntangledDirection& back) {
     tbb::parallel_invoke([&] { there.end_settling(); }, [&] { back.end_settling(); });
 }
 
+/// A tangle of one direction may be none of the other: an inverse without faults is a better start for it
+/// than charts, which must not crush what was crushed there.
+void adopt_from_each_other(UntangledDirection& there, UntangledDirection& back) {
+    struct Adoption {
+        bool may_be, upright;
+    };
+    const OfEach<Adoption> adoption{{there.may_adopt(back), !back.has_mirrored_parts()},
+                                    {back.may_adopt(there), !there.has_mirrored_parts()}};
+    if (!adoption.there.may_be && !adoption.back.may_be) return;
+    with_each_other(there, back, adoption,
+                    [](UntangledDirection& map, const PointMap& inverse, const Adoption& own) {
+                        if (own.may_be) map.adopt(inverse, own.upright);
+                    });
+}
+
+void repair_faults(UntangledDirection& there, UntangledDirection& back) {
+    with_each_other(there, back,
+                    [](UntangledDirection& map, const PointMap& inverse) { map.repair(inverse); });
+    // By the other direction as it has come out: often only one of them was tangled.
+    if (there.is_repaired_again() || back.is_repaired_again())
+        with_each_other(there, back,
+                        [](UntangledDirection& map, const PointMap& inverse) { map.repair_again(inverse); });
+    with_each_other(there, back,
+                    [](UntangledDirection& map, const PointMap& inverse) { map.recover(inverse); });
+    adopt_from_each_other(there, back);
+    tbb::parallel_invoke([&] { there.restore_bound(); }, [&] { back.restore_bound(); });
+}
+
+UntanglingReports left_as_they_are(const MapPair& maps, const TriangleMesh& A, const TriangleMesh& B) {
+    UntanglingReports reports;
+    tbb::parallel_invoke([&] { reports.A_to_B = untouched(measure_distortion(maps.A_to_B, A, B)); },
+                         [&] { reports.B_to_A = untouched(measure_distortion(maps.B_to_A, B, A)); });
+    return reports;
+}
+
 }  // namespace
 
 UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
                            const PinnedPair& pinned, const UntanglingOptions& options) {
-    UntanglingReports reports;
-    if (!options.enabled) {
-        tbb::parallel_invoke([&] { reports.A_to_B = untouched(measure_distortion(maps.A_to_B, A, B)); },
-                             [&] { reports.B_to_A = untouched(measure_distortion(maps.B_to_A, B, A)); });
-        return reports;
-    }
+    if (!options.enabled) return left_as_they_are(maps, A, B);
     std::vector<ReliefPair> reliefs;
     if (options.relief_weight > 0 && options.global_steps > 0)
         reliefs = relief_pairs(unit_area(A), unit_area(B), options.opposed);
@@ -71,33 +123,11 @@ UntanglingReports untangle(MapPair& maps, const TriangleMesh& A, const TriangleM
     UntangledDirection &there = *A_to_B, &back = *B_to_A;
     if (options.weigh_relief && there.has_relief()) weigh_relief(there, back);
     if (options.local_sweeps == 0) run(there, back, relaxation_rounds[0]);
-    with_each_other(there, back,
-                    [](UntangledDirection& map, const PointMap& inverse) { map.replace_parts(inverse); });
-    const bool whole_there = there.is_much_worse_than(back), whole_back = back.is_much_worse_than(there);
-    with_each_other(there, back, [&](UntangledDirection& map, const PointMap& inverse) {
-        map.reconcile(inverse, &map == &there ? whole_there : whole_back);
-    });
+    replace_strained_parts(there, back);
     run(there, back, relaxation_rounds[1]);
     if (options.settling_steps > 0) settle(there, back);
-    with_each_other(there, back,
-                    [](UntangledDirection& map, const PointMap& inverse) { map.repair(inverse); });
-    // By the other direction as it has come out: often only one of them was tangled.
-    if (there.is_repaired_again() || back.is_repaired_again())
-        with_each_other(there, back,
-                        [](UntangledDirection& map, const PointMap& inverse) { map.repair_again(inverse); });
-    with_each_other(there, back,
-                    [](UntangledDirection& map, const PointMap& inverse) { map.recover(inverse); });
-    // A tangle of one direction may be none of the other: an inverse without faults is a better start for it
-    // than charts, which must not crush what was crushed there.
-    const bool adopt_there = there.may_adopt(back), adopt_back = back.may_adopt(there);
-    const bool upright_there = !there.has_mirrored_parts(), upright_back = !back.has_mirrored_parts();
-    if (adopt_there || adopt_back)
-        with_each_other(there, back, [&](UntangledDirection& map, const PointMap& inverse) {
-            const bool is_there = &map == &there;
-            if (is_there ? adopt_there : adopt_back)
-                map.adopt(inverse, is_there ? upright_back : upright_there);
-        });
-    tbb::parallel_invoke([&] { there.restore_bound(); }, [&] { back.restore_bound(); });
+    repair_faults(there, back);
+    UntanglingReports reports;
     tbb::parallel_invoke([&] { reports.A_to_B = there.finish(); }, [&] { reports.B_to_A = back.finish(); });
     return reports;
 }

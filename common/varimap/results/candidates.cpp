@@ -43,8 +43,13 @@ void serialize(Archive& archive, Correspondences& c) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, TellingVertex& t) {
+    archive(t.source, t.images);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Candidates& c) {
-    archive(c.sketched_A, c.sketched_B, c.list, c.maps, c.previews);
+    archive(c.sketched_A, c.sketched_B, c.list, c.maps, c.previews, c.telling);
 }
 
 bool landmarks_decide(const Candidates& found) {
@@ -64,6 +69,12 @@ void decode(const std::string& payload, Candidates& candidates) {
         require<Candidates>(are_correspondences(map, any, any), "maps");
     require<Candidates>(candidates.previews.size() <= candidates.list.size(), "previews");
     for (const PointMap& preview : candidates.previews) require<Candidates>(are_points(preview), "previews");
+    const TellingVertex& told = candidates.telling;
+    require<Candidates>(
+        (told.source < 0 && told.images.empty()) ||
+            (told.source >= 0 && told.images.size() == candidates.previews.size() &&
+             std::all_of(told.images.begin(), told.images.end(), [](int v) { return v >= 0; })),
+        "the vertex that tells");
 }
 
 void require_surfaces(const Candidates& candidates, const TriangleMesh& input_A,
@@ -77,6 +88,11 @@ void require_previews(const Candidates& candidates, const TriangleMesh& source, 
     for (const PointMap& preview : candidates.previews)
         if (!is_map_between(preview, target, source))
             throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
+    const TellingVertex& told = candidates.telling;
+    if (told.source >= source.vertex_count() ||
+        std::any_of(told.images.begin(), told.images.end(),
+                    [&](int v) { return v >= target.vertex_count(); }))
+        throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
 }
 
 }  // namespace varimap

@@ -10,6 +10,12 @@
 
 namespace varimap {
 
+/// A vertex of A by whose image a choice among maps is told: a landmark there decides it.
+struct TellingVertex {
+    int source = -1;          ///< of A's file; -1: none
+    std::vector<int> images;  ///< by the first maps, the nearest vertices of B's file
+};
+
 /// Maps found without landmarks, the best first: the artifact of varimap-explore. Of a surface onto itself:
 /// its self-maps, without the identity.
 struct Candidates {
@@ -19,6 +25,8 @@ struct Candidates {
     /// For a picture of the first three, where the choice among them is not sure: per vertex of B's file, its
     /// image on faces of A's. Else none.
     std::vector<PointMap> previews;
+    /// With an image for each of the previews, if there are several.
+    TellingVertex telling;
 };
 
 /// Whether landmarks are followed: nothing else was looked for, or nothing better found. The list is empty,
@@ -29,7 +37,7 @@ template <>
 struct ArtifactType<Candidates> {
     static constexpr const char* kind = "candidates";
     static constexpr const char* stage = "varimap-explore";
-    static constexpr int schema = 7;
+    static constexpr int schema = 8;
 };
 std::string encode(const Candidates& candidates);
 /// Throws ArtifactError unless sizes fit each other, numbers are finite, and points are points.

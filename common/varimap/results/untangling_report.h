@@ -3,7 +3,7 @@
 namespace varimap {
 
 /// What untangling (untangling.h) did to one direction; counts and areas by the test of quality.h (n . m <=
-/// 0, collapsed included).
+/// 0, collapsed included). Before: on the mesh that the method runs on; after: on the input.
 struct UntanglingReport {
     int flipped_before = 0, flipped_after = 0;
     double flipped_area_percent_before = 0, flipped_area_percent_after = 0;

@@ -11,8 +11,12 @@ namespace {
 /// Zero for a face without area.
 Vec3 bounded_cotangents(const TriangleMesh& mesh, int f) {
     if (face_normal(mesh, f).norm() <= 0) return Vec3::Zero();
-    // A needle's cotangent can exceed what the eigensolver can bear; 1e6 is an angle of a microradian.
-    return corner_cotangents(mesh, f).cwiseMax(-1e6).cwiseMin(1e6);
+    // A needle's cotangent can exceed what the eigensolver can bear; 1e6 is an angle of a microradian. All
+    // three by one factor: energies stay positive.
+    constexpr double most = 1e6;
+    const Vec3 cotangents = corner_cotangents(mesh, f);
+    const double largest = cotangents.cwiseAbs().maxCoeff();
+    return largest > most ? Vec3(most / largest * cotangents) : cotangents;
 }
 
 using Entries = std::vector<Eigen::Triplet<double>>;

@@ -7,8 +7,9 @@
 
 namespace varimap {
 
-/// What an independent look at a map finds (Sec. 4.4: flips). Beyond geometry (mesh/) it shares nothing
-/// with the code that makes, untangles or measures maps, so that a mistake there cannot hide here.
+/// What an independent look at a map finds (Sec. 4.4: flips). Beyond geometry (mesh/, of which both
+/// take logarithmic maps) it shares nothing with the code that makes, untangles or measures maps, so that a
+/// mistake there cannot hide here.
 ///
 /// A source triangle is judged by its image triangle as laid out on the target: its corners are the images of
 /// its own, its sides shortest paths. Left out are triangles with a corner without image, and source

@@ -42,9 +42,9 @@ class VertexList : public testing::Test {
         return path;
     }
     /// The message of the InputError that reading the pairs or lists throws; empty if it throws none.
-    std::string error_of(const std::vector<std::string>& files) {
+    std::string error_of(const std::vector<std::string>& files, const LandmarkReading& reading = {}) {
         try {
-            read_landmarks(files, mesh_, mesh_);
+            read_landmarks(files, mesh_, mesh_, reading);
             return {};
         } catch (const InputError& error) {
             return error.what();
@@ -197,6 +197,11 @@ TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
     EXPECT_THAT(error_of({write("a", "1 2\n3 4\n1 5\n")}),
                 HasSubstr(":3: source vertex 1 is already the landmark of line 1"));
     EXPECT_THAT(error_of({write("a", "1 2\n3 2\n")}), HasSubstr(":2: target vertex 2 is already"));
+    // By the numbers of the file, wherever these start.
+    const LandmarkReading from_1{.base = IndexBase::one};
+    EXPECT_THAT(error_of({write("a", "1 2\n3 2\n")}, from_1), HasSubstr(":2: target vertex 2 is already"));
+    EXPECT_THAT(error_of({write("a", "1 11\n")}, from_1),
+                HasSubstr(":1: target vertex 11 belongs to no face"));
     EXPECT_THAT(error_of({write("a", "1 2\n3 12\n")}),
                 HasSubstr(":2: vertex 12 is out of range: the mesh has 11 vertices"));
     EXPECT_THAT(error_of({write("a", "1 10\n")}),

@@ -149,6 +149,7 @@ Candidates small_candidates() {
     candidates.list.resize(1);
     candidates.maps = {{{{point, point}}, {{point, point}}}};
     candidates.previews = {{point}};
+    candidates.telling = {2, {5}};
     return candidates;
 }
 
@@ -163,6 +164,9 @@ TEST(CandidatesArtifact, IsRefusedWhereItContradictsItself) {
         {"maps", [](Candidates& c) { c.maps[0].from_B[0].second.face = -1; }},
         {"maps", [](Candidates& c) { c.maps[0].from_A[0].first.barycentric *= 2; }},
         {"previews", [](Candidates& c) { c.previews.resize(2); }},
+        {"the vertex that tells", [](Candidates& c) { c.telling.images.push_back(1); }},
+        {"the vertex that tells", [](Candidates& c) { c.telling.images[0] = -1; }},
+        {"the vertex that tells", [](Candidates& c) { c.telling.source = -1; }},
         {"previews", [](Candidates& c) { c.previews[0][0].barycentric[0] = std::nan(""); }},
     };
     for (const auto& [what, damage] : defects) {

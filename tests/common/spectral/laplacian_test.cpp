@@ -67,6 +67,18 @@ TEST(Laplacian, DoesNotDependOnPlaceAndScale) {
         1e-10);
 }
 
+TEST(Laplacian, OfANeedleIsNotNegative) {
+    const TriangleMesh needle = shapes::make_mesh({{0, 0, 0}, {1, 0, 0}, {.5, 2.5e-7, 0}}, {{0, 1, 2}});
+    const Eigen::SparseMatrix<double> L = cotangent_laplacian(needle);
+    EXPECT_LE(largest(L), 1.1e6);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const Eigen::VectorXd f = random_vector(3, seed);
+        EXPECT_GE(f.dot(L * f), 0) << seed;
+    }
+    const Eigen::Vector3d ends(-1, 1, 0);
+    EXPECT_GE(ends.dot(L * ends), 0);
+}
+
 TEST(Laplacian, IgnoresTrianglesWithoutArea) {
     const TriangleMesh mesh =
         shapes::make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.5, .5, 0}}, {{0, 1, 2}, {1, 3, 2}, {0, 0, 1}});

@@ -22,6 +22,9 @@ struct Named {
     int line, vertex;
     std::string name = {};                   ///< by which it is matched; empty: by its row
     std::optional<SurfacePoint> point = {};  ///< where it was picked, if not at the vertex
+    int first = 0;                           ///< number of the file's first vertex
+
+    int number_in_file() const { return vertex + first; }
 };
 
 /// Where a landmark stands in its file: JSON counts points instead of lines.
