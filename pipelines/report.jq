@@ -18,6 +18,8 @@ def direction($words):
           "\(.area_percent | fixed(1)) %, vertex \(.vertex)"; .area_percent; 0.5; 2)),
       (.conformal_distortion | check("change of angles, \($words)"; "\(.p50 | fixed(2)) (median), \(.p95 | fixed(2)) (95 %)";
           .p95; 3; 6)),
+      # Of a tube, such as a shaft, whose ends the map turns against each other.
+      (.twist // empty | check("twist, \($words)"; "\(.degrees | round) degrees, around vertex \(.vertex)"; .degrees; 90; 120)),
       (.verification.degree // empty | check("how often covered, \($words)"; fixed(2); fabs - 1 | fabs; 0.02; 0.1));
 
 # Of what preprocess recorded: a few faces, edges or vertices were repaired, or a few components joined, and nothing changed the

@@ -5,13 +5,13 @@
 
 #include "stages/explore/appraised.h"
 #include "stages/explore/candidate_maps.h"
+#include "stages/explore/landmark_spread.h"
 #include "stages/explore/mirror_images.h"
 #include "stages/explore/surface_comparison.h"
 #include "stages/explore/turns.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/geodesic_graph.h"
 #include "varimap/multilevel/exchanged_landmarks.h"
 #include "varimap/results/landmark_words.h"
 
@@ -226,11 +226,10 @@ void warn_of_exchanged_landmarks(const Appraised& led, const PairContext& contex
 bool landmarks_suffice(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
                        const ExploreParams& params) {
     constexpr double suffices = 0.995;
-    constexpr int decisive = 3;
     if (is_isometry_of_sheets(led.candidate, context)) return true;
     warn_of_exchanged_landmarks(led, context, appraisal, params);
     return logged_plausibility(led.candidate) >= suffices && is_good(led.candidate, true) &&
-           landmarks_apart(context) >= decisive;
+           landmarks_span(context);
 }
 
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
@@ -241,18 +240,6 @@ Candidates led(std::vector<Appraised> list, const PairContext& context) {
 }
 
 }  // namespace
-
-int landmarks_apart(const PairContext& context) {
-    constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
-    const std::vector<int>& landmarks = context.landmarks_A();
-    const RowMatrix distance = distances_from_each(context.graph_A(), landmarks);
-    std::vector<int> apart;
-    for (int k = 0; k < int(landmarks.size()); ++k)
-        if (std::all_of(apart.begin(), apart.end(),
-                        [&](int other) { return distance(other, landmarks[std::size_t(k)]) > far; }))
-            apart.push_back(k);
-    return int(apart.size());
-}
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();

@@ -8,10 +8,6 @@
 
 namespace varimap {
 
-/// How many of the landmarks are far from each other. Fewer than three, or several at the tip of a finger,
-/// leave the rest of a body to turn or twist, and a twisted one may look as plausible as the right map.
-int landmarks_apart(const PairContext& context);
-
 /// What is asked for only where it is needed; each may be empty.
 struct OnDemand {
     SelfMapsOnDemand self_maps;

@@ -7,7 +7,7 @@
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/multilevel/matching.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/relaxation/untangling_options.h"
 #include "varimap/transport/alternating_minimization.h"
 
 namespace varimap {

@@ -6,8 +6,8 @@
 #include "stages/locate/part_size.h"
 #include "stages/locate/placement.h"
 #include "varimap/core/enum_names.h"
+#include "varimap/mesh/unit_area.h"
 #include "varimap/mesh/vertex_index.h"
-#include "varimap/quality/image_mesh.h"
 #include "varimap/spectral/local_shape.h"
 
 namespace varimap {

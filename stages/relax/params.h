@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/relaxation/untangling.h"
+#include "varimap/relaxation/untangling_options.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {

@@ -7,9 +7,11 @@
 #include <string>
 
 #include "stages/relax/prolongation.h"
+#include "stages/relax/untwisted.h"
 #include "varimap/core/counted.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/relaxation/untangling.h"
 #include "varimap/spectral/local_shape.h"
 
 namespace varimap {
@@ -156,7 +158,7 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, M
         coarse_options.restore_bound = far;
         options.restore_bound = !far;
         coarse_options.repair_again = false;  // dearer than on the inputs, for hardly fewer faults
-        on_meshes = untangle(maps, A.mesh, B.mesh, landmarks, coarse_options);
+        on_meshes = untangle_untwisted(maps, A.mesh, B.mesh, landmarks, coarse_options);
         if (options.enabled) log_untangling("on the meshes", *on_meshes);
         options.global_steps = 0;
         options.local_sweeps = far ? fine_sweeps_after_levels : fine_sweeps;
@@ -165,7 +167,8 @@ SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, M
     }
     MapPair inputs = on_inputs(maps, A, B, landmarks, options);
     const PinnedPair pinned = pin_on_inputs(record, A, B, inputs);
-    UntanglingReports reports = untangle(inputs, A.input, B.input, pinned, options);
+    UntanglingReports reports = on_meshes ? untangle(inputs, A.input, B.input, pinned, options)
+                                          : untangle_untwisted(inputs, A.input, B.input, pinned, options);
     if (options.enabled) log_untangling("on the inputs", reports);
     if (on_meshes)
         reports = {joined(on_meshes->A_to_B, reports.A_to_B), joined(on_meshes->B_to_A, reports.B_to_A)};

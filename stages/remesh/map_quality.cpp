@@ -46,14 +46,17 @@ MeasuredDirection measure_direction(const PointMap& map, const Surface& from, co
     const TriangleMesh source = without_added_faces(from);
     const TriangleMesh& target = onto.input;
     const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
-    return {measure_distortion(triangles), share_within_area_bound(triangles, source, area_bound),
+    Twist twist = measure_twist(map, source, target);
+    if (twist.vertex >= 0) twist.vertex = number_in_file(twist.vertex, from.link);
+    return {measure_distortion(triangles),         share_within_area_bound(triangles, source, area_bound),
             measure_coverage(map, source, target), coverage_when_closed(map, from, source, onto),
-            verify_map(map, source, target)};
+            verify_map(map, source, target),       twist};
 }
 
 InTheEnd of_both(const MeasuredDirection& there, const MeasuredDirection& back) {
     return {std::sqrt(there.distortion.dirichlet_energy * back.distortion.dirichlet_energy),
-            std::min(there.reached().share, back.reached().share), false};
+            std::min(there.reached().share, back.reached().share),
+            std::max(there.twist.degrees, back.twist.degrees)};
 }
 
 /// Chairs have 5 at most; skulls have 20 left when their small handles are cut.

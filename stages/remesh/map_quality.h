@@ -7,6 +7,7 @@
 
 #include "varimap/mesh/surface.h"
 #include "varimap/quality/quality.h"
+#include "varimap/quality/twist.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
@@ -25,6 +26,7 @@ struct MeasuredDirection {
     /// None where the source has no such holes, or several components, which tubes join.
     std::optional<Coverage> when_closed;
     Verification verification;
+    Twist twist;  ///< its vertex by the number in the file
 
     /// What the map can be blamed for: what the source's holes lack it cannot reach.
     const Coverage& reached() const { return when_closed ? *when_closed : coverage; }

@@ -67,6 +67,9 @@ Json to_json(const MeasuredDirection& quality, const UntanglingReport& untanglin
                  {"uncovered", to_json(quality.coverage.parts, onto.link)},
                  {"verification", to_json(quality.verification)},
                  {"untangling", to_json(untangling)}};
+    if (const Twist& twist = quality.twist; twist.vertex >= 0)
+        json["twist"] = {
+            {"degrees", twist.degrees}, {"vertex", twist.vertex}, {"area_percent", 100 * twist.area}};
     if (quality.when_closed)
         json["when_closed"] = {{"coverage", quality.when_closed->share},
                                {"uncovered", to_json(quality.when_closed->parts, onto.link)}};

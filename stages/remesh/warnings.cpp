@@ -174,6 +174,19 @@ void warn_of_strain(double dirichlet, const std::string& slivers) {
                                 "picture");
 }
 
+/// The more twisted of both directions.
+void warn_of_twist(const MapQuality& quality, const PairRecord& record) {
+    const Twist &there = quality.A_to_B.twist, &back = quality.B_to_A.twist;
+    const bool is_there = there.degrees >= back.degrees;
+    const Twist& twist = is_there ? there : back;
+    if (twist.degrees < doubtful_twist) return;
+    warn(
+        "the map twists the {} around vertex {} ({:.0f}% of its area) by {:.0f} degrees from end to end, "
+        "which round shafts hardly resist: give {} on its sides, several along it",
+        is_there ? "source" : "target", twist.vertex, 100 * twist.area, twist.degrees,
+        landmarks_to_give(record));
+}
+
 }  // namespace
 
 void warn_of(const MapQuality& quality, const PairRecord& record) {
@@ -184,6 +197,7 @@ void warn_of(const MapQuality& quality, const PairRecord& record) {
     warn_of_tears(quality.B_to_A, "target to source", slivers, record);
     if (!tears(quality.A_to_B) && !tears(quality.B_to_A))
         warn_of_strain(quality.in_the_end.dirichlet, slivers);
+    warn_of_twist(quality, record);
 }
 
 }  // namespace varimap

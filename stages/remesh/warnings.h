@@ -12,6 +12,7 @@ namespace varimap {
 ///   exploration       which was sure of its candidate and is not of the finished map
 ///   tears             of either direction: much is reversed, on several faces, or uncovered
 ///   strain            where neither tears
+///   twist             of a shaft, by the direction that has more
 /// Where most of a surface's area lies on slivers, these are named as the likely cause of tears or strain.
 void warn_of(const MapQuality& quality, const PairRecord& record);
 

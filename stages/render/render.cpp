@@ -16,6 +16,7 @@
 #include "varimap/image/png_file.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/unit_area.h"
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {

@@ -1,22 +1,17 @@
 #include "stages/tear/tear.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh/unit_area.h"
 #include "varimap/verification/verification.h"
 
 namespace varimap {
 
 namespace {
-
-TriangleMesh of_unit_area(TriangleMesh mesh) {
-    mesh.vertices /= std::sqrt(surface_area(mesh));
-    return mesh;
-}
 
 /// Per vertex: whether an end of a torn edge is nearer than `distance`.
 std::vector<char> near_to(const std::vector<int>& torn, const TriangleMesh& mesh, double distance) {
@@ -42,7 +37,7 @@ double area_percent(const TriangleMesh& mesh, const Predicate& is_marked) {
 
 TearReport find_tear(const TriangleMesh& source_mesh, const TriangleMesh& target_mesh, const PointMap& there,
                      const PointMap& back, const TearOptions& options) {
-    const TriangleMesh source = of_unit_area(source_mesh), target = of_unit_area(target_mesh);
+    const TriangleMesh source = unit_area(source_mesh), target = unit_area(target_mesh);
     const Points images = positions(target, there);
     TearReport report;
     const auto edges = find_edges(source).vertices;

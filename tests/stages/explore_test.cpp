@@ -14,6 +14,7 @@
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/appraisal.h"
 #include "stages/explore/finishing.h"
+#include "stages/explore/landmark_spread.h"
 #include "stages/explore/mirror_images.h"
 #include "stages/explore/pool.h"
 #include "stages/explore/self_maps.h"
@@ -133,6 +134,22 @@ TEST(Explore, LooksFurtherWhereLandmarksAreFewOrClose) {
                 {{v}, {shapes::nearest_vertex(pair.B.surface.mesh, pair.A_on_B.row(v).transpose())}});
     ASSERT_EQ(close.size(), 4u);
     EXPECT_LT(landmarks_apart(with(close)), 3);
+    EXPECT_TRUE(landmarks_span(pair.context()));
+    EXPECT_FALSE(landmarks_span(with(close)));
+}
+
+TEST(Explore, LooksFurtherWhereLandmarksLieInALine) {
+    const KnownPair shaft =
+        shapes::known_pair(shapes::ellipsoid(3, {1, .1, .1}), shapes::ellipsoid(3, {1, .1, .1}), {}, 20, {});
+    const TriangleMesh& mesh = shaft.A.surface.mesh;
+    const auto at = [&](const Vec3& place) {
+        const MeshVertex v{shapes::nearest_vertex(mesh, place)};
+        return std::pair(v, v);
+    };
+    const double length = mesh.vertices.col(0).maxCoeff(), width = mesh.vertices.col(1).maxCoeff();
+    const PairContext context(shaft.A, shaft.B, {at({length, 0, 0}), at({-length, 0, 0}), at({0, width, 0})});
+    EXPECT_EQ(landmarks_apart(context), 3);
+    EXPECT_FALSE(landmarks_span(context));
 }
 
 /// A sheet 2 long and 1 wide, rolled up about x from there to the one end or to the other.
@@ -823,32 +840,37 @@ TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
     const double found = confidence_of(candidates).probability;
     double last = found;
     for (const double dirichlet : {1.05, 1.15, 1.25, 1.35, 2.}) {
-        const double probability = confidence_of(candidates, InTheEnd{dirichlet, 1, false}).probability;
+        const double probability = confidence_of(candidates, InTheEnd{dirichlet, 1}).probability;
         EXPECT_LT(probability, last);
         last = probability;
     }
-    EXPECT_TRUE(confidence_of(candidates, InTheEnd{1.15, 1, false}).confident);
-    EXPECT_EQ(doubt(candidates, InTheEnd{1.15, .94, false}), "");
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1.35, 1, false}).confident);
-    EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1, false}),
-                testing::HasSubstr("a Dirichlet energy of 1.35"));
-    EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1, false}).probability, found, 1e-3);
-    const InTheEnd of_a_skull{2.5, 1, false, true};
+    EXPECT_TRUE(confidence_of(candidates, InTheEnd{1.15, 1}).confident);
+    EXPECT_EQ(doubt(candidates, InTheEnd{1.15, .94}), "");
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1.35, 1}).confident);
+    EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1}), testing::HasSubstr("a Dirichlet energy of 1.35"));
+    EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1}).probability, found, 1e-3);
+    const InTheEnd of_a_skull{.dirichlet = 2.5, .many_handles = true};
     EXPECT_NEAR(confidence_of(candidates, of_a_skull).probability, found, 1e-3);
     EXPECT_EQ(doubt(candidates, of_a_skull), "");
 }
 
+TEST(Confidence, FallsWithATwistOfTheFinishedMap) {
+    const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
+    EXPECT_TRUE(confidence_of(candidates, InTheEnd{.twist = 87}).confident);
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{.twist = 309}).confident);
+    EXPECT_EQ(doubt(candidates, InTheEnd{.twist = 309}), "finished, it twists a part by 309 degrees");
+}
+
 TEST(Confidence, FallsWithWhatTheFinishedMapLeavesOut) {
     const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
-    const Confidence whole = confidence_of(candidates, InTheEnd{1, 1, false});
-    const InTheEnd inside_out{1, 1, true};
+    const Confidence whole = confidence_of(candidates, InTheEnd{1, 1});
+    const InTheEnd inside_out{.inside_out = true};
     EXPECT_NEAR(confidence_of(candidates, inside_out).probability, whole.probability / 2, 1e-9);
     EXPECT_THAT(doubt(candidates, inside_out), testing::HasSubstr("inside out"));
-    EXPECT_NEAR(confidence_of(candidates, InTheEnd{1, .96, false}).probability, whole.probability, .01);
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1, .89, false}).confident);
-    EXPECT_LT(confidence_of(candidates, InTheEnd{1, .81, false}).probability, .1);
-    EXPECT_THAT(doubt(candidates, InTheEnd{1, .81, false}),
-                testing::HasSubstr("leaves out 19% of a surface"));
+    EXPECT_NEAR(confidence_of(candidates, InTheEnd{1, .96}).probability, whole.probability, .01);
+    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1, .89}).confident);
+    EXPECT_LT(confidence_of(candidates, InTheEnd{1, .81}).probability, .1);
+    EXPECT_THAT(doubt(candidates, InTheEnd{1, .81}), testing::HasSubstr("leaves out 19% of a surface"));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/quality/image_mesh.h"
+#include "varimap/mesh/unit_area.h"
 
 namespace varimap {
 namespace {

@@ -331,6 +331,20 @@ std::vector<std::string> said_of(const MapQuality& quality, const PairRecord& re
     return {all.begin() + std::ptrdiff_t(before), all.end()};
 }
 
+TEST(RemeshWarnings, AreOfATwistByTheDirectionThatHasMore) {
+    MapQuality quality;
+    quality.A_to_B.coverage.share = quality.B_to_A.coverage.share = 1;
+    quality.median_thinness_A = quality.median_thinness_B = .5;
+    quality.A_to_B.twist = {50, 3, .4};
+    EXPECT_TRUE(said_of(quality, {}).empty());
+    quality.B_to_A.twist = {309, 12, .5};
+    const auto said = said_of(quality, {});
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(
+        said[0].find("twists the target around vertex 12 (50% of its area) by 309 degrees from end to end"),
+        std::string::npos);
+}
+
 TEST(RemeshWarnings, AreOfLandmarksThenOfTheChoiceThenOfTears) {
     PairRecord record;
     record.candidates.resize(2);

@@ -9,6 +9,7 @@
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/subdivision.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh/unit_area.h"
 #include "varimap/quality/image_mesh.h"
 #include "varimap/quality/quality.h"
 

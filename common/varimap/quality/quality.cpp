@@ -7,6 +7,7 @@
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh/unit_area.h"
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {

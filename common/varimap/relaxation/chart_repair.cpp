@@ -11,6 +11,7 @@
 #include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
+#include "varimap/relaxation/strained_parts.h"
 
 namespace varimap {
 
@@ -58,6 +59,22 @@ int rings_around(const std::vector<int>& cluster, int rings) {
 int most_disc_faces(const TriangleMesh& mesh, double part) {
     const int most = std::max(least_part, int(largest_disc * mesh.face_count()));
     return std::min(most, least_part + int(most_filled * part));
+}
+
+/// Mean over the mapped faces; 2 for an isometry.
+double energy_density(const SlidingMap& map, const std::vector<int>& faces) {
+    double area = 0;
+    for (const int f : faces)
+        if (map.is_mapped(f)) area += map.rest(f).area;
+    return area > 0 ? total_energy(map, faces, judged_energy) / area : 0;
+}
+
+/// Whether what was nearly isometric is strained much. Between bodies of a few large faces shortest paths may
+/// run on the other side of a corner, so that faces of a right map seem reversed.
+bool is_torn_from_isometry(double before, double after) {
+    // Of what the kernels repair on five pairs, none is. A prism of eight triangles on itself: 2.0 and 114.
+    constexpr double isometric = 2.5, much = 2;
+    return before < isometric && after > much * before;
 }
 
 }  // namespace
@@ -299,10 +316,10 @@ std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
         const std::vector<int> faces = source_.widened(cluster, rings_of_kernels),
                                around = source_.widened(faces, 1), free = free_within(faces, fixed);
         const PointMap kept = map_.points_of(free);
-        const double before = badness(around);
+        const double before = badness(around), strain = energy_density(map_, around);
         std::erase_if(cluster, [&](int f) { return !along_target_.is_reversed(f); });
         kernels_.centre(cluster, free);
-        if (badness(around, before) < before)
+        if (!is_torn_from_isometry(strain, energy_density(map_, around)) && badness(around, before) < before)
             touched.insert(touched.end(), around.begin(), around.end());
         else
             map_.place(free, kept);

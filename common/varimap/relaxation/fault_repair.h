@@ -8,7 +8,8 @@
 #include "varimap/relaxation/normal_agreement.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/relaxation/soft_constraints.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/relaxation/untangling_options.h"
+#include "varimap/results/untangling_report.h"
 
 namespace varimap {
 

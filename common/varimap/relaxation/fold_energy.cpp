@@ -1,7 +1,7 @@
 #include "varimap/relaxation/fold_energy.h"
 
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/quality/image_mesh.h"
+#include "varimap/mesh/unit_area.h"
 
 namespace varimap {
 

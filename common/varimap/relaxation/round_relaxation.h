@@ -6,7 +6,7 @@
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
 #include "varimap/relaxation/rounds.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/relaxation/untangling_options.h"
 
 namespace varimap {
 

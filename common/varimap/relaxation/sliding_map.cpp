@@ -1,7 +1,7 @@
 #include "varimap/relaxation/sliding_map.h"
 
 #include "varimap/core/index_set.h"
-#include "varimap/quality/image_mesh.h"
+#include "varimap/mesh/unit_area.h"
 
 namespace varimap {
 

@@ -8,7 +8,7 @@
 #include "varimap/relaxation/area_bound.h"
 #include "varimap/relaxation/fault_repair.h"
 #include "varimap/relaxation/round_relaxation.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/relaxation/untangling_options.h"
 
 namespace varimap {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "varimap/core/log.h"
-#include "varimap/quality/image_mesh.h"
+#include "varimap/mesh/unit_area.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/relaxation/rounds.h"
 #include "varimap/relaxation/untangled_direction.h"

@@ -129,6 +129,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
         if (!finished->many_handles) probability *= plausibility_when_finished(finished->dirichlet);
         probability *= plausibility_when_covered(finished->coverage);
         if (finished->inside_out) probability /= 2;  // as many are mirror images as not
+        if (finished->twist >= doubtful_twist) probability /= 2;
     }
     return {margin, probability, probability >= sure};
 }
@@ -158,6 +159,8 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
                     [](const Candidate& one) { return one.turned_about_axis; }))
         add("turned about an axis it looks nearly the same");
     if (finished && finished->inside_out) add("one of the surfaces is inside out");
+    if (finished && finished->twist >= doubtful_twist)
+        add(fmt::format("finished, it twists a part by {:.0f} degrees", finished->twist));
     if (finished && finished->coverage < covered)
         add(fmt::format("finished, it leaves out {:.0f}% of a surface", 100 * (1 - finished->coverage)));
     if (finished && !finished->many_handles && finished->dirichlet > strained_in_the_end)

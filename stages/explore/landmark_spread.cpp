@@ -1,0 +1,51 @@
+#include "stages/explore/landmark_spread.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "varimap/mesh/geodesic_graph.h"
+
+namespace varimap {
+
+namespace {
+
+constexpr double far = 0.3;  // units of sqrt(area); chosen by hand on people
+
+/// Landmarks x landmarks, along A.
+RowMatrix distances_between_landmarks(const PairContext& context) {
+    const std::vector<int>& landmarks = context.landmarks_A();
+    return distances_from_each(context.graph_A(), landmarks)(Eigen::all, landmarks);
+}
+
+/// By how much the way from one end to the other is longer by the third, whichever that is.
+double detour(double a, double b, double c) {
+    return a + b + c - 2 * std::max({a, b, c});
+}
+
+}  // namespace
+
+int landmarks_apart(const PairContext& context) {
+    const RowMatrix distance = distances_between_landmarks(context);
+    std::vector<int> apart;
+    for (int k = 0; k < int(distance.rows()); ++k)
+        if (std::all_of(apart.begin(), apart.end(), [&](int other) { return distance(other, k) > far; }))
+            apart.push_back(k);
+    return int(apart.size());
+}
+
+bool landmarks_span(const PairContext& context) {
+    // Chosen by hand. Of a tool's ends and a point on its shaft it is .001 to .02; of animals' and people's
+    // landmarks .3 and more.
+    constexpr double in_line = 0.1;
+    const RowMatrix distance = distances_between_landmarks(context);
+    const int count = int(distance.rows());
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < i; ++j)
+            for (int k = 0; k < j; ++k) {
+                const double a = distance(i, j), b = distance(j, k), c = distance(k, i);
+                if (std::min({a, b, c}) > far && detour(a, b, c) > in_line) return true;
+            }
+    return false;
+}
+
+}  // namespace varimap
