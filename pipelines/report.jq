@@ -29,7 +29,7 @@ def little_repaired:
     ([.not_finite_faces, .degenerate_faces, .duplicate_faces, ([.cut_edges, .split_vertices] | max), .closed_slits]
         | add // 0) as $elements
     | any($elements, .turned_faces, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
-        and $elements <= ([10, .001 * (.input_faces // 0)] | max) and (.bridges // 0) <= 10
+        and $elements <= ([10, .003 * (.input_faces // 0)] | max) and (.bridges // 0) <= 10
         # Turning faces changes no form.
         and (.turned_faces // 0) <= ([10, .01 * (.input_faces // 0)] | max)
         and .cut_handles == .asked_cuts and all(.opened_edges, .unfilled_holes, .dropped_components; . == null);
@@ -41,7 +41,9 @@ def little_repaired:
         (.p95 // empty | check("there and back, 95 %"; "\(fixed(4)) sqrt(area)"; .; 0.03; 0.1))),
     (.exploration // empty | check("choice among mirrored and turned maps";
         if .continued > 1 then "candidate \(.continued), as asked\(if .probability then " (the first: \(.probability | fixed(2)))" else "" end)" elif .confident then "sure" else "not sure" end;
-        if .confident or .continued > 1 then 0 else 2 - (.probability // 0) end; 1; 1))] as $checks
+        # Another than the first is what the user wants, though the program may not.
+        if .continued > 1 then (if (.probability // 0) >= 0.5 then 1.5 else 0 end)
+        elif .confident then 0 else 4 - 2 * (.probability // 0) end; 1; 2))] as $checks
 | (.exploration.continued // 1) as $continued | (.stages // {}) as $stages
 # Every textured mesh is welded at its seams: nothing to look at.
 | [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not))
