@@ -161,8 +161,8 @@ while read -r record says; do
     [[ $(verdict "$record") == "$says" ]] || fail "$record: $(verdict "$record"), not $says"
 done <<'LIST'
 {"input_faces":13800,"cut_edges":1,"split_vertices":1} good:  of 1
-{"input_faces":5000,"cut_edges":9,"split_vertices":10} good:  of 1
-{"input_faces":5000,"cut_edges":9,"split_vertices":11} look here: preprocess a of 1
+{"input_faces":5000,"cut_edges":9,"split_vertices":15} good:  of 1
+{"input_faces":5000,"cut_edges":9,"split_vertices":16} look here: preprocess a of 1
 {"input_faces":200,"degenerate_faces":10} good:  of 1
 {"input_faces":200,"degenerate_faces":11} look here: preprocess a of 1
 {"input_faces":13800,"turned_faces":138,"welded_vertices":5000} good:  of 1
@@ -174,7 +174,7 @@ done <<'LIST'
 {"input_faces":13800,"filled_holes":2,"unfilled_holes":1} look here: preprocess a of 1
 {"input_faces":13800,"bridges":1} good:  of 1
 {"input_faces":13800,"bridges":11} look here: preprocess a of 1
-{"input_faces":13800,"bridges":1,"degenerate_faces":14} look here: preprocess a of 1
+{"input_faces":13800,"bridges":1,"degenerate_faces":42} look here: preprocess a of 1
 {} look here: preprocess a of 1
 LIST
 "$varimap" report out >report.txt 2>log || fail "report"

@@ -156,7 +156,6 @@ class Rings {
     const Ring& operator[](int ring) const { return rings_[std::size_t(ring)]; }
     int of_face(int f) const { return ring_of_[std::size_t(f)]; }
     double width() const { return width_; }
-    const Edges& edges() const { return edges_; }
     /// Mean u of a face's corners.
     double mean_at(int f) const {
         const auto corners = images_.source.faces.row(f);

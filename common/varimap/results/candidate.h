@@ -69,8 +69,8 @@ struct InTheEnd {
     /// then tells nothing.
     bool many_handles = false;
 };
-/// From so many degrees on a tube that is twisted by a map makes it doubtful. Of 153 right maps between people
-/// and between animals, both ways, none is found twisted by more than 87.
+/// From so many degrees on a tube that is twisted by a map makes it doubtful. Of 153 right maps between
+/// people and between animals, both ways, none is found twisted by more than 87.
 inline constexpr double doubtful_twist = 120;
 
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<InTheEnd> finished = {});
