@@ -33,7 +33,8 @@ std::vector<Candidate> ratings(const std::vector<Appraised>& list) {
 }
 
 void FinishedPool::add_new_of(const std::vector<PooledMap>& pool) {
-    add(std::span(pool).subspan(origins_.size()));
+    const std::size_t seen = std::exchange(seen_of_pool_, pool.size());
+    add(std::span(pool).subspan(std::min(seen, pool.size())));
 }
 
 void FinishedPool::add(std::span<const PooledMap> added) {

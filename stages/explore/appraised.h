@@ -33,7 +33,7 @@ class FinishedPool {
 
     /// Finishes these maps, and keeps those that do not become what is there already.
     void add(std::span<const PooledMap> maps);
-    /// The same of those that have joined a pool since the last time; nothing else is added before.
+    /// The same of those that have joined a pool since the last time, which is to be the same pool.
     void add_new_of(const std::vector<PooledMap>& pool);
 
     /// All that are kept, in order.
@@ -43,7 +43,8 @@ class FinishedPool {
     const PairContext& context_;
     FinishingOptions options_;
     const Appraisal& appraisal_;
-    std::vector<Candidate> origins_;  ///< of all maps of the pool so far
+    std::size_t seen_of_pool_ = 0;    ///< by add_new_of
+    std::vector<Candidate> origins_;  ///< of all maps so far
     std::vector<FinishedMap> maps_;
     std::vector<Candidate> measured_;  ///< what is known of each of maps_ by itself
 };
