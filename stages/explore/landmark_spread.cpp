@@ -34,8 +34,8 @@ int landmarks_apart(const PairContext& context) {
 }
 
 bool landmarks_span(const PairContext& context) {
-    // Chosen by hand. Of a tool's ends and a point on its shaft it is .001 to .02; of animals' and people's
-    // landmarks .3 and more.
+    // Chosen by hand. Of the ends of three tools and a point on the shaft the largest detour is .015 to .041;
+    // of four landmarks on people and animals (115 pairs) .44 or more.
     constexpr double in_line = 0.1;
     const RowMatrix distance = distances_between_landmarks(context);
     const int count = int(distance.rows());

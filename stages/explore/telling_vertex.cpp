@@ -5,6 +5,7 @@
 #include "stages/explore/tips.h"
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/input_locator.h"
 
 namespace varimap {
 
@@ -48,10 +49,6 @@ class Images {
     const PairContext& context_;
 };
 
-int in_file(int vertex, const Surface& surface) {
-    return number_in_file(nearest_vertex(surface.input, surface.on_input[std::size_t(vertex)]), surface.link);
-}
-
 }  // namespace
 
 TellingVertex telling_vertex(const std::vector<Appraised>& list, std::size_t count,
@@ -62,9 +59,9 @@ TellingVertex telling_vertex(const std::vector<Appraised>& list, std::size_t cou
     auto [best, gap] =
         images.most_telling(find_tips(context.graph_A(), some_samples(context), most_tips).vertices);
     if (gap < clear) best = images.most_telling(all_indices(context.A().surface.mesh.vertex_count())).first;
-    TellingVertex told{in_file(best, context.A().surface), {}};
+    TellingVertex told{nearest_in_file(context.A().surface, best), {}};
     for (std::size_t k = 0; k < count; ++k)
-        told.images.push_back(in_file(images.vertex(k, best), context.B().surface));
+        told.images.push_back(nearest_in_file(context.B().surface, images.vertex(k, best)));
     return told;
 }
 

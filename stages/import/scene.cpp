@@ -155,8 +155,7 @@ ImportedScene read_scene(const std::string& path) {
     if (result.uv.empty() && has_texture_coordinates(*scene))
         warnings.emplace_back(
             "texture coordinates are left out, since a part of the scene has none; give it some, or export "
-            "it "
-            "without that part");
+            "it without that part");
     result.warnings = std::move(warnings);
     if (result.soup.ends.empty()) throw InputError(path + ": the file holds no faces");
     return result;

@@ -5,6 +5,7 @@
 
 #include "stages/partners/picture.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/plan.h"
@@ -16,8 +17,7 @@ using namespace varimap;
 
 /// Per point of a domain its number in the file; of a surface's mesh that of the nearest corner.
 int number(const Surface& surface, int point) {
-    if (!surface.is_surface()) return point;
-    return number_in_file(nearest_vertex(surface.input, surface.on_input[std::size_t(point)]), surface.link);
+    return surface.is_surface() ? nearest_in_file(surface, point) : point;
 }
 
 /// A row for each point of the source's file that the plan has.

@@ -41,12 +41,6 @@ void lay_where_placed(PointMap& there, const PointMap& on_input, const Surface& 
     }
 }
 
-PointMap inverse(const PointMap& there, PointMap back, const TriangleMesh& part, const TriangleMesh& whole) {
-    SlidingMap map(std::move(back), whole, part);
-    InverseMap(map, there).place(map, VertexData<bool>(whole.vertex_count(), true));
-    return map.points();
-}
-
 /// The images of `planned` where the region says nothing.
 MapPair placed_maps(const PartRegion& region, const Surface& A, const Surface& B, const PairRecord& record,
                     const MapPair& planned) {
@@ -55,7 +49,8 @@ MapPair placed_maps(const PartRegion& region, const Surface& A, const Surface& B
     PointMap& there = region.part_is_source ? maps.A_to_B : maps.B_to_A;
     PointMap& back = region.part_is_source ? maps.B_to_A : maps.A_to_B;
     lay_where_placed(there, from_file(region.placed, part, whole), part, whole);
-    back = inverse(there, std::move(back), part.mesh, whole.mesh);
+    back = laid_by_inverse(std::move(back), there, whole.mesh, part.mesh,
+                           VertexData<bool>(whole.mesh.vertex_count(), true));
     pin_landmarks(maps, record, A, B);
     return maps;
 }

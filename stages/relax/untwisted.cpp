@@ -42,8 +42,8 @@ double farthest_held(const Untwisting& found, const VertexData<bool>& held, doub
 /// None where nothing is twisted, or where landmarks hold it: one on a side of the tube says how it stays.
 std::optional<Steps> steps_out(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
                                const VertexData<bool>& held) {
-    const std::optional<Untwisting> found = untwisting(map, source, target);
-    if (!found || found->twist.degrees < doubtful_twist) return {};
+    const std::optional<Untwisting> found = untwisting(map, source, target, doubtful_twist);
+    if (!found) return {};
     double reference = 0, least = farthest_held(*found, held, 0);
     for (int v = 0; v < source.vertex_count(); ++v) {
         if (!held[v]) continue;
@@ -67,14 +67,9 @@ PointMap walked(const PointMap& map, const std::vector<Vec3>& steps, const Trian
     return sliding.points();
 }
 
-/// `back` made the inverse of `there`, which leads from its target to its source.
-PointMap inverse(const PointMap& there, PointMap back, const TriangleMesh& source, const TriangleMesh& target,
-                 const VertexData<bool>& held) {
-    SlidingMap map(std::move(back), source, target);
-    VertexData<bool> free(source.vertex_count());
-    for (int v = 0; v < source.vertex_count(); ++v) free[v] = !held[v];
-    InverseMap(map, there).place(map, free);
-    return map.points();
+VertexData<bool> not_marked(VertexData<bool> marks) {
+    for (int v = 0; v < marks.size(); ++v) marks[v] = !marks[v];
+    return marks;
 }
 
 /// The maps without the twist of the direction that has more; none if neither has any.
@@ -89,10 +84,10 @@ std::optional<MapPair> untwisted(const MapPair& maps, const TriangleMesh& A, con
     MapPair result = maps;
     if (is_there) {
         result.A_to_B = walked(maps.A_to_B, there->of_vertex, A, B, held_A);
-        result.B_to_A = inverse(result.A_to_B, maps.B_to_A, B, A, held_B);
+        result.B_to_A = laid_by_inverse(maps.B_to_A, result.A_to_B, B, A, not_marked(held_B));
     } else {
         result.B_to_A = walked(maps.B_to_A, back->of_vertex, B, A, held_B);
-        result.A_to_B = inverse(result.B_to_A, maps.A_to_B, A, B, held_A);
+        result.A_to_B = laid_by_inverse(maps.A_to_B, result.B_to_A, A, B, not_marked(held_A));
     }
     return result;
 }

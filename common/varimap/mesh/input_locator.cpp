@@ -1,5 +1,7 @@
 #include "varimap/mesh/input_locator.h"
 
+#include "varimap/mesh/face_geometry.h"
+
 namespace varimap {
 
 TriangleMesh normalised_input(const Surface& surface) {
@@ -25,6 +27,10 @@ SurfacePoint MeshLocator::operator()(const SurfacePoint& on_input) const {
         x += on_input.barycentric[k] * position(surface_.mesh, corner);
     }
     return (*closest_)(x).point;
+}
+
+int nearest_in_file(const Surface& surface, int vertex) {
+    return number_in_file(nearest_vertex(surface.input, surface.on_input[std::size_t(vertex)]), surface.link);
 }
 
 }  // namespace varimap

@@ -26,6 +26,9 @@ class InputLocator {
     ClosestPointOnDemand closest_;  ///< on the input; not needed where the way there is exact
 };
 
+/// The vertex of the surface's file nearest to where a vertex of its mesh lies.
+int nearest_in_file(const Surface& surface, int vertex);
+
 /// Where points of a surface's input lie on its mesh: as its corners do, linearly between them. Keeps a
 /// reference to the surface. Thread-safe.
 class MeshLocator {

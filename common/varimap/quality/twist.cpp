@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -311,16 +312,16 @@ class Turns {
             std::any_of(place_.begin(), place_.end(), [](int place) { return place == behind; }) &&
             meets_beginning(tube);
         take_out_full_turns();
+        before_.resize(turn_.size());
+        std::exclusive_scan(turn_.begin(), turn_.end(), before_.begin(), 0.0);
     }
     bool can_be() const { return all_ == 0 || !leads_around_; }
     double at(int f) const {
         const int ring = rings_.of_face(f), place = place_[std::size_t(ring)];
         if (place == behind) return all_;
         if (place == nowhere) return 0;
-        double before = 0;
-        for (int i = 0; i < place; ++i) before += turn_[std::size_t(i)];
         const double within = rings_.mean_at(f) / rings_.width() - rings_[ring].band;
-        return before + std::clamp(within, 0.0, 1.0) * turn_[std::size_t(place)];
+        return before_[std::size_t(place)] + std::clamp(within, 0.0, 1.0) * turn_[std::size_t(place)];
     }
 
   private:
@@ -353,8 +354,8 @@ class Turns {
     }
 
     const Rings& rings_;
-    std::vector<int> place_;  ///< per ring: in the tube
-    std::vector<double> turn_;
+    std::vector<int> place_;             ///< per ring: in the tube
+    std::vector<double> turn_, before_;  ///< per ring of the tube, and summed over those before it
     double all_ = 0;
     bool leads_around_ = false;
 };
@@ -367,12 +368,12 @@ Twist measure_twist(const PointMap& map, const TriangleMesh& source, const Trian
 }
 
 std::optional<Untwisting> untwisting(const PointMap& map, const TriangleMesh& source,
-                                     const TriangleMesh& target) {
+                                     const TriangleMesh& target, double least) {
     if (source.face_count() == 0) return {};
     const ImageMesh images(map, source, target);
     const Rings rings(images);
     const auto [tube, twist] = most_twisted(rings);
-    if (tube.empty()) return {};
+    if (tube.empty() || twist.degrees < least) return {};
     const Turns turns(tube, rings);
     if (!turns.can_be()) return {};
     Untwisting result{twist, std::vector<double>(map.size(), 0), std::vector<Vec3>(map.size(), Vec3::Zero())};

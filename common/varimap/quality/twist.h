@@ -36,9 +36,9 @@ struct Untwisting {
     std::vector<double> turn;  ///< per vertex of the source, in radians
     std::vector<Vec3> around;  ///< per vertex: tangent to the image of its ring, as long as the ring's radius
 };
-/// Of the tube of measure_twist; none where that is none, or where what lies behind it leads around to what
-/// lies before it and is not turned fully.
+/// Of the tube of measure_twist; none where that is twisted by less than `least` degrees, or where what lies
+/// behind it leads around to what lies before it and is not turned fully.
 std::optional<Untwisting> untwisting(const PointMap& map, const TriangleMesh& source,
-                                     const TriangleMesh& target);
+                                     const TriangleMesh& target, double least);
 
 }  // namespace varimap

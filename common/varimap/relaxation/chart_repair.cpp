@@ -61,16 +61,9 @@ int most_disc_faces(const TriangleMesh& mesh, double part) {
     return std::min(most, least_part + int(most_filled * part));
 }
 
-double mapped_area(const SlidingMap& map, const std::vector<int>& faces) {
-    double area = 0;
-    for (const int f : faces)
-        if (map.is_mapped(f)) area += map.rest(f).area;
-    return area;
-}
-
 /// Whether a repair strains a body of a few large faces, between which shortest paths may run on the other
 /// side of a corner, so that faces of a right map seem reversed: a prism of eight triangles on itself had 57
-/// times the energy after it. Repairs of fine meshes touch .07 of the area at most.
+/// times the energy after it. Those of five pairs of fine meshes touch .07 of the area at most.
 bool strains_a_body(double area, double energy_before, double energy_after) {
     constexpr double large = 0.2, much = 2;
     return area > large && energy_after > much * energy_before;
@@ -318,7 +311,7 @@ std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
         const double before = badness(around), strain = total_energy(map_, around, judged_energy);
         std::erase_if(cluster, [&](int f) { return !along_target_.is_reversed(f); });
         kernels_.centre(cluster, free);
-        if (!strains_a_body(mapped_area(map_, around), strain, total_energy(map_, around, judged_energy)) &&
+        if (!strains_a_body(area_of(map_, around), strain, total_energy(map_, around, judged_energy)) &&
             badness(around, before) < before)
             touched.insert(touched.end(), around.begin(), around.end());
         else

@@ -1,5 +1,7 @@
 #include "varimap/relaxation/inverse_map.h"
 
+#include <utility>
+
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/image_mesh.h"
@@ -33,6 +35,13 @@ void InverseMap::place(SlidingMap& map, const VertexData<bool>& marked) {
         if (!marked[v] || !map.has_image(v)) continue;
         if (const SurfacePoint image = (*this)(v); image.face >= 0) map.place(v, image);
     }
+}
+
+PointMap laid_by_inverse(PointMap back, const PointMap& there, const TriangleMesh& source,
+                         const TriangleMesh& target, const VertexData<bool>& marked) {
+    SlidingMap map(std::move(back), source, target);
+    InverseMap(map, there).place(map, marked);
+    return map.points();
 }
 
 }  // namespace varimap

@@ -29,4 +29,8 @@ class InverseMap {
     std::unique_ptr<Search> search_;
 };
 
+/// `back`, which leads from `source` to `target`, with its marked vertices placed by the inverse of `there`.
+PointMap laid_by_inverse(PointMap back, const PointMap& there, const TriangleMesh& source,
+                         const TriangleMesh& target, const VertexData<bool>& marked);
+
 }  // namespace varimap

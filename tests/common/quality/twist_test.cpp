@@ -39,7 +39,7 @@ TEST(Twist, IsNoneOfATurnAsAWholeAndOfASheet) {
 TEST(Twist, IsTakenOutByItsTurnsButFullOnesLeaveTheEnds) {
     const TriangleMesh shaft = shapes::shaft();
     const auto turn_of_ends = [&](double degrees) {
-        const auto found = untwisting(shapes::twisted_shaft(shaft, degrees), shaft, shaft);
+        const auto found = untwisting(shapes::twisted_shaft(shaft, degrees), shaft, shaft, 0);
         EXPECT_TRUE(found.has_value());
         int first = 0, last = 0;
         shaft.vertices.col(0).minCoeff(&first);
