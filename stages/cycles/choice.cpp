@@ -118,12 +118,12 @@ class Layout {
     }
 
     /// The surface beside what is laid out whose pair with it is the surest; of others, a new root; -1: none
-    /// is left.
+    /// with pairs is left.
     int nearest() {
         int found = -1;
         double most = -1;
         for (std::size_t s = 0; s < places_.size(); ++s) {
-            if (places_[s].known()) continue;
+            if (places_[s].known() || neighbours_[s].empty()) continue;
             if (found < 0) found = int(s);
             for (const Neighbour& n : neighbours_[s]) {
                 const double probability = pairs_[n.pair].maps.front().probability;

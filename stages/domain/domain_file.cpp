@@ -304,6 +304,15 @@ bool is_mesh(const std::string& path) {
            has_ending(path, ".obj");
 }
 
+/// Of a mesh, or of a point cloud in such a file.
+Points vertices_of_mesh(const std::string& path) {
+    const Points points = read_vertices(path);
+    for (int v = 0; v < points.rows(); ++v)
+        if (!points.row(v).allFinite())
+            throw InputError(fmt::format("{}: point {} (from 0) is not finite", path, v));
+    return points;
+}
+
 DomainFile read_as(const std::string& path, DomainKind kind) {
     if (kind == DomainKind::graph)
         return is_mesh(path)              ? graph_from_mesh(path)
@@ -318,7 +327,7 @@ DomainFile read_as(const std::string& path, DomainKind kind) {
 }  // namespace
 
 Points read_positions(const std::string& path) {
-    Points points = to_points(rows_of_points(path));
+    Points points = is_mesh(path) ? vertices_of_mesh(path) : to_points(rows_of_points(path));
     require_distinct(points, path);
     return points;
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stages/explore/appraised.h"
+#include "stages/explore/finished_pool.h"
 #include "varimap/results/candidates.h"
 
 namespace varimap {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "stages/explore/appraised.h"
 #include "stages/explore/candidate_maps.h"
+#include "stages/explore/finished_pool.h"
 #include "stages/explore/landmark_spread.h"
 #include "stages/explore/mirror_images.h"
 #include "stages/explore/surface_comparison.h"

@@ -126,9 +126,11 @@ class JointDescent {
     void keep_best(double gap) {
         const Timer timer("rough scores");
         std::erase_if(pursued_, [](const Pursued& one) { return !(one.energy() >= 0); });
-        if (pursued_.empty())
+        if (pursued_.empty()) {
+            if (!known_.empty()) return;
             throw ConvergenceError(
                 "no map was found between these surfaces; give landmarks, and look at both meshes");
+        }
         judge_all();
         std::stable_sort(pursued_.begin(), pursued_.end(),
                          [](const Pursued& a, const Pursued& b) { return a.score() < b.score(); });

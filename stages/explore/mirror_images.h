@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "stages/explore/appraised.h"
+#include "stages/explore/finished_pool.h"
 #include "stages/explore/params.h"
 
 namespace varimap {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "stages/explore/appraised.h"
+#include "stages/explore/finished_pool.h"
 
 namespace varimap {
 

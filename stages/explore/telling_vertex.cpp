@@ -1,11 +1,13 @@
 #include "stages/explore/telling_vertex.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "stages/explore/tips.h"
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
+#include "varimap/mesh/pulled_back.h"
 
 namespace varimap {
 
@@ -18,6 +20,21 @@ const std::vector<int>& some_samples(const PairContext& context) {
     const auto level = std::find_if(levels.begin(), levels.end(),
                                     [](const Level& one) { return one.samples.size() >= enough; });
     return level == levels.end() ? levels.back().samples : level->samples;
+}
+
+/// Of A's vertices those whose images by the first map and by another are farthest apart in space.
+std::vector<int> some_moved(const std::vector<Appraised>& list, std::size_t count,
+                            const PairContext& context) {
+    constexpr std::size_t most = 60;
+    const TriangleMesh& B = context.B().surface.mesh;
+    const Points first = positions(B, list[0].map.maps.A_to_B);
+    Eigen::VectorXd gap = Eigen::VectorXd::Constant(first.rows(), std::numeric_limits<double>::infinity());
+    for (std::size_t k = 1; k < count; ++k)
+        gap = gap.cwiseMin((positions(B, list[k].map.maps.A_to_B) - first).rowwise().norm());
+    std::vector<int> vertices = all_indices(gap.size());
+    std::stable_sort(vertices.begin(), vertices.end(), [&](int a, int b) { return gap[a] > gap[b]; });
+    vertices.resize(std::min(vertices.size(), most));
+    return vertices;
 }
 
 /// Images of vertices of A by several maps, and how far from the others the first takes them.
@@ -58,7 +75,7 @@ TellingVertex telling_vertex(const std::vector<Appraised>& list, std::size_t cou
     const Images images(list, count, context);
     auto [best, gap] =
         images.most_telling(find_tips(context.graph_A(), some_samples(context), most_tips).vertices);
-    if (gap < clear) best = images.most_telling(all_indices(context.A().surface.mesh.vertex_count())).first;
+    if (gap < clear) best = images.most_telling(some_moved(list, count, context)).first;
     TellingVertex told{nearest_in_file(context.A().surface, best), {}};
     for (std::size_t k = 0; k < count; ++k)
         told.images.push_back(nearest_in_file(context.B().surface, images.vertex(k, best)));

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "stages/explore/appraised.h"
+#include "stages/explore/finished_pool.h"
 #include "varimap/results/candidates.h"
 
 namespace varimap {

@@ -7,11 +7,10 @@
 #include <string>
 
 #include "stages/relax/prolongation.h"
-#include "stages/relax/untwisted.h"
 #include "varimap/core/counted.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/relaxation/untwisting.h"
 #include "varimap/spectral/local_shape.h"
 
 namespace varimap {

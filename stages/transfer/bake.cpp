@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "stages/transfer/seams.h"
 #include "varimap/core/error.h"
@@ -67,8 +69,27 @@ struct PixelLayout {
     std::vector<char> overlapped;  ///< whether another one lies there, too
 };
 
-PixelLayout faces_on_pixels(const ObjModel& target, int n) {
+/// The first and the last pixel of a row between whose centres and a triangle a common point may lie.
+std::pair<int, int> pixels_of_row(const Eigen::Matrix<double, 2, 3>& corner, int y, int n) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int k = 0; k < 3; ++k) {
+        const Vec2 a = corner.col(k), b = corner.col((k + 1) % 3);
+        if (std::min(a[1], b[1]) > y || std::max(a[1], b[1]) < y) continue;
+        const double rise = b[1] - a[1];
+        const double from = rise == 0 ? a[0] : a[0] + (y - a[1]) / rise * (b[0] - a[0]);
+        const double to = rise == 0 ? b[0] : from;
+        low = std::min({low, from, to});
+        high = std::max({high, from, to});
+    }
+    if (low > high) return {0, -1};
+    // Rounding decides on the rim: barycentric coordinates do.
+    return {std::max(0, int(std::floor(low))), std::min(n - 1, int(std::ceil(high)))};
+}
+
+PixelLayout faces_on_pixels(const ObjModel& target, const std::string& path, int n) {
     const std::size_t pixels = std::size_t(n) * std::size_t(n);
+    constexpr int most_layers = 32;  // in the mean; what is drawn twice on purpose has a few
+    double visits = 0;
     PixelLayout layout{std::vector<SurfacePoint>(pixels), std::vector<char>(pixels, 0)};
     for (int f = 0; f < int(target.uv_of.rows()); ++f) {
         Eigen::Matrix<double, 2, 3> corner;
@@ -80,10 +101,11 @@ PixelLayout faces_on_pixels(const ObjModel& target, int n) {
         sides << corner.col(1) - corner.col(0), corner.col(2) - corner.col(0);
         if (!(std::abs(sides.determinant()) > 1e-12)) continue;
         const Eigen::Matrix2d inverse = sides.inverse();
-        const Vec2 low = corner.rowwise().minCoeff(), high = corner.rowwise().maxCoeff();
-        const int left = std::max(0, int(std::ceil(low[0]))), right = std::min(n - 1, int(high[0]));
-        const int top = std::max(0, int(std::ceil(low[1]))), bottom = std::min(n - 1, int(high[1]));
-        for (int y = top; y <= bottom; ++y)
+        const int top = std::max(0, int(std::ceil(corner.row(1).minCoeff()))),
+                  bottom = std::min(n - 1, int(corner.row(1).maxCoeff()));
+        for (int y = top; y <= bottom; ++y) {
+            const auto [left, right] = pixels_of_row(corner, y, n);
+            visits += std::max(0, right - left + 1);
             for (int x = left; x <= right; ++x) {
                 const Vec2 b = inverse * (Vec2(x, y) - corner.col(0));
                 const Vec3 at(1 - b.sum(), b[0], b[1]);
@@ -95,6 +117,12 @@ PixelLayout faces_on_pixels(const ObjModel& target, int n) {
                 else if (std::min(at.minCoeff(), first.barycentric.minCoeff()) > rim)
                     layout.overlapped[pixel] = 1;
             }
+        }
+        if (visits > most_layers * double(pixels))
+            throw InputError(fmt::format(
+                "{}: more than {} faces lie over each other in its texture coordinates, as with a "
+                "tiled texture; give --onto an OBJ whose faces have a place each",
+                path, most_layers));
     }
     return layout;
 }
@@ -155,7 +183,7 @@ TextureImage bake(const Correspondence& map, const PointCarrier& back, const Tex
                   const ObjModel& target, const std::string& target_file, const BakeSize& size) {
     require_square(target, target_file);
     const Paint paint(map.from, texture);
-    const PixelLayout layout = faces_on_pixels(target, size.pixels);
+    const PixelLayout layout = faces_on_pixels(target, target_file, size.pixels);
     check_layout(layout, target_file, size.pixels);
     const std::vector<SurfacePoint>& on = layout.on;
     TextureImage image(size.pixels, size.pixels);

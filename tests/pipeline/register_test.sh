@@ -244,3 +244,19 @@ echo '{"template": "template.off", "landmarks": "", "specimens": [{"name": "s1",
 expect_exit 3 "$VARIMAP_BIN/varimap-register" empty.json --out none
 grep -q 's1: no answers' log || fail "whose answers are missing"
 [[ ! -e none ]] || fail "what is refused left files"
+
+# The map of a mesh that was replaced is not taken for that of the mesh there now where its job was killed.
+mkdir replaced
+cp meshes/s1.off meshes/s2.off replaced
+register template.off replaced -o again
+cp meshes/s4.off replaced/s1.off
+"$varimap" register "${small_picture[@]}" template.off replaced -o again -j 1 >out.txt 2>log &
+front_end=$!
+until pkill -KILL -f "batch/job $PWD/again/maps pair "; do
+    kill -0 "$front_end" 2>/dev/null || fail "ended before its job was killed: $(<log)"
+    sleep .05
+done
+code=0
+wait "$front_end" || code=$?
+((code == 1)) || fail "exit $code where a job was killed"
+grep -q '^left out    1 .*: s1;' out.txt || fail "the map of a mesh before is taken for that of another"

@@ -139,6 +139,13 @@ TEST(Choice, ReversedPairsAndTwoSurfacesAreServed) {
     EXPECT_EQ(measure_loops(samples, alone, {0})[0].count, 0);
 }
 
+TEST(Choice, SurfacesOfNoPairAreLeftAlone) {
+    Samples samples(3, circle());
+    samples.emplace_back();  // no map says what its samples are
+    std::vector<PairOfMaps> pairs = pairs_of(3, {});
+    EXPECT_THAT(choose(samples, pairs), Each(0));
+}
+
 /// The source has more vertices than samples: each vertex goes where the sample nearest to it goes.
 TEST(OnFiles, VerticesGoWhereTheNearestSampleGoes) {
     Surface source = shapes::plain_surface(shapes::ellipsoid(2, {3, 2, 1}));

@@ -109,6 +109,23 @@ TEST_F(DomainFiles, ARowOfNamesTellsWhichColumnsAreCoordinates) {
                 HasSubstr("e.csv:2: 3 values, where the first row names 2"));
 }
 
+/// The vertices, not the lines that say how many there are.
+TEST_F(DomainFiles, PointsMayBeThoseOfAMeshOrACloud) {
+    DomainParams points;
+    points.kind = DomainKind::points;
+    const Domain plain = make("a.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2 3\n");
+    const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2 3\n";
+    EXPECT_EQ(encode(make("b.off", "OFF\n5 0 0\n" + vertices)), encode(plain));
+    EXPECT_EQ(encode(make("c.off", "OFF\n5 1 0\n" + vertices + "3 0 1 2\n", points)), encode(plain));
+    EXPECT_EQ(encode(make("d.ply",
+                          "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\n"
+                          "property double z\nend_header\n" +
+                              vertices)),
+              encode(plain));
+    EXPECT_THAT(refusal("nan.off", "OFF\n5 0 0\n0 0 0\n1 0 0\n0 1 0\nnan 0 1\n1 2 3\n"),
+                HasSubstr("point 3 (from 0) is not finite"));
+}
+
 TEST_F(DomainFiles, AGeneralMatrixHasEqualHalves) {
     const std::string head = "%%MatrixMarket matrix coordinate real general\n";
     const std::string half = "2 1 1\n3 2 1\n4 3 1\n1 1 9\n";

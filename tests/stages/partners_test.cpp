@@ -21,13 +21,13 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int points = 120;
+constexpr int point_count = 120;
 
 /// A curve once round a circle whose ends cross, or as straight as it is long.
 DomainFile curve(bool straight) {
-    DomainFile file{DomainKind::polyline, points, Points::Zero(points, 3), {}, true};
-    for (int i = 0; i < points; ++i) {
-        const double t = 7.0 * i / (points - 1);
+    DomainFile file{DomainKind::polyline, point_count, Points::Zero(point_count, 3), {}, true};
+    for (int i = 0; i < point_count; ++i) {
+        const double t = 7.0 * i / (point_count - 1);
         file.positions.row(i) << (straight ? t : std::cos(t)), (straight ? 0 : std::sin(t)), .001 * i;
         if (i > 0)
             file.edges.push_back({i - 1, i, (file.positions.row(i) - file.positions.row(i - 1)).norm(), 0});
@@ -66,11 +66,11 @@ double kept(Distances distances) {
     const Plan plan = refine(context, diffuse(context, diffuse_params), refine_params);
     const auto partners = best_partners(plan.plan.entries, GeodesicGraph(round), .02);
     int same = 0, reversed = 0;
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < point_count; ++i) {
         same += std::abs(partners[std::size_t(i)].point - i) <= 1;
-        reversed += std::abs(partners[std::size_t(i)].point - (points - 1 - i)) <= 1;
+        reversed += std::abs(partners[std::size_t(i)].point - (point_count - 1 - i)) <= 1;
     }
-    return double(std::max(same, reversed)) / points;
+    return double(std::max(same, reversed)) / point_count;
 }
 
 TEST(Curves, IntrinsicPlansUnfoldALoopAndAmbientOnesDoNot) {
@@ -80,7 +80,7 @@ TEST(Curves, IntrinsicPlansUnfoldALoopAndAmbientOnesDoNot) {
 
 TEST(Partners, AreWhereMostMassLandsWithItsShareAround) {
     const Domain line = make_domain(curve(true), {}, "line");
-    SparseMatrix plan(2, points);
+    SparseMatrix plan(2, point_count);
     plan.insert(0, 10) = .35;
     plan.insert(0, 11) = .35;
     plan.insert(0, 80) = .3;
@@ -96,22 +96,22 @@ TEST(Partners, AreWhereMostMassLandsWithItsShareAround) {
 TEST(Partners, EdgesWhoseEndsLandFarFromEachOtherAreCounted) {
     const Domain line = make_domain(curve(true), {}, "line");
     std::vector<Partner> partners;
-    for (int i = 0; i < points; ++i) partners.push_back({i, 1});
+    for (int i = 0; i < point_count; ++i) partners.push_back({i, 1});
     const GeodesicGraph graph(line);
     EXPECT_EQ(share_apart(line, partners, graph, 3), 0);
     partners[50].point = 90;
-    EXPECT_NEAR(share_apart(line, partners, graph, 3), 2.0 / (points - 1), 1e-12);
+    EXPECT_NEAR(share_apart(line, partners, graph, 3), 2.0 / (point_count - 1), 1e-12);
 }
 
 TEST(Partners, PicturesHaveEveryPointAndNoOddNumber) {
     const Domain line = make_domain(curve(true), {}, "line");
-    std::vector<Partner> partners(points, Partner{3, .5});
+    std::vector<Partner> partners(point_count, Partner{3, .5});
     partners[7] = {};
     for (const Layout layout : {Layout::beside, Layout::together}) {
         const std::string svg = picture_of({line, partners}, {line, partners}, line.mesh.vertices, layout);
         std::size_t circles = 0;
         for (std::size_t at = 0; (at = svg.find("<circle", at)) != svg.npos; ++at) ++circles;
-        EXPECT_EQ(circles, 2u * points);
+        EXPECT_EQ(circles, 2u * point_count);
         EXPECT_EQ(svg.find("nan"), svg.npos);
     }
 }
@@ -124,8 +124,8 @@ TEST(Gromov, OfACurveOntoItselfIsTheIdentityOrItsReverse) {
     EXPECT_LT((plan.plan.transported_A - line.mass).cwiseAbs().maxCoeff(), 1e-4);
     const auto partners = best_partners(plan.plan.entries, GeodesicGraph(round), .02);
     int ends = 0;
-    for (const int i : {0, points - 1})
-        ends += std::min(partners[std::size_t(i)].point, points - 1 - partners[std::size_t(i)].point) <= 6;
+    for (const int i : {0, point_count - 1})
+        ends += std::min(partners[std::size_t(i)].point, point_count - 1 - partners[std::size_t(i)].point) <= 6;
     EXPECT_EQ(ends, 2);
 }
 

@@ -1061,6 +1061,12 @@ TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
     request.onto = write("folded.obj", obj_of(square, model));
     EXPECT_THAT(warnings_of(request, identity_onto(square)),
                 HasSubstr("folded.obj: faces overlap in its texture coordinates on 9"));
+    ObjModel tiled = model;
+    tiled.uv = {{0, 0}, {1, 0}, {0, 1}};
+    for (int f = 0; f < int(tiled.uv_of.rows()); ++f) tiled.uv_of.row(f) << 0, 1, 2;
+    request.onto = write("tiled.obj", obj_of(square, tiled));
+    EXPECT_THAT(refusal(request, identity_onto(square)),
+                HasSubstr("tiled.obj: more than 32 faces lie over each other"));
     for (Vec2& uv : model.uv) uv.setZero();
     request.onto = write("zero.obj", obj_of(square, model));
     EXPECT_THAT(refusal(request, identity_onto(square)),

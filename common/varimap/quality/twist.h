@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
-#include "varimap/mesh/triangle_mesh.h"
+#include "varimap/quality/rings.h"
 
 namespace varimap {
 
@@ -14,31 +11,23 @@ struct Twist {
     double area = 0;  ///< share of the source's
 };
 
+struct TwistedTube {
+    Tube rings;
+    Twist twist;
+};
+
 /// The most twisted of the source's tubes that are large (.15 of the area) and whose shear a twist explains.
 /// An isometry's energy hardly resists: a shaft of length l and radius r that is twisted once around is
 /// sheared by 2 pi r / l.
 ///
 /// With u the distance along the source from one of its ends, e = grad u / |grad u|, n the normal and J the
 /// map's differential on a triangle, a ring is a closed component of the triangles whose u lies in a band of
-/// width h. Of area a it is a / h around, and the map shears it by s, the mean of J e . J(n x e) / |J(n x
-/// e)|, which turns its ends by s h / r against each other, r = a / (2 pi h) times the mean of |J(n x e)|.
-/// Summed over rings behind each other that is the twist; it explains the shear where the rings' means make
-/// up a quarter of the mean square or more: what shapes that differ need is of another sign on the other
+/// width h (rings.h). Of area a it is a / h around, and the map shears it by s, the mean of J e . J(n x e) /
+/// |J(n x e)|, which turns its ends by s h / r against each other, r = a / (2 pi h) times the mean of |J(n x
+/// e)|. Summed over rings behind each other that is the twist; it explains the shear where the rings' means
+/// make up a quarter of the mean square or more: what shapes that differ need is of another sign on the other
 /// side.
+TwistedTube most_twisted(const Rings& rings);
 Twist measure_twist(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target);
-
-/// What takes a tube's twist out: rings are turned back by what is summed up to them, and what lies behind
-/// the tube by all of it; but if that is about a full turn or several, just these are taken out, and what
-/// lies behind stays. Which part of the tube stays, the caller chooses: the image of vertex v goes straight
-/// on along the target by (reference - turn[v]) around[v].
-struct Untwisting {
-    Twist twist;
-    std::vector<double> turn;  ///< per vertex of the source, in radians
-    std::vector<Vec3> around;  ///< per vertex: tangent to the image of its ring, as long as the ring's radius
-};
-/// Of the tube of measure_twist; none where that is twisted by less than `least` degrees, or where what lies
-/// behind it leads around to what lies before it and is not turned fully.
-std::optional<Untwisting> untwisting(const PointMap& map, const TriangleMesh& source,
-                                     const TriangleMesh& target, double least);
 
 }  // namespace varimap

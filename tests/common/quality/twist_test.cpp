@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "fixtures/together.h"
 #include "fixtures/twisted_shaft.h"
 
 namespace varimap {
@@ -36,19 +36,24 @@ TEST(Twist, IsNoneOfATurnAsAWholeAndOfASheet) {
     EXPECT_EQ(measure_twist(sheared, sheet, sheet).vertex, -1);
 }
 
-TEST(Twist, IsTakenOutByItsTurnsButFullOnesLeaveTheEnds) {
+/// Wherever in the file the twisted component is.
+TEST(Twist, IsFoundOnAnyComponent) {
     const TriangleMesh shaft = shapes::shaft();
-    const auto turn_of_ends = [&](double degrees) {
-        const auto found = untwisting(shapes::twisted_shaft(shaft, degrees), shaft, shaft, 0);
-        EXPECT_TRUE(found.has_value());
-        int first = 0, last = 0;
-        shaft.vertices.col(0).minCoeff(&first);
-        shaft.vertices.col(0).maxCoeff(&last);
-        return std::abs(found->turn[std::size_t(last)] - found->turn[std::size_t(first)]) * 180 /
-               std::numbers::pi;
-    };
-    EXPECT_NEAR(turn_of_ends(120), 120, 20);
-    EXPECT_NEAR(turn_of_ends(330), 360, 1);
+    const PointMap twisted = shapes::twisted_shaft(shaft, 200);
+    const TriangleMesh crumb = shapes::ellipsoid(0, {.05, .05, .05});
+    const double alone = measure_twist(twisted, shaft, shaft).degrees;
+    ASSERT_GT(alone, 150);
+    for (const bool crumb_first : {false, true}) {
+        const TriangleMesh both =
+            crumb_first ? shapes::together(crumb, shaft) : shapes::together(shaft, crumb);
+        PointMap map = points_at_vertices(both);
+        for (std::size_t v = 0; v < twisted.size(); ++v) {
+            SurfacePoint image = twisted[v];
+            if (crumb_first) image.face += crumb.face_count();
+            map[v + (crumb_first ? std::size_t(crumb.vertex_count()) : 0)] = image;
+        }
+        EXPECT_NEAR(measure_twist(map, both, both).degrees, alone, 10) << crumb_first;
+    }
 }
 
 }  // namespace

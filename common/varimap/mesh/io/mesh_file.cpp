@@ -18,6 +18,8 @@ namespace varimap {
 namespace {
 
 PolygonSoup parse(std::string_view bytes, const std::string& path) {
+    if (bytes.empty()) throw InputError(path + ": the file is empty");
+    bytes = without_byte_order_mark(bytes, path);
     if (has_ending(path, ".obj")) return parse_obj(bytes, path);
     if (has_ending(path, ".off")) return parse_off(bytes, path);
     if (has_ending(path, ".ply")) return parse_ply(bytes, path);
@@ -41,11 +43,16 @@ void require_valid(const PolygonSoup& soup, const std::string& path) {
                                 path, f, soup.points.size()));
 }
 
+Points vertices_of(const PolygonSoup& soup) {
+    Points vertices(soup.points.size(), 3);
+    for (std::size_t v = 0; v < soup.points.size(); ++v) vertices.row(v) = soup.points[v].transpose();
+    return vertices;
+}
+
 TriangleMesh triangles_of(const PolygonSoup& soup) {
     TriangleMesh mesh;
     mesh.space = soup.space;
-    mesh.vertices.resize(soup.points.size(), 3);
-    for (std::size_t v = 0; v < soup.points.size(); ++v) mesh.vertices.row(v) = soup.points[v].transpose();
+    mesh.vertices = vertices_of(soup);
     mesh.faces = triangulated(soup);
     return mesh;
 }
@@ -76,8 +83,7 @@ Faces triangulated(const PolygonSoup& soup) {
 }
 
 PolygonSoup parse_polygons(std::string_view bytes, const std::string& path) {
-    if (bytes.empty()) throw InputError(path + ": the file is empty");
-    PolygonSoup soup = parse(without_byte_order_mark(bytes, path), path);
+    PolygonSoup soup = parse(bytes, path);
     require_valid(soup, path);
     return soup;
 }
@@ -88,6 +94,10 @@ TriangleMesh read_mesh(const std::string& path) {
 
 TriangleMesh parse_mesh(std::string_view bytes, const std::string& path) {
     return triangles_of(parse_polygons(bytes, path));
+}
+
+Points read_vertices(const std::string& path) {
+    return vertices_of(parse(bytes_of(path), path));
 }
 
 PolygonSoup read_polygons(const std::string& path) {

@@ -16,6 +16,8 @@ namespace varimap {
 TriangleMesh read_mesh(const std::string& path);
 /// The same from the bytes of such a file; `path` tells the format, and is named in messages.
 TriangleMesh parse_mesh(std::string_view bytes, const std::string& path);
+/// The vertices of such a file, which may hold no faces: a point cloud.
+Points read_vertices(const std::string& path);
 
 enum class PlyFormat : int { binary, ascii };
 /// PLY with double coordinates: binary little-endian, or text whose numbers read back exactly.

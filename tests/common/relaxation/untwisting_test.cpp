@@ -1,10 +1,9 @@
-#include "stages/relax/untwisted.h"
+#include "varimap/relaxation/untwisting.h"
 
 #include <gtest/gtest.h>
 
 #include "fixtures/twisted_shaft.h"
 #include "varimap/quality/quality.h"
-#include "varimap/quality/twist.h"
 
 namespace varimap {
 namespace {
@@ -47,6 +46,21 @@ TEST(Untwisted, LeavesOtherMapsAsTheyAre) {
         ASSERT_EQ(maps.A_to_B[v].face, same.A_to_B[v].face);
         ASSERT_EQ(maps.A_to_B[v].barycentric, same.A_to_B[v].barycentric);
     }
+}
+
+TEST(Untwisting, IsByTheTurnsButFullOnesLeaveTheEnds) {
+    const TriangleMesh shaft = shapes::shaft();
+    const auto turn_of_ends = [&](double degrees) {
+        const auto found = untwisting(shapes::twisted_shaft(shaft, degrees), shaft, shaft, 0);
+        EXPECT_TRUE(found.has_value());
+        int first = 0, last = 0;
+        shaft.vertices.col(0).minCoeff(&first);
+        shaft.vertices.col(0).maxCoeff(&last);
+        return std::abs(found->turn[std::size_t(last)] - found->turn[std::size_t(first)]) * 180 /
+               std::numbers::pi;
+    };
+    EXPECT_NEAR(turn_of_ends(120), 120, 20);
+    EXPECT_NEAR(turn_of_ends(330), 360, 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "stages/explore/appraised.h"
+#include "stages/explore/finished_pool.h"
 
 #include <algorithm>
 #include <utility>
