@@ -2,7 +2,7 @@
 
 #include "stages/cycles/collection.h"
 #include "varimap/core/log.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;

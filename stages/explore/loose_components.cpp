@@ -8,8 +8,8 @@
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/pulled_back.h"
+#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/results/surface_map.h"
 #include "varimap/spectral/local_shape.h"
 
 namespace varimap {

@@ -13,7 +13,7 @@
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 namespace {

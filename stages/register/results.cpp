@@ -8,7 +8,7 @@
 #include "varimap/artifact/npy.h"
 #include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 

@@ -10,6 +10,8 @@
 #include "varimap/artifact/file_status.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/diffusion.h"
+#include "varimap/results/map_arrays.h"
+#include "varimap/results/map_table.h"
 #include "varimap/results/plan.h"
 #include "varimap/results/quality_numbers.h"
 #include "varimap/stage/stage_main.h"

@@ -6,6 +6,7 @@
 
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/polygon_cutting.h"
+#include "varimap/mesh/pulled_back.h"
 
 namespace varimap {
 

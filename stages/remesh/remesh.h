@@ -5,7 +5,6 @@
 
 #include "varimap/mesh/io/polygon_soup.h"
 #include "varimap/mesh/surface.h"
-#include "varimap/results/surface_map.h"
 
 namespace varimap {
 

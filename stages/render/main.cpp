@@ -8,7 +8,7 @@
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/correspondence.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {

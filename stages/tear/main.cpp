@@ -4,7 +4,7 @@
 
 #include "stages/tear/tear.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;

@@ -10,9 +10,9 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
+#include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh/weld.h"
-#include "varimap/results/surface_map.h"
 
 namespace varimap {
 

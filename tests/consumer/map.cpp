@@ -1,7 +1,7 @@
 #include <varimap/artifact/artifact.h>
 #include <varimap/map_surfaces.h>
 #include <varimap/mesh/io/mesh_file.h>
-#include <varimap/results/surface_map.h>
+#include <varimap/results/map_table.h>
 
 #include <cmath>
 #include <cstdio>

@@ -16,7 +16,7 @@
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 namespace {

@@ -25,7 +25,7 @@
 #include "varimap/core/warnings.h"
 #include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/io/ply_columns.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 namespace {

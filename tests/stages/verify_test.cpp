@@ -9,7 +9,7 @@
 #include "fixtures/temporary_folder.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/io/mesh_file.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 namespace {

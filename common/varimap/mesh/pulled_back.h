@@ -22,4 +22,12 @@ inline Points positions(const TriangleMesh& mesh, const PointMap& points) {
     return pulled_back(mesh.vertices, mesh, points);
 }
 
+/// The same of images on `target` that may be nowhere: there the rows of `fallback`.
+inline Points image_positions(const PointMap& map, const TriangleMesh& target, const Points& fallback) {
+    Points positions = fallback;
+    for (std::size_t i = 0; i < map.size(); ++i)
+        if (map[i].face >= 0) positions.row(Eigen::Index(i)) = position(target, map[i]).transpose();
+    return positions;
+}
+
 }  // namespace varimap

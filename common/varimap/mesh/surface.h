@@ -70,4 +70,8 @@ SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh);
 /// face uses the input vertex.
 MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex);
 
+/// The surface's input with the faces of its file alone, without those that a repair added: what maps are
+/// measured on.
+TriangleMesh without_added_faces(const Surface& surface);
+
 }  // namespace varimap

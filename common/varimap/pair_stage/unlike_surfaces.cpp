@@ -8,8 +8,8 @@
 #include "varimap/core/log.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/handles.h"
+#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/results/surface_map.h"
 
 namespace varimap {
 

@@ -1,3 +1,5 @@
+#include "varimap/results/map_arrays.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -7,7 +9,6 @@
 
 #include "varimap/artifact/npy.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/results/surface_map.h"
 
 namespace varimap {
 

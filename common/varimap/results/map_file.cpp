@@ -16,7 +16,7 @@
 #include "varimap/mesh/io/npy_array.h"
 #include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 

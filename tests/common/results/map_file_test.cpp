@@ -11,7 +11,8 @@
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/results/surface_map.h"
+#include "varimap/results/map_arrays.h"
+#include "varimap/results/map_table.h"
 
 namespace varimap {
 namespace {

@@ -7,6 +7,8 @@
 #include <locale>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/pulled_back.h"
+#include "varimap/results/map_table.h"
 #include "varimap/results/quality_numbers.h"
 
 namespace varimap {
