@@ -125,7 +125,8 @@ TEST(Gromov, OfACurveOntoItselfIsTheIdentityOrItsReverse) {
     const auto partners = best_partners(plan.plan.entries, GeodesicGraph(round), .02);
     int ends = 0;
     for (const int i : {0, point_count - 1})
-        ends += std::min(partners[std::size_t(i)].point, point_count - 1 - partners[std::size_t(i)].point) <= 6;
+        ends +=
+            std::min(partners[std::size_t(i)].point, point_count - 1 - partners[std::size_t(i)].point) <= 6;
     EXPECT_EQ(ends, 2);
 }
 
