@@ -89,7 +89,7 @@ std::pair<int, int> pixels_of_row(const Eigen::Matrix<double, 2, 3>& corner, int
 PixelLayout faces_on_pixels(const ObjModel& target, const std::string& path, int n) {
     const std::size_t pixels = std::size_t(n) * std::size_t(n);
     constexpr int most_layers = 32;  // in the mean; what is drawn twice on purpose has a few
-    double visits = 0;
+    double drawn = 0;
     PixelLayout layout{std::vector<SurfacePoint>(pixels), std::vector<char>(pixels, 0)};
     for (int f = 0; f < int(target.uv_of.rows()); ++f) {
         Eigen::Matrix<double, 2, 3> corner;
@@ -105,11 +105,11 @@ PixelLayout faces_on_pixels(const ObjModel& target, const std::string& path, int
                   bottom = std::min(n - 1, int(corner.row(1).maxCoeff()));
         for (int y = top; y <= bottom; ++y) {
             const auto [left, right] = pixels_of_row(corner, y, n);
-            visits += std::max(0, right - left + 1);
             for (int x = left; x <= right; ++x) {
                 const Vec2 b = inverse * (Vec2(x, y) - corner.col(0));
                 const Vec3 at(1 - b.sum(), b[0], b[1]);
                 if (at.minCoeff() < 0) continue;
+                ++drawn;
                 const std::size_t pixel = std::size_t(y) * std::size_t(n) + std::size_t(x);
                 SurfacePoint& first = layout.on[pixel];
                 if (first.face < 0)
@@ -118,7 +118,7 @@ PixelLayout faces_on_pixels(const ObjModel& target, const std::string& path, int
                     layout.overlapped[pixel] = 1;
             }
         }
-        if (visits > most_layers * double(pixels))
+        if (drawn > most_layers * double(pixels))
             throw InputError(fmt::format(
                 "{}: more than {} faces lie over each other in its texture coordinates, as with a "
                 "tiled texture; give --onto an OBJ whose faces have a place each",

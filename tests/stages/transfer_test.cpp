@@ -1073,6 +1073,16 @@ TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
                 HasSubstr("zero.obj: its texture coordinates cover none of 61 x 61 pixels; give --onto"));
 }
 
+TEST_F(Transfer, BakesFacesThatAreFarSmallerThanPixels) {
+    const TriangleMesh fine = shapes::square(100);
+    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
+    TransferRequest request;
+    request.texture = write("fine.obj", obj_of(fine, in_its_own_plane(fine), "skin.mtl"));
+    request.onto = request.texture;
+    request.bake = {4, 0};
+    EXPECT_EQ(warnings_of(request, identity_onto(fine)), "");
+}
+
 TEST_F(Transfer, RefusesWhatWouldHaveNoEffect) {
     TransferRequest request;
     request.regions = {write("r.txt", "3\n")};
