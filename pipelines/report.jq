@@ -1,6 +1,7 @@
 # What quality.json says, for people: a verdict, every check with its grade, warnings, the stages of those that make one look
 # (alarms), both as what to look at before the map is used (look), times.
-#   jq -f report.jq quality.json
+#   jq [--arg changed TEXT] -f report.jq quality.json
+# TEXT: what has changed since the map was made, to be looked at as well.
 def fixed($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
 def grade($good; $usable): if . <= $good then "good" elif . <= $usable then "usable" else "look here" end;
 # badness: 1 at the end of what is usable.
@@ -25,13 +26,13 @@ def direction($words):
 # Of what preprocess recorded: a few faces, edges or vertices were repaired, or a few components joined, and nothing changed the
 # surface's form but what was asked for: holes are never filled without.
 def little_repaired:
-    # An edge that is cut is one defect with the vertices at its ends, which are split for it.
-    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, ([.cut_edges, .split_vertices] | max), .closed_slits]
-        | add // 0) as $elements
-    | any($elements, .turned_faces, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
-        and $elements <= ([10, .003 * (.input_faces // 0)] | max) and (.bridges // 0) <= 10
-        # Turning faces changes no form.
-        and (.turned_faces // 0) <= ([10, .01 * (.input_faces // 0)] | max)
+    (.input_faces // 0) as $faces
+    | def at_most($share): (. // 0) <= ([10, $share * $faces] | max);
+    ([.not_finite_faces, .degenerate_faces, .duplicate_faces, .cut_edges, .closed_slits] | add) as $elements
+    | any($elements, .split_vertices, .turned_faces, .bridges, .filled_holes, .asked_cuts; . != null and . > 0)
+        and ($elements | at_most(.003)) and (.bridges // 0) <= 10
+        # Turning faces changes no form; nor does parting what touches in a point, as around the ragged holes of a scan.
+        and (.turned_faces | at_most(.01)) and (.split_vertices | at_most(.03))
         and .cut_handles == .asked_cuts and all(.opened_edges, .unfilled_holes, .dropped_components; . == null);
 
 [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
@@ -45,11 +46,13 @@ def little_repaired:
         if .continued > 1 then (if (.probability // 0) >= 0.5 then 1.5 else 0 end)
         elif .confident then 0 else 4 - 2 * (.probability // 0) end; 1; 2))] as $checks
 | (.exploration.continued // 1) as $continued | (.stages // {}) as $stages
-# Every textured mesh is welded at its seams: nothing to look at.
+# Every textured mesh is welded at its seams, and faces without area have no form to lose: nothing to look at.
 | [.warnings[]? | select($continued == 1 or (.stage | startswith("explore ") | not))
     | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not)] as $warnings
-| [$warnings[] | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | little_repaired) | not)] as $alarms
-| (($alarms | map(.stage) | unique | map("what \(.) warns of")) + ($checks | map(select(.grade == "look here").what))) as $look
+| [$warnings[] | select(.message | test("^faces without area removed: ") | not)
+    | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | little_repaired) | not)] as $alarms
+| (($alarms | map(.stage) | unique | map("what \(.) warns of")) + ($checks | map(select(.grade == "look here").what))
+    + [$ARGS.named.changed // empty | select(. != "")]) as $look
 | {verdict: (if $look | length > 0 then "look here"
         elif any($checks[]; .grade == "usable") then "usable" else "good" end),
     warnings: ($warnings | map("\(.stage): \(.message)")), alarms: ($alarms | map(.stage) | unique), look: $look, checks: $checks,

@@ -81,8 +81,8 @@ FoundPlacement find_on_surfaces(const PairContext& sketches, const Sides& surfac
 void warn_of_strain(double strain, PartSide part, bool has_landmarks) {
     if (strain > PartRegion::much_strain)
         warn(
-            "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it{}? look at the "
-            "picture, {}",
+            "the {} had to be strained to lie on the {} (by {:.2f}): is it a part of it{}? Look at the "
+            "picture, {}; if it is all there but for holes, give --fill-holes all instead of --part",
             part == PartSide::source ? "source" : "target", part == PartSide::source ? "target" : "source",
             strain, has_landmarks ? ", and are the landmarks right" : "",
             has_landmarks ? "and give more landmarks" : "and give landmarks");

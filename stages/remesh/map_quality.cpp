@@ -41,16 +41,59 @@ std::optional<Coverage> coverage_when_closed(const PointMap& map, const Surface&
     return measure_coverage(map, std::move(closed.mesh), without_added_faces(target));
 }
 
+/// Marks the corners of the target's own faces that lie on faces which a repair added.
+VertexData<char> rim_of_added_faces(const Surface& target) {
+    VertexData<char> own(target.input.vertex_count(), 0), added = own;
+    for (int f = 0; f < target.input.face_count(); ++f)
+        for (const int v : target.input.faces.row(f))
+            (target.link.face[std::size_t(f)] < 0 ? added : own)[v] = 1;
+    for (int v = 0; v < target.input.vertex_count(); ++v) own[v] = own[v] && added[v];
+    return own;
+}
+
+/// Images on faces that a repair added were taken to the rim of these, on top of each other, and their
+/// triangles folded: they are none on the target's own faces.
+PointMap without_images_on_added_faces(PointMap map, const Surface& target) {
+    if (without_added_faces(target).face_count() == target.input.face_count()) return map;
+    const VertexData<char> on_rim = rim_of_added_faces(target);
+    for (SurfacePoint& image : map) {
+        if (image.face < 0) continue;
+        int corners = 0, rim_corners = 0;
+        for (int k = 0; k < 3; ++k)
+            if (image.barycentric[k] > 0) {
+                ++corners;
+                rim_corners += on_rim[target.input.faces(image.face, k)];
+            }
+        if (corners < 3 && rim_corners == corners) image = {};
+    }
+    return map;
+}
+
+/// The degree goes by all images: what encloses a point is closed.
+Verification verify_own_images(const PointMap& own, const PointMap& all, const TriangleMesh& source,
+                               const TriangleMesh& target) {
+    Verification found = verify_map(own, source, target);
+    const auto is_none = [](const SurfacePoint& image) { return image.face < 0; };
+    if (!found.degree && std::ranges::count_if(own, is_none) > std::ranges::count_if(all, is_none) &&
+        is_closed(source))
+        found.degree = verify_map(all, source, target).degree;
+    return found;
+}
+
 MeasuredDirection measure_direction(const PointMap& map, const Surface& from, const Surface& onto,
                                     double area_bound) {
     const TriangleMesh source = without_added_faces(from);
     const TriangleMesh& target = onto.input;
-    const FaceData<TriangleDistortion> triangles = measure_triangles(map, source, target);
+    const PointMap own_images = without_images_on_added_faces(map, onto);
+    const FaceData<TriangleDistortion> triangles = measure_triangles(own_images, source, target);
     Twist twist = measure_twist(map, source, target);
     if (twist.vertex >= 0) twist.vertex = number_in_file(twist.vertex, from.link);
-    return {measure_distortion(triangles),         share_within_area_bound(triangles, source, area_bound),
-            measure_coverage(map, source, target), coverage_when_closed(map, from, source, onto),
-            verify_map(map, source, target),       twist};
+    return {measure_distortion(triangles),
+            share_within_area_bound(triangles, source, area_bound),
+            measure_coverage(map, source, target),
+            coverage_when_closed(map, from, source, onto),
+            verify_own_images(own_images, map, source, target),
+            twist};
 }
 
 InTheEnd of_both(const MeasuredDirection& there, const MeasuredDirection& back) {
@@ -63,6 +106,15 @@ InTheEnd of_both(const MeasuredDirection& there, const MeasuredDirection& back) 
 bool has_many_handles(const TriangleMesh& mesh) {
     constexpr int many = 10;
     return summarise_topology(mesh).genus >= many;
+}
+
+ComponentImages measure_components_in_files(const PointMap& A_to_B, const PointMap& B_to_A, const Surface& A,
+                                            const Surface& B) {
+    ComponentImages found =
+        measure_components(A_to_B, B_to_A, without_added_faces(A), without_added_faces(B));
+    for (ComponentImage& one : found.of_source) one.vertex = number_in_file(one.vertex, A.link);
+    for (ComponentImage& one : found.of_target) one.vertex = number_in_file(one.vertex, B.link);
+    return found;
 }
 
 LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A, const PointPairs& from_A,
@@ -106,6 +158,8 @@ MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surfac
     quality.A_to_B = measure_direction(A_to_B, A, B, bound);
     quality.B_to_A = measure_direction(B_to_A, B, A, bound);
     quality.in_the_end = of_both(quality.A_to_B, quality.B_to_A);
+    quality.components = measure_components_in_files(A_to_B, B_to_A, A, B);
+    quality.in_the_end.components_astray = quality.components.are_astray();
     quality.in_the_end.inside_out = one_is_inside_out(A, B);
     quality.round_trip = measure_round_trip(A_to_B, B_to_A, A.input, B.input);
     const PointPairs landmarks = landmarks_on_inputs(pair.record, A, B);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "varimap/mesh/surface.h"
+#include "varimap/quality/components.h"
 #include "varimap/quality/quality.h"
 #include "varimap/quality/twist.h"
 #include "varimap/results/candidate.h"
@@ -15,8 +16,8 @@
 
 namespace varimap {
 
-/// How good one direction of a map is, measured on the inputs; faces that a repair added to the source do not
-/// count.
+/// How good one direction of a map is, measured on the inputs. Faces that a repair added to the source do not
+/// count; nor, in distortion and verification, do triangles with an image on one that it added to the target.
 struct MeasuredDirection {
     Distortion distortion;
     double within_area_bound = 0;  ///< share_within_area_bound (quality.h), of the plan's bound
@@ -56,6 +57,7 @@ struct MapQuality {
     MeasuredDirection A_to_B, B_to_A;
     InTheEnd in_the_end;                  ///< of both directions together
     RoundTrip round_trip;                 ///< A to B to A
+    ComponentImages components;           ///< their vertices by the numbers in the files
     LandmarkQuality landmarks;            ///< empty without landmarks
     std::optional<ChoiceQuality> choice;  ///< where exploration chose the map
     /// Of half its input's area, faces are no rounder than this: thinness (thin_faces.h).

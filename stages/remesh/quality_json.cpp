@@ -151,6 +151,18 @@ Json to_json(const std::vector<LandmarkSurroundings>& surroundings) {
     return list;
 }
 
+Json to_json(const std::vector<ComponentImage>& components) {
+    Json list = Json::array();
+    for (const ComponentImage& one : components) {
+        list.push_back({{"vertex", one.vertex},
+                        {"area_percent", 100 * one.area},
+                        {"on_that_percent", 100 * one.on_that},
+                        {"has_partner", one.has_partner}});
+        if (one.onto >= 0) list.back()["onto"] = one.onto;
+    }
+    return list;
+}
+
 /// JSON has no infinities: members that are not finite are left out rather than written as null. In lists,
 /// where one stands for a landmark, they are null.
 void remove_not_finite(Json& json) {
@@ -184,6 +196,9 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     json["target_to_source"] = to_json(quality.B_to_A, map.untangling.B_to_A, A);
     if (quality.choice) json["exploration"] = to_json(*quality.choice, record);
     json["round_trip"] = {{"mean", quality.round_trip.mean}, {"p95", quality.round_trip.p95}};
+    if (const ComponentImages& components = quality.components; components.are_several())
+        json["components"] = {{"source", to_json(components.of_source)},
+                              {"target", to_json(components.of_target)}};
     json["source"] = sizes(A);
     json["target"] = sizes(B);
     json["levels"] = levels(pair.trace);

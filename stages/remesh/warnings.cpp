@@ -61,6 +61,17 @@ void warn_of_spikes(const DoubtedLandmarks& spikes) {
             in_words(spikes), spikes.farthest);
 }
 
+/// Of a round surface, which few points hardly turn, all landmarks may be met a little alone: no spike by
+/// itself, but together another map.
+void warn_of_loose(const DoubtedLandmarks& loose, std::size_t count) {
+    constexpr std::size_t several = 3;
+    if (loose.numbers.size() < several || 2 * loose.numbers.size() <= count) return;
+    warn(
+        "most landmarks are met alone: around {} the map is off by up to {:.2f} sqrt(area). Are they right? "
+        "Look at the picture; if they are, give more, on all sides: few hardly turn what is round",
+        in_words(loose), loose.farthest);
+}
+
 void warn_of_exchanged(const std::vector<std::pair<int, int>>& exchanged) {
     if (!exchanged.empty())
         warn("landmarks {} look exchanged: each one's surroundings go to the other's partner",
@@ -79,29 +90,34 @@ void warn_of_shift(const std::vector<char>& is_off, const std::vector<char>& is_
         warn("all landmarks from {} on, to the last one, are off: is the list one row off?", first + 1);
 }
 
-/// Pinned landmarks that the map does not meet, or meets with a spike. Those between vertices are drawn, not
-/// held: by .01 they are off at most where nothing contradicts them. Of the 142 right landmarks of the
-/// known pairs 101 are within the radius, and all but 7 within 4 times; these 7, on animals of other species,
-/// are parts that the map takes elsewhere.
+/// Pinned landmarks that the map does not meet, or meets with a spike, or most of them nearly so. Those
+/// between vertices are drawn, not held: by .01 they are off at most where nothing contradicts them. Of the
+/// 142 right landmarks of the known pairs 101 are within the radius, and all but 7 within 4 times; these 7,
+/// on animals of other species, are parts that the map takes elsewhere.
 void warn_of_landmarks(const LandmarkQuality& landmarks) {
-    constexpr double missed = 0.02, elsewhere = 0.02, times = 4;
+    constexpr double missed = 0.02, elsewhere = 0.02, times = 4, loosely = 1.5;
     const std::size_t count = landmarks.residuals.size();
     std::vector<char> is_exchanged(count, 0), is_off(count, 0);
     for (const auto& [i, j] : landmarks.exchanged)
         is_exchanged[std::size_t(i)] = is_exchanged[std::size_t(j)] = 1;
-    DoubtedLandmarks not_met, spikes;
+    DoubtedLandmarks not_met, spikes, loose;
     for (std::size_t k = 0; k < count; ++k) {
         const LandmarkSurroundings& around = landmarks.surroundings[k];
         const bool is_missed = landmarks.residuals[k] > missed;
-        const bool is_spike =
-            !is_missed && !is_exchanged[k] && around.distance > elsewhere && times_radius(around) > times;
+        const bool is_loose =
+            !is_missed && !is_exchanged[k] && around.distance > elsewhere && times_radius(around) > loosely;
+        const bool is_spike = is_loose && times_radius(around) > times;
         if (is_missed) not_met.add(k, landmarks.residuals[k]);
+        if (is_loose) loose.add(k, around.distance);
         if (is_spike) spikes.add(k, around.distance);
         is_off[k] = is_missed || is_spike;
     }
     warn_of_missed(not_met);
     warn_of_exchanged(landmarks.exchanged);
-    warn_of_spikes(spikes);
+    if (spikes.numbers.empty())
+        warn_of_loose(loose, count);
+    else
+        warn_of_spikes(spikes);
     warn_of_shift(is_off, is_exchanged);
 }
 
@@ -187,6 +203,37 @@ void warn_of_twist(const MapQuality& quality, const PairRecord& record) {
         landmarks_to_give(record));
 }
 
+/// "that of vertex 12 (3.1% of the area)", of the first few without a partner; empty if all have one.
+std::string without_partner(const std::vector<ComponentImage>& components) {
+    constexpr std::size_t few = 4;
+    std::vector<std::string> names;
+    for (const ComponentImage& one : components)
+        if (!one.has_partner)
+            names.push_back(
+                fmt::format("that of vertex {} ({:.2g}% of the area)", one.vertex, 100 * one.area));
+    if (names.size() > few) {
+        const std::size_t more = names.size() - few + 1;
+        names.resize(few - 1);
+        names.push_back(fmt::format("{} more", more));
+    }
+    return names.empty() ? "" : list_in_words(std::move(names));
+}
+
+void warn_of_components(const ComponentImages& components, const PairRecord& record) {
+    const std::string source = without_partner(components.of_source),
+                      target = without_partner(components.of_target);
+    if (source.empty() && target.empty()) return;
+    std::vector<std::string> sides;
+    if (!source.empty()) sides.push_back("of the source " + source);
+    if (!target.empty()) sides.push_back("of the target " + target);
+    warn("components have no partner of their own, and lie on what others lie on, or on nothing: {}. {}",
+         list_in_words(std::move(sides)),
+         components.are_astray()
+             ? fmt::format("Give {} on those that belong together, or map them one by one",
+                           landmarks_to_give(record))
+             : std::string("What the other surface lacks is better left out"));
+}
+
 }  // namespace
 
 void warn_of(const MapQuality& quality, const PairRecord& record) {
@@ -198,6 +245,7 @@ void warn_of(const MapQuality& quality, const PairRecord& record) {
     if (!tears(quality.A_to_B) && !tears(quality.B_to_A))
         warn_of_strain(quality.in_the_end.dirichlet, slivers);
     warn_of_twist(quality, record);
+    warn_of_components(quality.components, record);
 }
 
 }  // namespace varimap

@@ -90,11 +90,20 @@ cp plain.off gone.off
 map gone.off bent.off -o without "${coarse[@]}"
 rm gone.off
 "$varimap" report without >out.txt 2>log || fail "report without the meshes: $(<log)"
-grep -q '^verdict ' out.txt || fail "report without the meshes: $(<out.txt)"
+grep -q '^verdict  look here: .*gone.off: the mesh is not there any more' out.txt || fail "report without the meshes: $(<out.txt)"
+! "$varimap" report plain | grep '^verdict ' | grep 'not there\|changed' || fail "report with the meshes as they were"
 expect_exit 6 "$varimap" view without
 grep -q 'the mesh is not there any more' log || fail "a view without the meshes"
 rm without/source_to_target.csv
 expect_exit 6 "$varimap" report without
+
+# Nor are numbers passed off as those of a mesh that took the place of the one that was mapped.
+cp plain.off replaced.off
+map replaced.off bent.off -o earlier "${coarse[@]}"
+cp bent.off replaced.off
+"$varimap" report earlier >out.txt 2>log || fail "report of a mesh that was replaced: $(<log)"
+grep -q '^verdict  look here: .*replaced.off: changed since the map was made; run varimap map again' out.txt ||
+    fail "report of a mesh that was replaced: $(<out.txt)"
 
 # Results that were moved with the meshes of their batch.
 mkdir meshes && cp plain.off bent.off meshes

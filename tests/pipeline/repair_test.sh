@@ -162,7 +162,9 @@ while read -r record says; do
 done <<'LIST'
 {"input_faces":13800,"cut_edges":1,"split_vertices":1} good:  of 1
 {"input_faces":5000,"cut_edges":9,"split_vertices":15} good:  of 1
-{"input_faces":5000,"cut_edges":9,"split_vertices":16} look here: preprocess a of 1
+{"input_faces":5000,"cut_edges":16,"split_vertices":16} look here: preprocess a of 1
+{"input_faces":5000,"split_vertices":150} good:  of 1
+{"input_faces":5000,"split_vertices":151} look here: preprocess a of 1
 {"input_faces":200,"degenerate_faces":10} good:  of 1
 {"input_faces":200,"degenerate_faces":11} look here: preprocess a of 1
 {"input_faces":13800,"turned_faces":138,"welded_vertices":5000} good:  of 1

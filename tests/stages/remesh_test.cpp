@@ -345,6 +345,40 @@ TEST(RemeshWarnings, AreOfATwistByTheDirectionThatHasMore) {
         std::string::npos);
 }
 
+TEST(RemeshWarnings, AreOfLandmarksMostOfWhichAreMetAlone) {
+    MapQuality quality;
+    quality.A_to_B.coverage.share = quality.B_to_A.coverage.share = 1;
+    quality.median_thinness_A = quality.median_thinness_B = .5;
+    const LandmarkSurroundings met{.distance = .01, .radius = .02}, alone{.distance = .04, .radius = .02};
+    quality.landmarks = {{0, 0, 0, 0, 0, 0}, {alone, met, alone, met, met, alone}, {}};
+    EXPECT_TRUE(said_of(quality, {}).empty()) << "half of them";
+    quality.landmarks.surroundings[3] = alone;
+    const auto said = said_of(quality, {});
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(
+        said[0].find("most landmarks are met alone: around landmarks 1, 3, 4 and 6 the map is off by up "
+                     "to 0.04 sqrt(area)"),
+        std::string::npos);
+}
+
+TEST(RemeshWarnings, AreOfComponentsWithoutAPartner) {
+    MapQuality quality;
+    quality.A_to_B.coverage.share = quality.B_to_A.coverage.share = 1;
+    quality.median_thinness_A = quality.median_thinness_B = .5;
+    quality.components.of_source = {{0, .9, 0, 1, true}, {70, .1, 0, 1, false}};
+    quality.components.of_target = {{0, 1, 0, 1, true}};
+    auto said = said_of(quality, {});
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("of the source that of vertex 70 (10% of the area). What the other surface lacks"),
+              std::string::npos);
+    quality.components.of_target.push_back({5, .003, -1, 0, false});
+    said = said_of(quality, {});
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("vertex 70 (10% of the area) and of the target that of vertex 5 (0.3% of the area)"
+                           ". Give landmarks on those that belong together"),
+              std::string::npos);
+}
+
 TEST(RemeshWarnings, AreOfLandmarksThenOfTheChoiceThenOfTears) {
     PairRecord record;
     record.candidates.resize(2);

@@ -80,6 +80,17 @@ std::vector<double> loop_openings(const TriangleMesh& mesh, const Edges& edges, 
     return openings;
 }
 
+double signed_volume_when_closed(const TriangleMesh& mesh) {
+    double volume = signed_volume(mesh);
+    for (const BoundaryLoop& loop : boundary_loops(mesh, find_edges(mesh))) {
+        Vec3 middle = Vec3::Zero();
+        for (const int v : loop) middle += mesh.vertex(v) / double(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            volume += middle.dot(mesh.vertex(loop[i]).cross(mesh.vertex(loop[(i + 1) % loop.size()]))) / 6;
+    }
+    return volume;
+}
+
 bool is_sheet(const TriangleMesh& mesh) {
     constexpr double least = 3;
     const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));

@@ -33,6 +33,10 @@ std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& bound
 /// point to all sides and cancel.
 std::vector<double> loop_openings(const TriangleMesh& mesh, const Edges& edges, const Boundary& boundary);
 
+/// The volume (signed_volume, topology.h) that a mesh encloses once each of its boundary loops is closed by
+/// triangles to the middle of its vertices.
+double signed_volume_when_closed(const TriangleMesh& mesh);
+
 /// Whether it is mostly rim, as a leaf, a shirt or the scan of a face are: its boundary is at least 3
 /// sqrt(area) long (a disc's 3.5, a hemisphere's 2.5). Chosen by hand. Such a surface bends easily, and its
 /// rim tells where its points are.

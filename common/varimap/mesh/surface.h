@@ -54,8 +54,9 @@ const TriangleMesh& file_of(const Surface& surface);
 /// Whether it is a part that was cut out of its file (part_region.h).
 bool is_cut_out(const Surface& surface);
 
-/// Whether of two closed surfaces one is inside out, its faces looking inward, and neither was mirrored: all
-/// maps that keep the orientation are then those of a mirror image.
+/// Whether of two surfaces one is inside out, its faces looking inward, and neither was mirrored: all maps
+/// that keep the orientation are then those of a mirror image. Of open ones, too, but for sheets (boundary.h)
+/// and for those that enclose too little (signed_volume_when_closed) to have an inside.
 bool one_is_inside_out(const Surface& A, const Surface& B);
 
 /// A point of a mesh as barycentric coordinates of another face that holds it too: exact by the vertices that

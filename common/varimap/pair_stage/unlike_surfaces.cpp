@@ -60,21 +60,25 @@ Opening widest_opening(const Surface& surface) {
             int(std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l >= wide * unit; }))};
 }
 
+/// Which comes first: of a whole with holes that is taken for a part more can go wrong than the other way
+/// round.
 std::string how_to_close(const Opening& own) {
     if (own.long_loops > 1)
-        return fmt::format("; if its {} long loops are holes, --fill-holes all closes them", own.long_loops);
-    if (own.width < as_holes) return fmt::format("; if it is a hole, --fill-holes {} closes it", own.edges);
-    return "";
+        return fmt::format(
+            "If its {} long loops are holes, --fill-holes all closes them; try that first. As ",
+            own.long_loops);
+    if (own.width < as_holes)
+        return fmt::format("If it is a hole, --fill-holes {} closes it. As ", own.edges);
+    return "As ";
 }
 
 void warn_of_part(const Opening& own, const Opening& other, const char* which, const char* whole) {
     if (own.width < wide || other.width > much_narrower * own.width) return;
     warn(
         "the {} looks like a part of the {}: it ends at a loop, {:.2f} sqrt(area) around, where the {} has "
-        "none "
-        "beyond {:.2f}; a part is stretched over the whole, so give --part {}, or cut the {} to the same "
-        "part{}",
-        which, whole, own.width, whole, other.width, which, whole, how_to_close(own));
+        "none beyond {:.2f}. {}a part it is stretched over the whole: then give --part {}, or cut the {} to "
+        "the same part",
+        which, whole, own.width, whole, other.width, how_to_close(own), which, whole);
 }
 
 /// Clothes have up to four loops, and two of a kind as many.
@@ -116,7 +120,7 @@ void warn_of_inside_out(const Surface& A, const Surface& B) {
             "the {} is inside out: its faces look inward, so that it is mapped as a mirror image. If it "
             "is one, as a mesh that was mirrored by a change of sign, all is well; if not, give "
             "--mirror, which reverses the faces",
-            signed_volume(A.mesh) < 0 ? "source" : "target");
+            signed_volume_when_closed(A.mesh) < 0 ? "source" : "target");
 }
 
 namespace {

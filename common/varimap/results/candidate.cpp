@@ -130,6 +130,7 @@ Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional
         probability *= plausibility_when_covered(finished->coverage);
         if (finished->inside_out) probability /= 2;  // as many are mirror images as not
         if (finished->twist >= doubtful_twist) probability /= 2;
+        if (finished->components_astray) probability /= 2;
     }
     return {margin, probability, probability >= sure};
 }
@@ -159,6 +160,7 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
                     [](const Candidate& one) { return one.turned_about_axis; }))
         add("turned about an axis it looks nearly the same");
     if (finished && finished->inside_out) add("one of the surfaces is inside out");
+    if (finished && finished->components_astray) add("components lie on others than their partners");
     if (finished && finished->twist >= doubtful_twist)
         add(fmt::format("finished, it twists a part by {:.0f} degrees", finished->twist));
     if (finished && finished->coverage < covered)

@@ -65,6 +65,8 @@ struct InTheEnd {
     /// One of the surfaces is inside out (surface.h), so that left and right are exchanged unless it is a
     /// mirror image of the other.
     bool inside_out = false;
+    /// Components of both lie on others than their partners (quality/components.h).
+    bool components_astray = false;
     /// One of the surfaces has many handles, as scans of bones have: its walls tear in any map, whose energy
     /// then tells nothing.
     bool many_handles = false;

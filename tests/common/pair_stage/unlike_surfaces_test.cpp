@@ -150,6 +150,23 @@ TEST(UnlikeSurfaces, OneInsideOutIsSaid) {
     EXPECT_EQ(warnings_of(ball(false, true), out), 0u);
 }
 
+/// Of what is open, too, unless it is a sheet, which has no inside.
+TEST(UnlikeSurfaces, OneInsideOutIsSaidOfOpenSurfaces) {
+    const auto turned = [](TriangleMesh mesh) {
+        mesh.faces.col(1).swap(mesh.faces.col(2));
+        return mesh;
+    };
+    const Surface whole = ball(false, false), open = ball_cut_at(.85),
+                  inward = preprocess(turned(cut_ball(.85)), {});
+    EXPECT_EQ(warnings_of(open, whole), 0u);
+    ASSERT_EQ(warnings_of(inward, whole), 1u);
+    EXPECT_NE(logged_warnings().back().find("the source is inside out"), std::string::npos);
+    ASSERT_EQ(warnings_of(open, inward), 1u);
+    EXPECT_NE(logged_warnings().back().find("the target is inside out"), std::string::npos);
+    const Surface bowl = preprocess(cut_ball(-.5), {}), turned_bowl = preprocess(turned(cut_ball(-.5)), {});
+    EXPECT_EQ(warnings_of(bowl, turned_bowl), 0u);
+}
+
 /// A ball onto itself, vertex v to `image(v, random)`.
 template <class Image>
 std::size_t warnings_of_map(const Surface& ball, Image image) {

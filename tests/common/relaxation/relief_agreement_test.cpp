@@ -4,12 +4,15 @@
 
 #include <cmath>
 
+#include "fixtures/bad_maps.h"
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/relaxation/untangling.h"
 
 namespace varimap {
 namespace {
+
+using shapes::mean_error;
 
 /// A sphere with bumps, which an isometry's energy hardly keeps from turning.
 TriangleMesh bumpy_sphere() {
@@ -20,12 +23,6 @@ TriangleMesh bumpy_sphere() {
             1 + 0.03 * std::sin(6 * p.x() + 1) * std::sin(5 * p.y()) * std::cos(4 * p.z());
     }
     return mesh;
-}
-
-double mean_error(const PointMap& map, const TriangleMesh& mesh) {
-    double sum = 0;
-    for (int v = 0; v < mesh.vertex_count(); ++v) sum += (position(mesh, map[v]) - mesh.vertex(v)).norm();
-    return sum / mesh.vertex_count();
 }
 
 TEST(Relief, IsHighOnBumpsAndLowInDents) {
