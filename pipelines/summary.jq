@@ -4,11 +4,13 @@ def fixed(d): . * pow(10; d) | round / pow(10; d);
 # Rounded down, so that what is not sure does not look as if it were.
 def in_hundredths: . * 100 + 1e-9 | floor / 100;
 def counted(one; several): "\(.) \(if . == 1 then one else several end)";
+# What a surface's own holes lack no map reaches.
+def reached: .when_closed // .;
 def direction(name; d): "  \(name): \(d.verification.reversed_count | counted("triangle"; "triangles")) reversed "
     + "(\(d.verification.reversed_area_percent | fixed(2)) % of the area), \(d.verification.branch_points | counted("branch point"; "branch points")), "
-    + "coverage \(d.coverage * 100 | fixed(1)) %, conformal distortion \(d.conformal_distortion.p50 | fixed(2))"
+    + "coverage \(d | reached.coverage * 100 | fixed(1)) %\(if d.when_closed then " (holes closed)" else "" end), conformal distortion \(d.conformal_distortion.p50 | fixed(2))"
     + " (median), \(d.conformal_distortion.p95 | fixed(2)) (95 %)";
-def uncovered(name; d): d.uncovered | select(length > 0) | "  not reached on the \(name): "
+def uncovered(name; d): d | reached.uncovered | select(length > 0) | "  not reached on the \(name): "
     + (.[:3] | map("\(.area_percent | fixed(1)) % of the area around vertex \(.vertex)") | join(", "))
     + (if length > 3 then " and \(length - 3) more" else "" end);
 (.part | select(. != null) | "  the \(.is) lies on \(.area_percent | fixed(1)) % of the \(if .is == "source" then "target" else "source" end); what follows is about that part"),

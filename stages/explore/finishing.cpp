@@ -57,7 +57,7 @@ class JointDescent {
           appraisal_(appraisal),
           options_(options),
           known_(known),
-          turns_(context, appraisal),
+          loose_(context, appraisal),
           descent_(context, options.alternation, options.ironing),
           euclidean_ironing_(euclidean_ironing(options.ironing, options.euclidean_rounds)) {}
 
@@ -86,7 +86,7 @@ class JointDescent {
         return std::move(pursued_);
     }
     const LevelPair& level() const { return descent_.level(); }
-    const ComponentTurns& turns() const { return turns_; }
+    const LooseComponents& loose() const { return loose_; }
 
   private:
     /// Solves the first level, and returns its index.
@@ -167,7 +167,7 @@ class JointDescent {
     void judge(Pursued& one) const {
         one.images = vertex_images(one.solution, level(), context_);
         MapPair maps = to_maps(one.images, context_);
-        turns_.turn_as_the_rest(maps);
+        loose_.lay_as_the_rest(maps);
         one.cues = appraisal_.cues(maps);
         one.rough_scores.push_back(rough_score(one.cues));
     }
@@ -181,7 +181,7 @@ class JointDescent {
     const Appraisal& appraisal_;
     const FinishingOptions& options_;
     const std::vector<FinishedMap>& known_;
-    const ComponentTurns turns_;
+    const LooseComponents loose_;
     Descent descent_;
     const IroningOptions euclidean_ironing_;
     std::vector<Pursued> pursued_;
@@ -226,8 +226,8 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
         FinishedMap map{one.start,
                         read_out(one.solution, descent.level(), context, options.alternation.area_bound),
                         one.energy(), one.rough_scores};
-        if (const int turned = descent.turns().turn_as_the_rest(map.maps))
-            log("{} turned as the rest", counted(turned, "loose component", "loose components"));
+        if (const int turned = descent.loose().lay_as_the_rest(map.maps))
+            log("{} laid as the rest", counted(turned, "loose component", "loose components"));
         const auto is_same = [&](const FinishedMap& other) {
             return are_the_same(other.maps, map.maps, context, options.distinct);
         };

@@ -122,10 +122,10 @@ std::optional<int> SurfaceComponents::partner(int component, const PointMap& map
     return int(best - shares.begin());
 }
 
-ComponentTurns::ComponentTurns(const PairContext& context, const Appraisal& appraisal)
+LooseComponents::LooseComponents(const PairContext& context, const Appraisal& appraisal)
     : context_(context), appraisal_(appraisal), A_(context.A().surface), B_(context.B().surface) {}
 
-std::optional<int> ComponentTurns::counterpart(int component, const MapPair& maps) const {
+std::optional<int> LooseComponents::counterpart(int component, const MapPair& maps) const {
     constexpr std::size_t enough = 8;  // vertices that tell how a component lies
     if (A_.vertices(component).size() < enough) return {};
     const std::optional<int> there = A_.partner(component, maps.A_to_B, B_);
@@ -135,33 +135,118 @@ std::optional<int> ComponentTurns::counterpart(int component, const MapPair& map
     return there;
 }
 
-int ComponentTurns::turn_as_the_rest(MapPair& maps) const {
-    constexpr double otherwise = 20;  // degrees; components of cars that lie right differ by up to 18
-    // Of rough score, for each unit of area: what is laid rigidly is not relaxed.
-    constexpr double clearly = 2;
-    const int largest = A_.largest();
-    if (A_.count() < 2 || B_.count() < 2 || !counterpart(largest, maps)) return 0;
-    const bool opposed = are_opposed(context_.A().surface, context_.B().surface);
-    const Laying there(A_, B_, opposed), back(B_, A_, opposed);
+/// How the largest component lies, and how good the map is.
+struct LooseComponents::Rest {
+    Laying there, back;
+    bool opposed;
+    Eigen::Matrix3d turn;
+    double score;  ///< rough_score
+};
+
+/// Takes what is about the place `here` as the largest component is taken there.
+struct LooseComponents::Neighbourhood {
+    Vec3 here, image;
+    Eigen::Matrix3d turn;
+    double scale;
+
+    Vec3 operator()(const Vec3& place) const { return image + scale * (turn * (place - here)); }
+};
+
+LooseComponents::Neighbourhood LooseComponents::neighbourhood(const Vec3& place, const Points& images,
+                                                              bool opposed) const {
+    constexpr double wide = 0.2;  // units of sqrt(area)
+    const std::vector<int>& vertices = A_.vertices(A_.largest());
+    const Points here = A_.mesh().vertices(vertices, Eigen::all), there = images(vertices, Eigen::all);
+    const Eigen::VectorXd squared = (here.rowwise() - place.transpose()).rowwise().squaredNorm();
+    // Of what is far from all of it the nearest counts.
+    const Eigen::VectorXd weights = (-(squared.array() - squared.minCoeff()) / (2 * wide * wide)).exp() *
+                                    context_.A().surface.mass(vertices).array();
+    const auto middle = [&](const Points& points) {
+        return Vec3(points.transpose() * weights / weights.sum());
+    };
+    return {middle(here), middle(there), nearest_rotation(here, there, weights, opposed),
+            std::sqrt(B_.area(B_.largest()) / A_.area(A_.largest()))};
+}
+
+std::vector<std::optional<int>> LooseComponents::partners(const MapPair& maps) const {
+    std::vector<std::optional<int>> partners(std::size_t(A_.count()));
+    for (int a = 0; a < A_.count(); ++a) {
+        if (a == A_.largest() || A_.holds_any(a, context_.landmarks_A())) continue;
+        const std::optional<int> b = counterpart(a, maps);
+        if (b && !B_.holds_any(*b, context_.landmarks_B())) partners[std::size_t(a)] = b;
+    }
+    return partners;
+}
+
+bool LooseComponents::keep(MapPair& maps, MapPair laid, double much, Rest& rest) const {
+    const double score = rough_score(appraisal_.cues(laid));
+    if (score >= rest.score + much) return false;
+    maps = std::move(laid);
+    rest.score = score;
+    return true;
+}
+
+int LooseComponents::exchange(MapPair& maps, Rest& rest) const {
+    constexpr double nearer = 0.5, alike = 1.5;
+    // Of rough score, for each unit of area: the tubes that distances are measured along stretch from place
+    // to place.
+    constexpr double clearly = 25;
+    const auto are_alike = [](double a, double b) { return std::max(a, b) < alike * std::min(a, b); };
+    const auto middle_B = [&](int b) { return B_.mean(b, B_.mesh().vertices); };
     const Points images = positions(B_.mesh(), maps.A_to_B);
-    const Eigen::Matrix3d rest = A_.turn(largest, images, opposed);
-    double score = rough_score(appraisal_.cues(maps));
+    const auto place = [&](int a) {
+        const Vec3 middle = A_.mean(a, A_.mesh().vertices);
+        return neighbourhood(middle, images, rest.opposed)(middle);
+    };
+    std::vector<std::optional<int>> partner = partners(maps);
+    int exchanged = 0;
+    for (int a = 0; a < A_.count(); ++a)
+        for (int c = a + 1; c < A_.count(); ++c) {
+            auto &b = partner[std::size_t(a)], &d = partner[std::size_t(c)];
+            if (!b || !d || !are_alike(A_.area(a), A_.area(c)) || !are_alike(B_.area(*b), B_.area(*d)))
+                continue;
+            // Between the two: that both lie aside, as on a body that was bent, says nothing.
+            const Vec3 expected = place(c) - place(a), found = middle_B(*d) - middle_B(*b);
+            if ((expected + found).norm() >= nearer * (expected - found).norm()) continue;
+            MapPair laid = maps;
+            rest.there.lay(laid.A_to_B, a, *d, rest.turn);
+            rest.there.lay(laid.A_to_B, c, *b, rest.turn);
+            rest.back.lay(laid.B_to_A, *d, a, rest.turn.transpose());
+            rest.back.lay(laid.B_to_A, *b, c, rest.turn.transpose());
+            if (!keep(maps, std::move(laid), clearly * (A_.area(a) + A_.area(c)), rest)) continue;
+            std::swap(b, d);
+            exchanged += 2;
+        }
+    return exchanged;
+}
+
+int LooseComponents::turn(MapPair& maps, Rest& rest) const {
+    constexpr double otherwise = 20;  // degrees; components of cars that lie right differ by up to 18
+    constexpr double clearly = 2;     // as above: what is laid rigidly is not relaxed
+    const std::vector<std::optional<int>> partner = partners(maps);
+    const Points images = positions(B_.mesh(), maps.A_to_B);
     int turned = 0;
     for (int a = 0; a < A_.count(); ++a) {
-        const std::optional<int> b = a == largest ? std::nullopt : counterpart(a, maps);
-        if (!b || A_.holds_any(a, context_.landmarks_A()) || B_.holds_any(*b, context_.landmarks_B()))
-            continue;
-        if (degrees(rest.transpose() * A_.turn(a, images, opposed)) < otherwise) continue;
-        MapPair other = maps;
-        there.lay(other.A_to_B, a, *b, rest);
-        back.lay(other.B_to_A, *b, a, rest.transpose());
-        const double other_score = rough_score(appraisal_.cues(other));
-        if (other_score >= score + clearly * A_.area(a)) continue;
-        maps = std::move(other);
-        score = other_score;
-        ++turned;
+        const std::optional<int> b = partner[std::size_t(a)];
+        if (!b || degrees(rest.turn.transpose() * A_.turn(a, images, rest.opposed)) < otherwise) continue;
+        MapPair laid = maps;
+        rest.there.lay(laid.A_to_B, a, *b, rest.turn);
+        rest.back.lay(laid.B_to_A, *b, a, rest.turn.transpose());
+        turned += keep(maps, std::move(laid), clearly * A_.area(a), rest);
     }
     return turned;
+}
+
+int LooseComponents::lay_as_the_rest(MapPair& maps) const {
+    const int largest = A_.largest();
+    if (A_.count() < 2 || B_.count() < 2) return 0;
+    if (!counterpart(largest, maps)) return 0;
+    const bool opposed = are_opposed(context_.A().surface, context_.B().surface);
+    const Points images = positions(B_.mesh(), maps.A_to_B);
+    Rest rest{Laying(A_, B_, opposed), Laying(B_, A_, opposed), opposed, A_.turn(largest, images, opposed),
+              rough_score(appraisal_.cues(maps))};
+    const int exchanged = exchange(maps, rest);
+    return exchanged + turn(maps, rest);
 }
 
 }  // namespace varimap

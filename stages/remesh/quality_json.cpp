@@ -157,7 +157,8 @@ Json to_json(const std::vector<ComponentImage>& components) {
         list.push_back({{"vertex", one.vertex},
                         {"area_percent", 100 * one.area},
                         {"on_that_percent", 100 * one.on_that},
-                        {"has_partner", one.has_partner}});
+                        {"taken_percent", 100 * one.taken},
+                        {"has_partner", one.has_partner()}});
         if (one.onto >= 0) list.back()["onto"] = one.onto;
     }
     return list;

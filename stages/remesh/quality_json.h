@@ -43,7 +43,7 @@ namespace varimap {
 ///   components        where both surfaces together have more than two, of source and target, each: vertex of
 ///   the
 ///                     file, area_percent, onto (the number of that in the other list, from 0; absent if it
-///                     has no image), on_that_percent, has_partner    (definitions: components.h)
+///                     has no image), on_that_percent, taken_percent, has_partner (definitions: components.h)
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
 /// Warns of what a map that is right does not have (warnings.h).

@@ -208,7 +208,7 @@ std::string without_partner(const std::vector<ComponentImage>& components) {
     constexpr std::size_t few = 4;
     std::vector<std::string> names;
     for (const ComponentImage& one : components)
-        if (!one.has_partner)
+        if (!one.has_partner())
             names.push_back(
                 fmt::format("that of vertex {} ({:.2g}% of the area)", one.vertex, 100 * one.area));
     if (names.size() > few) {
@@ -234,6 +234,24 @@ void warn_of_components(const ComponentImages& components, const PairRecord& rec
              : std::string("What the other surface lacks is better left out"));
 }
 
+/// Not of surfaces of one component each, of which it is said before they are mapped (unlike_surfaces.h).
+void warn_of_opposed_components(const ComponentImages& components) {
+    if (!components.are_several()) return;
+    std::vector<std::string> pairs;
+    for (const int c : components.opposed()) {
+        const ComponentImage& one = components.of_source[std::size_t(c)];
+        pairs.push_back(fmt::format(
+            "that of vertex {} of the source ({}) and that of vertex {} of the target", one.vertex,
+            one.side < 0 ? "inward" : "outward", components.of_target[std::size_t(one.onto)].vertex));
+    }
+    if (!pairs.empty())
+        warn(
+            "the faces of components look inward on one surface, outward on the other: {}. They are mapped "
+            "as "
+            "mirror images; if they are none, reverse the faces of one of them",
+            list_in_words(std::move(pairs)));
+}
+
 }  // namespace
 
 void warn_of(const MapQuality& quality, const PairRecord& record) {
@@ -246,6 +264,7 @@ void warn_of(const MapQuality& quality, const PairRecord& record) {
         warn_of_strain(quality.in_the_end.dirichlet, slivers);
     warn_of_twist(quality, record);
     warn_of_components(quality.components, record);
+    warn_of_opposed_components(quality.components);
 }
 
 }  // namespace varimap

@@ -13,7 +13,7 @@ namespace varimap {
 ///   tears             of either direction: much is reversed, on several faces, or uncovered
 ///   strain            where neither tears
 ///   twist             of a shaft, by the direction that has more
-///   components        without a partner
+///   components        without a partner, and those of which one looks inward, its partner outward
 /// Where most of a surface's area lies on slivers, these are named as the likely cause of tears or strain.
 void warn_of(const MapQuality& quality, const PairRecord& record);
 

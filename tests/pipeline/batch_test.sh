@@ -171,7 +171,11 @@ if [[ -x $VARIMAP_BIN/varimap-import ]]; then
     jq -e '.provenance.source.imported_from | endswith("/scenes/a.gltf")' imported/pairs/one--b/quality.json >/dev/null || fail "what was imported"
     batch scenes.csv -o imported --plan
     ! grep -q . imported/batch/pending || fail "a batch of scenes is not known to be done"
+    "$varimap" report imported/pairs/one--b >out.txt 2>log || fail "report of scenes: $(<log)"
+    ! grep '^verdict ' out.txt | grep 'not there\|no longer\|changed' || fail "report of scenes as they were: $(<out.txt)"
     gltf meshes/c.off b
+    "$varimap" report imported/pairs/one--b >out.txt 2>log || fail "report of a scene that was replaced: $(<log)"
+    grep -q '^verdict  look here: .*b.gltf: is no longer the scene that was mapped' out.txt || fail "report of a scene that was replaced: $(<out.txt)"
     batch scenes.csv -o imported --plan
     [[ $(cut -d ' ' -f 1,2 imported/batch/pending | xargs) == "pair one--b surface b" ]] || fail "a changed buffer: $(<imported/batch/pending)"
 fi

@@ -169,7 +169,8 @@ done <<'LIST'
 {"input_faces":200,"degenerate_faces":11} look here: preprocess a of 1
 {"input_faces":13800,"turned_faces":138,"welded_vertices":5000} good:  of 1
 {"input_faces":13800,"turned_faces":139} look here: preprocess a of 1
-{"input_faces":13800,"cut_edges":1,"dropped_components":1} look here: preprocess a of 1
+{"input_faces":13800,"cut_edges":1,"dropped_components":1,"dropped_area_percent":0.2} look here: preprocess a of 1
+{"input_faces":13800,"cut_edges":1,"dropped_components":1,"dropped_area_percent":0.05} good:  of 1
 {"input_faces":13800,"cut_handles":1} look here: preprocess a of 1
 {"input_faces":13800,"cut_handles":1,"asked_cuts":1} good:  of 1
 {"input_faces":13800,"filled_holes":2,"filling_faces":50} good:  of 1

@@ -8,6 +8,7 @@
 #include "fixtures/known_pair.h"
 #include "stages/generate/level_set.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/mesh/pulled_back.h"
 
 namespace varimap {
 namespace {
@@ -76,11 +77,49 @@ MapPair maps_with_bar_turned(double angle, const KnownPair& pair) {
     return {nearest_points(places_on(B, A, angle), B.mesh), nearest_points(places_on(A, B, -angle), A.mesh)};
 }
 
-/// Mean error after components were turned as the rest.
+/// Mean error after components were laid as the rest.
 double error_as_the_rest(MapPair maps, const KnownPair& pair, const PairContext& context) {
     const Appraisal appraisal(context);
-    ComponentTurns(context, appraisal).turn_as_the_rest(maps);
+    LooseComponents(context, appraisal).lay_as_the_rest(maps);
     return shapes::mean_error(maps, pair);
+}
+
+/// A body with two balls in front of it, side by side.
+TriangleMesh body_and_eyes(double cell) {
+    const auto f = [](const Vec3& p) {
+        return std::min({distance_from_segment(p, {-1, 0, 0}, {.6, 0, 0}) - .4,
+                         (p - Vec3(-.4, -.3, .3)).norm() - .3, (p - Vec3(.4, .1, .4)).norm() - .3,
+                         (p - Vec3(1.5, .4, .1)).norm() - .25, (p - Vec3(1.5, -.4, .1)).norm() - .25});
+    };
+    return shapes::level_set(f, {-1.6, -.9, -.7}, {2, .9, 1.1}, cell);
+}
+
+/// The nearest points, where the eyes, beyond 1.15 along the body, are moved to each other's place.
+PointMap eyes_exchanged(const Surface& from, const Surface& to, bool exchanged) {
+    Points places = (from.mesh.vertices / from.scale).rowwise() + from.centre.transpose();
+    for (Eigen::Index i = 0; i < places.rows(); ++i)
+        if (exchanged && places(i, 0) > 1.15) places(i, 1) += places(i, 1) > 0 ? -.8 : .8;
+    return nearest_points((places.rowwise() - to.centre.transpose()) * to.scale, to.mesh);
+}
+
+TEST(LooseComponents, AreExchangedWhereTheyLieAsEachOther) {
+    const KnownPair pair = shapes::known_pair(body_and_eyes(.09), body_and_eyes(.085), {}, 60, {}, 1000);
+    const Surface &A = pair.A.surface, &B = pair.B.surface;
+    ASSERT_EQ(SurfaceComponents(A).count(), 3);
+    const PairContext context = pair.context();
+    const auto error_after = [&](MapPair maps) {
+        LooseComponents(context, Appraisal(context)).lay_as_the_rest(maps);
+        return (positions(B.mesh, maps.A_to_B) - positions(B.mesh, eyes_exchanged(A, B, false)))
+            .rowwise()
+            .norm()
+            .mean();
+    };
+    const MapPair right{eyes_exchanged(A, B, false), eyes_exchanged(B, A, false)},
+        wrong{eyes_exchanged(A, B, true), eyes_exchanged(B, A, true)};
+    EXPECT_LT(error_after(right), .01);
+    EXPECT_LT(error_after(wrong), .01);
+    EXPECT_GT((positions(B.mesh, wrong.A_to_B) - positions(B.mesh, right.A_to_B)).rowwise().norm().mean(),
+              .02);
 }
 
 TEST(LooseComponents, AreThoseThatBridgesJoin) {

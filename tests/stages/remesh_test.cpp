@@ -365,13 +365,13 @@ TEST(RemeshWarnings, AreOfComponentsWithoutAPartner) {
     MapQuality quality;
     quality.A_to_B.coverage.share = quality.B_to_A.coverage.share = 1;
     quality.median_thinness_A = quality.median_thinness_B = .5;
-    quality.components.of_source = {{0, .9, 0, 1, true}, {70, .1, 0, 1, false}};
-    quality.components.of_target = {{0, 1, 0, 1, true}};
+    quality.components.of_source = {{0, .9, 0, 1, 1}, {70, .1, 0, 1, .1}};
+    quality.components.of_target = {{0, 1, 0, 1, 1}};
     auto said = said_of(quality, {});
     ASSERT_EQ(said.size(), 1u);
     EXPECT_NE(said[0].find("of the source that of vertex 70 (10% of the area). What the other surface lacks"),
               std::string::npos);
-    quality.components.of_target.push_back({5, .003, -1, 0, false});
+    quality.components.of_target.push_back({5, .003, -1, 0, 0});
     said = said_of(quality, {});
     ASSERT_EQ(said.size(), 1u);
     EXPECT_NE(said[0].find("vertex 70 (10% of the area) and of the target that of vertex 5 (0.3% of the area)"

@@ -1,6 +1,7 @@
 #include "varimap/mesh/boundary.h"
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -95,6 +96,16 @@ bool is_sheet(const TriangleMesh& mesh) {
     constexpr double least = 3;
     const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));
     return std::accumulate(lengths.begin(), lengths.end(), 0.0) >= least * std::sqrt(surface_area(mesh));
+}
+
+int side_of_faces(const TriangleMesh& mesh) {
+    if (is_closed(mesh)) return signed_volume(mesh) < 0 ? -1 : 1;
+    // Of a ball's of the same area: people have .3, chairs .05.
+    constexpr double least = 0.03;
+    const double ball = std::pow(surface_area(mesh), 1.5) / (6 * std::sqrt(std::numbers::pi));
+    const double volume = signed_volume_when_closed(mesh) / ball;
+    if (is_sheet(mesh) || std::abs(volume) < least) return 0;
+    return volume < 0 ? -1 : 1;
 }
 
 }  // namespace varimap

@@ -1,8 +1,6 @@
 #include "varimap/mesh/surface.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
@@ -84,21 +82,6 @@ bool is_cut_out(const Surface& surface) {
     const std::vector<VertexFate>& fate = surface.link.fate;
     return std::find(fate.begin(), fate.end(), VertexFate::outside_part) != fate.end();
 }
-
-namespace {
-
-/// 1: its faces look outward, -1: inward, 0: it has neither inside nor outside.
-int side_of_faces(const TriangleMesh& mesh) {
-    if (is_closed(mesh)) return signed_volume(mesh) < 0 ? -1 : 1;
-    // Of a ball's, with the same area: people have .3, chairs .05.
-    constexpr double least = 0.03;
-    const double ball = std::pow(surface_area(mesh), 1.5) / (6 * std::sqrt(std::numbers::pi));
-    const double volume = signed_volume_when_closed(mesh) / ball;
-    if (is_sheet(mesh) || std::abs(volume) < least) return 0;
-    return volume < 0 ? -1 : 1;
-}
-
-}  // namespace
 
 bool one_is_inside_out(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return false;

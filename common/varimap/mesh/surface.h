@@ -55,8 +55,8 @@ const TriangleMesh& file_of(const Surface& surface);
 bool is_cut_out(const Surface& surface);
 
 /// Whether of two surfaces one is inside out, its faces looking inward, and neither was mirrored: all maps
-/// that keep the orientation are then those of a mirror image. Of open ones, too, but for sheets (boundary.h)
-/// and for those that enclose too little (signed_volume_when_closed) to have an inside.
+/// that keep the orientation are then those of a mirror image. Not where one has no inside (side_of_faces,
+/// boundary.h).
 bool one_is_inside_out(const Surface& A, const Surface& B);
 
 /// A point of a mesh as barycentric coordinates of another face that holds it too: exact by the vertices that

@@ -1,80 +1,94 @@
 #include "varimap/quality/components.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "varimap/mesh/topology.h"
+#include "varimap/mesh/boundary.h"
 
 namespace varimap {
 
 namespace {
 
-double face_area(const TriangleMesh& mesh, int f) {
-    return face_normal(mesh, f).norm() / 2;
-}
+/// A mesh's faces by component, and how large they are.
+struct Components {
+    std::vector<int> of_vertex;           ///< -1 where no face uses it
+    std::vector<std::vector<int>> faces;  ///< per component
+    FaceData<double> share;               ///< per face: of the mesh's area
 
-/// Per component of the source, and of the target, how much of the former's area lies on the latter.
-std::vector<std::vector<double>> areas_by_component(const PointMap& map, const TriangleMesh& source,
-                                                    const std::vector<int>& of_source,
-                                                    const TriangleMesh& target,
-                                                    const std::vector<int>& of_target) {
-    const auto count = [](const std::vector<int>& of_vertex) {
-        return of_vertex.empty() ? 0 : std::size_t(*std::max_element(of_vertex.begin(), of_vertex.end()) + 1);
-    };
-    std::vector<std::vector<double>> areas(count(of_source), std::vector<double>(count(of_target), 0));
-    for (int f = 0; f < source.face_count(); ++f) {
-        const double third = face_area(source, f) / 3;
-        for (const int v : source.faces.row(f)) {
-            if (map[v].face < 0) continue;
-            const int onto = of_target[std::size_t(target.faces(map[v].face, 0))];
-            areas[std::size_t(of_source[std::size_t(v)])][std::size_t(onto)] += third;
+    explicit Components(const TriangleMesh& mesh)
+        : of_vertex(vertex_components(mesh)), share(mesh.face_count()) {
+        const double area = surface_area(mesh);
+        for (int f = 0; f < mesh.face_count(); ++f) {
+            const auto c = std::size_t(of_vertex[std::size_t(mesh.faces(f, 0))]);
+            if (c >= faces.size()) faces.resize(c + 1);
+            faces[c].push_back(f);
+            share[f] = face_normal(mesh, f).norm() / (2 * area);
         }
     }
-    return areas;
+};
+
+/// Per component of the source, and of the target, how much of the source's area lies on the latter.
+using Shares = std::vector<std::vector<double>>;
+Shares shares_on(const PointMap& map, const TriangleMesh& source, const Components& of_source,
+                 const TriangleMesh& target, const Components& of_target) {
+    Shares shares(of_source.faces.size(), std::vector<double>(of_target.faces.size(), 0));
+    for (std::size_t c = 0; c < shares.size(); ++c)
+        for (const int f : of_source.faces[c])
+            for (const int v : source.faces.row(f)) {
+                if (map[v].face < 0) continue;
+                const int onto = of_target.of_vertex[std::size_t(target.faces(map[v].face, 0))];
+                shares[c][std::size_t(onto)] += of_source.share[f] / 3;
+            }
+    return shares;
 }
 
-std::vector<ComponentImage> images(const PointMap& map, const TriangleMesh& source,
-                                   const std::vector<int>& of_source, const TriangleMesh& target,
-                                   const std::vector<int>& of_target) {
-    const auto areas = areas_by_component(map, source, of_source, target, of_target);
-    std::vector<ComponentImage> found(areas.size());
-    for (int v = source.vertex_count() - 1; v >= 0; --v)
-        if (const int c = of_source[std::size_t(v)]; c >= 0) found[std::size_t(c)].vertex = v;
-    const double total = surface_area(source);
-    for (int f = 0; f < source.face_count(); ++f)
-        found[std::size_t(of_source[std::size_t(source.faces(f, 0))])].area += face_area(source, f) / total;
+/// `there`: of these components; `back`: of the other surface's.
+std::vector<ComponentImage> images(const TriangleMesh& mesh, const Components& components,
+                                   const Shares& there, const Shares& back) {
+    std::vector<ComponentImage> found(components.faces.size());
+    for (int v = mesh.vertex_count() - 1; v >= 0; --v)
+        if (const int c = components.of_vertex[std::size_t(v)]; c >= 0) found[std::size_t(c)].vertex = v;
     for (std::size_t c = 0; c < found.size(); ++c) {
-        const auto most = std::max_element(areas[c].begin(), areas[c].end());
-        if (most == areas[c].end() || !(*most > 0)) continue;
-        found[c].onto = int(most - areas[c].begin());
-        found[c].on_that = std::min(1.0, *most / (found[c].area * total));
+        ComponentImage& one = found[c];
+        for (const int f : components.faces[c]) one.area += components.share[f];
+        const auto most = std::max_element(there[c].begin(), there[c].end());
+        if (most != there[c].end() && *most > 0) {
+            one.onto = int(most - there[c].begin());
+            one.on_that = std::min(1.0, *most / one.area);
+        }
+        for (const std::vector<double>& shares : back) one.taken += shares[c] / one.area;
+        one.side = side_of_faces({mesh.vertices, mesh.faces(components.faces[c], Eigen::all)});
     }
     return found;
 }
 
-void find_partners(std::vector<ComponentImage>& own, const std::vector<ComponentImage>& others) {
-    for (std::size_t c = 0; c < own.size(); ++c)
-        own[c].has_partner = own[c].onto >= 0 && others[std::size_t(own[c].onto)].onto == int(c);
-}
-
-bool is_single(const std::vector<ComponentImage>& components) {
-    return std::any_of(components.begin(), components.end(),
-                       [](const ComponentImage& one) { return !one.has_partner; });
+bool lacks_partner(const ComponentImage& one) {
+    return !one.has_partner();
 }
 
 }  // namespace
 
 bool ComponentImages::are_astray() const {
-    return is_single(of_source) && is_single(of_target);
+    return std::ranges::any_of(of_source, lacks_partner) && std::ranges::any_of(of_target, lacks_partner);
+}
+
+std::vector<int> ComponentImages::opposed() const {
+    std::vector<int> found;
+    for (std::size_t c = 0; c < of_source.size(); ++c) {
+        const ComponentImage& one = of_source[c];
+        if (one.onto < 0) continue;
+        const ComponentImage& partner = of_target[std::size_t(one.onto)];
+        if (partner.onto == int(c) && one.side * partner.side < 0) found.push_back(int(c));
+    }
+    return found;
 }
 
 ComponentImages measure_components(const PointMap& map, const PointMap& back, const TriangleMesh& source,
                                    const TriangleMesh& target) {
-    const std::vector<int> on_source = vertex_components(source), on_target = vertex_components(target);
-    ComponentImages found{images(map, source, on_source, target, on_target),
-                          images(back, target, on_target, source, on_source)};
-    find_partners(found.of_source, found.of_target);
-    find_partners(found.of_target, found.of_source);
-    return found;
+    const Components of_source(source), of_target(target);
+    const Shares there = shares_on(map, source, of_source, target, of_target),
+                 here = shares_on(back, target, of_target, source, of_source);
+    return {images(source, of_source, there, here), images(target, of_target, here, there)};
 }
 
 }  // namespace varimap

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "varimap/core/index_set.h"
 #include "varimap/mesh/face_geometry.h"
 
 namespace varimap {
@@ -29,6 +30,21 @@ double AlongTarget::winding_number(int v) {
     double turns = 0;
     for (const int f : map_.faces_of_vertex()[v]) turns += lie(f).turns[std::size_t(map_.corner_of(f, v))];
     return turns / (2 * std::numbers::pi);
+}
+
+std::vector<int> AlongTarget::faulty_among(const std::vector<int>& faces) {
+    std::vector<int> faulty = faces_where(faces, [&](int f) { return is_reversed(f); });
+    for (const int v : vertices_of(map_.source(), faces)) {
+        if (!is_branch_point(v)) continue;
+        const auto star = map_.faces_of_vertex()[v];
+        faulty.insert(faulty.end(), star.begin(), star.end());
+    }
+    make_set(faulty);
+    return faulty;
+}
+
+std::vector<int> AlongTarget::faulty_faces() {
+    return faulty_among(all_indices(map_.source().face_count()));
 }
 
 AlongTarget::Faults AlongTarget::faults_around(int v) {

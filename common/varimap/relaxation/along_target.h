@@ -30,6 +30,11 @@ class AlongTarget {
     double winding_number(int v);
     bool is_branch_point(int v) { return winding_number(v) > 1.5; }
 
+    /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
+    std::vector<int> faulty_among(const std::vector<int>& faces);
+    /// Of all faces.
+    std::vector<int> faulty_faces();
+
     struct Faults {
         int reversed = 0, branch_points = 0;
         bool more_than(const Faults& other) const {

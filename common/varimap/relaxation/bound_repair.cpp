@@ -31,7 +31,8 @@ void BoundRepair::operator()(const FoldEnergy& energy) {
     const Timer timer("area bound");
     std::vector<int> pressed = bound_.press();
     if (pressed.empty()) return;
-    FaultGuard guard(map_);
+    FaultJudges judges(map_);
+    FaultGuard guard(map_, judges);
     double visits = 0;
     for (int look = 0; look < most_looks_ && !pressed.empty(); ++look) {
         const std::vector<int> free = free_around(pressed);

@@ -85,21 +85,6 @@ ChartRepair::ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgree
       on_boundary_(boundary_vertices(map.source(), source_.edges())),
       strikes_(map.source().face_count(), 0) {}
 
-std::vector<int> ChartRepair::defects_among(const std::vector<int>& faces) {
-    std::vector<int> defects = faces_where(faces, [&](int f) { return along_target_.is_reversed(f); });
-    for (const int v : vertices_of(map_.source(), faces)) {
-        if (!along_target_.is_branch_point(v)) continue;
-        const auto star = map_.faces_of_vertex()[v];
-        defects.insert(defects.end(), star.begin(), star.end());
-    }
-    make_set(defects);
-    return defects;
-}
-
-std::vector<int> ChartRepair::all_defects() {
-    return defects_among(all_indices(map_.source().face_count()));
-}
-
 double ChartRepair::badness(const std::vector<int>& faces, double limit) {
     // That a face cuts through the target is worth less than that it is reversed.
     constexpr double reversed = 4, branch = 12;
@@ -269,7 +254,7 @@ std::vector<std::vector<int>> ChartRepair::promising_clusters_of(const std::vect
 
 std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
     const Timer timer("repair in charts");
-    std::vector<int> defects = all_defects(), touched, all_touched;
+    std::vector<int> defects = along_target_.faulty_faces(), touched, all_touched;
     double budget = most_tried * std::min(map_.source().face_count(), most_counted);
     for (const int rings : ring_counts) {
         touched.clear();
@@ -294,7 +279,7 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
         if (touched.empty()) break;
         make_set(touched);
         all_touched.insert(all_touched.end(), touched.begin(), touched.end());
-        defects = defects_among(touched);
+        defects = along_target_.faulty_among(touched);
     }
     make_set(all_touched);
     return all_touched;
@@ -303,7 +288,7 @@ std::vector<int> ChartRepair::operator()(const VertexData<bool>& fixed) {
 std::vector<int> ChartRepair::centre_stars(const VertexData<bool>& fixed) {
     const Timer timer("kernels of stars");
     std::vector<int> touched;
-    for (std::vector<int> cluster : clusters_of(all_defects())) {
+    for (std::vector<int> cluster : clusters_of(along_target_.faulty_faces())) {
         if (std::ssize(cluster) > most_for_kernels) continue;
         const std::vector<int> faces = source_.widened(cluster, rings_of_kernels),
                                around = source_.widened(faces, 1), free = free_within(faces, fixed);

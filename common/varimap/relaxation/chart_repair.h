@@ -41,14 +41,9 @@ class ChartRepair {
     /// Moves single vertices where that suffices (star_kernels.h), for what is left or has come back since.
     /// Returns the faces that may have moved, ascending.
     std::vector<int> centre_stars(const VertexData<bool>& fixed);
-    /// Faces that are reversed or around branch points.
-    std::vector<int> faulty_faces() { return all_defects(); }
     const Report& report() const { return report_; }
 
   private:
-    /// Those of `faces` that are reversed, and the faces around branch points at their corners; ascending.
-    std::vector<int> defects_among(const std::vector<int>& faces);
-    std::vector<int> all_defects();
     /// Once it gets to `limit`, the rest is left out.
     double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     /// What a repair is judged by.

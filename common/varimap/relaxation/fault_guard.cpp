@@ -13,10 +13,10 @@ enum Fault : unsigned char { reversed_along_target = 1, reversed_by_normals = 2,
 
 }  // namespace
 
-FaultGuard::FaultGuard(SlidingMap& map)
+FaultGuard::FaultGuard(SlidingMap& map, FaultJudges& judges)
     : map_(map),
-      along_target_(map),
-      agreement_(map, along_target_),
+      along_target_(judges.along_target),
+      agreement_(judges.agreement),
       source_(map.source(), along_target_.source_edges()) {}
 
 void FaultGuard::operator()(const std::vector<int>& free, const std::function<void()>& move) {

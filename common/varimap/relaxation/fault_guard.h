@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "varimap/mesh/disc.h"
-#include "varimap/relaxation/along_target.h"
-#include "varimap/relaxation/normal_agreement.h"
+#include "varimap/relaxation/fault_judges.h"
 #include "varimap/relaxation/sliding_map.h"
 
 namespace varimap {
@@ -15,8 +14,8 @@ namespace varimap {
 /// branch points.
 class FaultGuard {
   public:
-    /// Keeps a reference.
-    explicit FaultGuard(SlidingMap& map);
+    /// Keeps references.
+    FaultGuard(SlidingMap& map, FaultJudges& judges);
 
     /// `move` moves vertices of `free` (ascending) and no others. Around new faults they are put back, those
     /// farther away, too, for as long as some are left; all of them if 8 rings do not suffice.
@@ -33,8 +32,8 @@ class FaultGuard {
     std::vector<int> worse_among(const std::vector<int>& faces, const Faults& before);
 
     SlidingMap& map_;
-    AlongTarget along_target_;
-    NormalAgreement agreement_;
+    AlongTarget& along_target_;
+    NormalAgreement& agreement_;
     FaceSets source_;
 };
 

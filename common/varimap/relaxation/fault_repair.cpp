@@ -21,6 +21,8 @@ constexpr int few_faults = 100;
 /// By the other direction; more, as of a limb that one direction mirrors, where the other has far fewer.
 constexpr int few_to_adopt = 300;
 constexpr int far_fewer = 4;
+/// Faulty faces more that a limb is worth which a direction had lost: repairs that follow mend most of them.
+constexpr int few_more = 30;
 
 void log_repair(const ChartRepair::Report& report) {
     const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
@@ -39,9 +41,18 @@ void FaultRepair::operator()(const PointMap& back) {
     if (!may_be_done_again() && !may_be_recovered()) judges_.reset();
 }
 
-FaultRepair::Judges& FaultRepair::judges() {
-    if (!judges_) judges_ = std::make_unique<Judges>(map_);
+FaultJudges& FaultRepair::judges() {
+    if (!judges_) judges_ = std::make_unique<FaultJudges>(map_);
     return *judges_;
+}
+
+void FaultRepair::recount() {
+    if (faults_) count_faults();
+    count_what_disagrees();
+}
+
+void FaultRepair::count_faults() {
+    faults_ = int(judges().along_target.faulty_faces().size());
 }
 
 void FaultRepair::count_what_disagrees() {
@@ -88,7 +99,7 @@ void FaultRepair::recover(const PointMap& back) {
     if (!recover_missed_parts(map_, back, held(), landmarks_, options_.inverse_weight)) return;
     repair_all(back);
     const int more = *faults_ - before.faults.value_or(0);
-    if (more <= 0) return;
+    if (more <= few_more) return;
     log("{} faulty faces more come of them: they are left", more);
     restore(before);
 }
@@ -100,17 +111,16 @@ bool FaultRepair::may_adopt(const FaultRepair& other) const {
 
 bool FaultRepair::adopt(const PointMap& back) {
     const State before = state();
-    take_from_other_direction(map_, back, faulty_vertices(back), with_boundary(held(), map_.source()));
+    take_from_other_direction(map_, back, faulty_vertices(), with_boundary(held(), map_.source()));
     repair_all(back);
     if (*faults_ < *before.faults) return true;
     restore(before);
     return false;
 }
 
-VertexData<bool> FaultRepair::faulty_vertices(const PointMap& back) {
+VertexData<bool> FaultRepair::faulty_vertices() {
     VertexData<bool> marks(map_.source().vertex_count());
-    for (const int f : ChartRepair(map_, judges().along_target, judges().agreement, back).faulty_faces())
-        mark_corners(map_.source(), f, marks);
+    for (const int f : judges().along_target.faulty_faces()) mark_corners(map_.source(), f, marks);
     return marks;
 }
 
@@ -141,7 +151,7 @@ void FaultRepair::repair(const PointMap& back, std::vector<int> disagreeing) {
     charts(stays);
     if (options_.centre_stars) charts.centre_stars(stays);
     log_repair(charts.report());
-    if (may_be_done_again() || may_be_recovered()) faults_ = int(charts.faulty_faces().size());
+    if (may_be_done_again() || may_be_recovered()) count_faults();
 }
 
 }  // namespace varimap

@@ -4,8 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "varimap/relaxation/along_target.h"
-#include "varimap/relaxation/normal_agreement.h"
+#include "varimap/relaxation/fault_judges.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/relaxation/soft_constraints.h"
 #include "varimap/relaxation/untangling_options.h"
@@ -28,10 +27,13 @@ class FaultRepair {
           report_(report) {}
 
     void operator()(const PointMap& back);
+    FaultJudges& judges();
+    /// After others have moved the map.
+    void recount();
     bool is_done_again() const;
     /// Once more around the faults that are left; as it was where more come of it.
     void again(const PointMap& back);
-    /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where more faults
+    /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where many more faults
     /// come of it.
     void recover(const PointMap& back);
     /// Faulty faces that are left, where they were counted.
@@ -54,28 +56,21 @@ class FaultRepair {
     /// On a large surface to look at all of it again takes longer than what is won.
     bool may_be_done_again() const;
     bool may_be_recovered() const;
-    VertexData<bool> faulty_vertices(const PointMap& back);
+    VertexData<bool> faulty_vertices();
     /// Returns how many faces disagreed with the target's normals before.
     int repair_all(const PointMap& back);
     /// `disagreeing`: faces that disagree with the target's normals, ascending; turned, too, where they still
     /// do.
     void repair(const PointMap& back, std::vector<int> disagreeing);
+    void count_faults();
     void count_what_disagrees();
-    /// What tells faults. It keeps in mind what it has seen of images that stay where they are.
-    struct Judges {
-        AlongTarget along_target;
-        NormalAgreement agreement;
-        explicit Judges(SlidingMap& map) : along_target(map), agreement(map, along_target) {}
-    };
-    Judges& judges();
-
     SlidingMap& map_;
     const VertexData<bool>& fixed_;
     const std::vector<SoftConstraint>& landmarks_;
     const ReliefAgreement* relief_;
     const UntanglingOptions& options_;
     UntanglingReport& report_;
-    std::unique_ptr<Judges> judges_;
+    std::unique_ptr<FaultJudges> judges_;
     std::optional<int> faults_;  ///< faulty faces after repair; not counted where none follows
 };
 

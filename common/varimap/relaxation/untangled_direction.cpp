@@ -8,6 +8,7 @@
 #include "varimap/relaxation/along_target.h"
 #include "varimap/relaxation/bound_repair.h"
 #include "varimap/relaxation/face_energy.h"
+#include "varimap/relaxation/fault_guard.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/movable_vertices.h"
 #include "varimap/relaxation/normal_agreement.h"
@@ -17,6 +18,7 @@ namespace varimap {
 
 namespace {
 
+constexpr int steps_after_repairs = 4;  ///< chosen by hand
 constexpr int settling_sweeps = 3;  ///< local ones in each of its steps where there are no global ones
 /// Energy of a direction, times the other's, from which on all of it may be taken from the other.
 constexpr double much_worse = 1.2;
@@ -155,6 +157,24 @@ void UntangledDirection::reconcile(const PointMap& back, bool whole) {
 void UntangledDirection::repair(const PointMap& back) {
     repair_.emplace(sliding_, fixed_, landmarks_, relief_.get(), options_, report_);
     (*repair_)(back);
+}
+
+void UntangledDirection::start_settling_again() {
+    const int vertices = std::max(count_used_vertices(source_), count_used_vertices(target_));
+    if (options_.settling_steps > 0 && options_.align_normals && vertices <= large_surface)
+        relaxation_ = relaxation(settling_round, steps_after_repairs);
+}
+
+void UntangledDirection::end_settling_again() {
+    relaxation_.reset();
+    repair_->recount();
+}
+
+void UntangledDirection::guard(const std::function<void()>& move) {
+    std::vector<int> free;
+    for (int v = 0; v < source_.vertex_count(); ++v)
+        if (!fixed_[v]) free.push_back(v);
+    FaultGuard{sliding_, repair_->judges()}(free, move);
 }
 
 void UntangledDirection::adopt(const PointMap& back, bool upright) {

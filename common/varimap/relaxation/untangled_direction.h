@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,6 +46,11 @@ class UntangledDirection {
     void reconcile(const PointMap& back, bool whole);
 
     void repair(const PointMap& back);
+    /// Steps of `relax` that follow repairs: what these have changed, and what gave way to it, settles.
+    void start_settling_again();
+    void end_settling_again();
+    /// Where `move` makes new faults, what it moved there is put back (fault_guard.h).
+    void guard(const std::function<void()>& move);
     bool is_repaired_again() const { return repair_->is_done_again(); }
     void repair_again(const PointMap& back) { repair_->again(back); }
     void recover(const PointMap& back) { repair_->recover(back); }

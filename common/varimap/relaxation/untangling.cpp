@@ -34,12 +34,16 @@ void with_each_other(UntangledDirection& there, UntangledDirection& back, const 
                     [&](UntangledDirection& map, const PointMap& inverse, int) { body(map, inverse); });
 }
 
-/// A round of both directions, which draw each other towards their inverses.
-void run(UntangledDirection& there, UntangledDirection& back, const Round& round) {
-    tbb::parallel_invoke([&] { there.start_relaxation(round); }, [&] { back.start_relaxation(round); });
+void relax(UntangledDirection& there, UntangledDirection& back) {
     while (!there.is_relaxed() || !back.is_relaxed())
         with_each_other(there, back,
                         [](UntangledDirection& map, const PointMap& inverse) { map.relax(inverse); });
+}
+
+/// A round of both directions, which draw each other towards their inverses.
+void run(UntangledDirection& there, UntangledDirection& back, const Round& round) {
+    tbb::parallel_invoke([&] { there.start_relaxation(round); }, [&] { back.start_relaxation(round); });
+    relax(there, back);
     tbb::parallel_invoke([&] { there.end_relaxation(round); }, [&] { back.end_relaxation(round); });
 }
 
@@ -86,9 +90,19 @@ void adopt_from_each_other(UntangledDirection& there, UntangledDirection& back) 
                     });
 }
 
+/// Without new faults.
+void settle_again(UntangledDirection& there, UntangledDirection& back) {
+    tbb::parallel_invoke([&] { there.start_settling_again(); }, [&] { back.start_settling_again(); });
+    if (there.is_relaxed() && back.is_relaxed()) return;
+    there.guard([&] { back.guard([&] { relax(there, back); }); });
+    there.end_settling_again();
+    back.end_settling_again();
+}
+
 void repair_faults(UntangledDirection& there, UntangledDirection& back) {
     with_each_other(there, back,
                     [](UntangledDirection& map, const PointMap& inverse) { map.repair(inverse); });
+    settle_again(there, back);
     // By the other direction as it has come out: often only one of them was tangled.
     if (there.is_repaired_again() || back.is_repaired_again())
         with_each_other(there, back,

@@ -7,8 +7,8 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/ray_mesh.h"
-#include "varimap/mesh/topology.h"
 
 namespace varimap {
 
@@ -57,13 +57,13 @@ double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, 
 }  // namespace
 
 bool looks_inward(const Domain& surface) {
-    if (!is_closed(surface.mesh)) return surface.mirrored;
-    return signed_volume(surface.mesh) < 0;
+    const int side = side_of_faces(surface.mesh);
+    return side == 0 ? surface.mirrored : side < 0;
 }
 
 bool looks_inward(const Domain& surface, const Domain& other) {
-    const bool as_other =
-        surface.mirrored == other.mirrored && !is_closed(surface.mesh) && is_closed(other.mesh);
+    const bool as_other = surface.mirrored == other.mirrored && side_of_faces(surface.mesh) == 0 &&
+                          side_of_faces(other.mesh) != 0;
     return looks_inward(as_other ? other : surface);
 }
 

@@ -8,11 +8,12 @@
 
 namespace varimap {
 
-/// Whether faces look inward: of a closed surface, whether they enclose a negative volume; of others, whether
-/// it is mirrored.
+/// Whether faces look inward (side_of_faces, boundary.h); of a surface without an inside, whether it is
+/// mirrored.
 bool looks_inward(const Domain& surface);
-/// The same of one of two surfaces that are mapped onto each other. The faces of an open one do not tell:
-/// they are taken to look as those of the other do, if that is closed and not the mirrored one of the two.
+/// The same of one of two surfaces that are mapped onto each other. The faces of one without an inside do not
+/// tell: they are taken to look as those of the other do, if that has one and is not the mirrored one of the
+/// two.
 bool looks_inward(const Domain& surface, const Domain& other);
 /// Whether the faces of one of two surfaces look inward, those of the other outward.
 inline bool are_opposed(const Domain& A, const Domain& B) {

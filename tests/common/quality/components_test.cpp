@@ -37,7 +37,7 @@ TEST(Components, ArePartnersWhereEachLiesOnTheOther) {
     for (std::size_t c = 0; c < 3; ++c) {
         EXPECT_EQ(found.of_source[c].onto, int(c));
         EXPECT_NEAR(found.of_source[c].on_that, 1, 1e-9);
-        EXPECT_TRUE(found.of_source[c].has_partner && found.of_target[c].has_partner);
+        EXPECT_TRUE(found.of_source[c].has_partner() && found.of_target[c].has_partner());
     }
     EXPECT_EQ(found.of_source[2].vertex, 2 * shapes::ellipsoid(1).vertex_count());
     EXPECT_NEAR(found.of_source[1].area, .09 / 1.18, 1e-3);
@@ -48,10 +48,10 @@ TEST(Components, AreAstrayWhereOneTakesTheOthersPlace) {
     const PointMap map = third_on_second(balls);
     const ComponentImages found = measure_components(map, map, balls, balls);
     EXPECT_TRUE(found.are_astray());
-    EXPECT_TRUE(found.of_source[1].has_partner);
-    EXPECT_FALSE(found.of_source[2].has_partner);
+    EXPECT_TRUE(found.of_source[1].has_partner());
+    EXPECT_FALSE(found.of_source[2].has_partner());
     EXPECT_EQ(found.of_source[2].onto, 1);
-    EXPECT_FALSE(found.of_target[2].has_partner);
+    EXPECT_FALSE(found.of_target[2].has_partner());
 }
 
 TEST(Components, ThatTheOtherLacksHaveNoPartnerAndAreNotAstray) {
@@ -61,11 +61,44 @@ TEST(Components, ThatTheOtherLacksHaveNoPartnerAndAreNotAstray) {
         there[v] = v < std::size_t(one.vertex_count()) ? there[v] : SurfacePoint{};
     const ComponentImages found = measure_components(there, points_at_vertices(one), balls, one);
     EXPECT_FALSE(found.are_astray());
-    EXPECT_TRUE(found.of_source[0].has_partner);
+    EXPECT_TRUE(found.of_source[0].has_partner());
     EXPECT_EQ(found.of_source[1].onto, -1);
-    EXPECT_FALSE(found.of_source[1].has_partner);
+    EXPECT_FALSE(found.of_source[1].has_partner());
     ASSERT_EQ(found.of_target.size(), 1u);
-    EXPECT_TRUE(found.of_target[0].has_partner);
+    EXPECT_TRUE(found.of_target[0].has_partner());
+}
+
+/// A scan may be in one piece where another is not.
+TEST(Components, OfPiecesOfWhatIsWholeOnTheOtherHaveTheirPlaceThere) {
+    const TriangleMesh whole = shapes::ellipsoid(3);
+    std::vector<int> upper, lower;
+    for (int f = 0; f < whole.face_count(); ++f)
+        (whole.vertices(whole.faces.row(f), 2).minCoeff() >= .3 ? upper : lower).push_back(f);
+    const TriangleMesh pieces = shapes::together({whole.vertices, whole.faces(upper, Eigen::all)},
+                                                 {whole.vertices, whole.faces(lower, Eigen::all)});
+    const PointMap on_pieces = points_at_vertices(pieces), on_whole = points_at_vertices(whole);
+    const auto count = std::size_t(whole.vertex_count());
+    PointMap there = on_whole, back;
+    there.insert(there.end(), on_whole.begin(), on_whole.end());
+    for (std::size_t v = 0; v < count; ++v)
+        back.push_back(on_pieces[v].face >= 0 ? on_pieces[v] : on_pieces[v + count]);
+    const ComponentImages found = measure_components(there, back, pieces, whole);
+    ASSERT_EQ(found.of_source.size(), 2u);
+    EXPECT_TRUE(found.of_source[0].has_partner() && found.of_source[1].has_partner());
+    EXPECT_TRUE(found.of_target[0].has_partner());
+    EXPECT_TRUE(found.opposed().empty());
+}
+
+TEST(Components, AreOpposedWhereOneLooksInward) {
+    const TriangleMesh balls = three_balls();
+    TriangleMesh turned = balls;
+    const int last = shapes::ellipsoid(1).face_count();
+    turned.faces.bottomRows(last).col(1).swap(turned.faces.bottomRows(last).col(2));
+    const ComponentImages found =
+        measure_components(points_at_vertices(turned), points_at_vertices(balls), balls, turned);
+    EXPECT_EQ(found.opposed(), std::vector<int>{2});
+    EXPECT_EQ(found.of_source[2].side, 1);
+    EXPECT_EQ(found.of_target[2].side, -1);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ class Guarded : public testing::Test {
     const PointMap given_ = shapes::at_vertices(ball_);
     const std::vector<int> all_ = all_indices(ball_.vertex_count());
     SlidingMap map_{given_, ball_, ball_};
+    FaultJudges judges_{map_};
 
     bool is_moved(int v) const { return (position(ball_, map_.point(v)) - ball_.vertex(v)).norm() > 1e-9; }
     /// A little, which turns no face over.
@@ -34,7 +35,7 @@ class Guarded : public testing::Test {
 
 TEST_F(Guarded, PutsBackWhatFoldsAndKeepsTheRest) {
     constexpr int here = 0, far_away = 300;
-    FaultGuard guard(map_);
+    FaultGuard guard(map_, judges_);
     guard(all_, [&] {
         fold(here);
         nudge(far_away);
@@ -50,14 +51,14 @@ TEST_F(Guarded, LetsFaultsFromBeforeBe) {
     const int before = reversed();
     ASSERT_GT(before, 0);
     const Vec3 folded = map_.image(here);
-    FaultGuard guard(map_);
+    FaultGuard guard(map_, judges_);
     guard(all_, [&] { nudge(here); });
     EXPECT_GT((map_.image(here) - folded).norm(), 1e-9);
     EXPECT_LE(reversed(), before);
 }
 
 TEST_F(Guarded, MovesOnlyWhatIsFreeBack) {
-    FaultGuard guard(map_);
+    FaultGuard guard(map_, judges_);
     guard({5}, [&] { fold(5); });
     EXPECT_FALSE(is_moved(5));
     for (const int v : all_) EXPECT_FALSE(is_moved(v));

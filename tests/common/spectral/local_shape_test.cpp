@@ -4,6 +4,7 @@
 
 #include "fixtures/known_pair.h"
 #include "fixtures/surface_data.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -58,6 +59,9 @@ TEST(LooksInward, IsAskedOfBothSurfacesOfAPair) {
         EXPECT_TRUE(are_opposed(other, open_image));
     }
     EXPECT_FALSE(are_opposed(with_reversed_orientation(closed_inside), open)) << "set right by --mirror";
+    ASSERT_NE(side_of_faces(open.mesh), 0);
+    EXPECT_TRUE(are_opposed(open, open_inside));
+    EXPECT_FALSE(are_opposed(with_reversed_orientation(open), open_inside)) << "the same";
 }
 
 TEST(Bending, IsPositiveOnRidgesAndKeptByMirroring) {
