@@ -108,7 +108,8 @@ grep -q '^verdict  look here: .*replaced.off: changed since the map was made; ru
 # Nor as those of other landmarks.
 printf '0 0\n5 5\n' >tips.txt
 map plain.off bent.off --landmarks tips.txt -o with_tips "${coarse[@]}"
-"$varimap" report with_tips >out.txt 2>log && ! grep 'changed since' out.txt || fail "report with landmarks as they were: $(<out.txt)"
+"$varimap" report with_tips >out.txt 2>log || fail "report with landmarks: $(<log)"
+! grep 'changed since' out.txt || fail "report with landmarks as they were: $(<out.txt)"
 printf '0 0\n6 6\n' >tips.txt
 "$varimap" report with_tips >out.txt 2>log || fail "report of landmarks that were replaced: $(<log)"
 grep -q '^verdict  look here: .*tips.txt: changed since the map was made' out.txt || fail "report of landmarks that were replaced: $(<out.txt)"
@@ -119,7 +120,9 @@ cp plain.off bent.off project/shapes
 mv project elsewhere
 "$varimap" report elsewhere/out >out.txt 2>log || fail "report of a project that was moved: $(<log)"
 ! grep '^verdict ' out.txt | grep 'not there\|changed' || fail "report of a project that was moved: $(<out.txt)"
-"$varimap" transfer elsewhere/out --mesh elsewhere/shapes/plain.off >out.txt 2>log || fail "transfer of a project that was moved: $(<log)"
+echo 0 >tip.txt
+"$varimap" transfer elsewhere/out --points tip.txt >out.txt 2>log || fail "transfer of a project that was moved: $(<log)"
+! grep -F '[inspect]' log || fail "a look at what was moved is told of"
 cp elsewhere/shapes/bent.off elsewhere/shapes/plain.off
 "$varimap" report elsewhere/out >out.txt 2>log || fail "report of a mesh that was moved and replaced"
 grep -q '^verdict  look here: .*plain.off: the mesh is not there any more' out.txt || fail "report of a mesh that was moved and replaced: $(<out.txt)"

@@ -21,8 +21,9 @@ constexpr int few_faults = 100;
 /// By the other direction; more, as of a limb that one direction mirrors, where the other has far fewer.
 constexpr int few_to_adopt = 300;
 constexpr int far_fewer = 4;
-/// Faulty faces more that a limb is worth which a direction had lost: repairs that follow mend most of them.
-constexpr int few_more = 30;
+/// Of all faces: so many faulty ones more is a limb worth which a direction had lost. Repairs that follow mend
+/// most of them.
+constexpr double few_more = 0.003;
 
 void log_repair(const ChartRepair::Report& report) {
     const auto count = [&](ChartRepair::Outcome outcome) { return report.outcomes[std::size_t(outcome)]; };
@@ -99,7 +100,7 @@ void FaultRepair::recover(const PointMap& back) {
     if (!recover_missed_parts(map_, back, held(), landmarks_, options_.inverse_weight)) return;
     repair_all(back);
     const int more = *faults_ - before.faults.value_or(0);
-    if (more <= few_more) return;
+    if (more <= few_more * map_.source().face_count()) return;
     log("{} faulty faces more come of them: they are left", more);
     restore(before);
 }

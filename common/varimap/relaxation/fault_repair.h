@@ -33,8 +33,8 @@ class FaultRepair {
     bool is_done_again() const;
     /// Once more around the faults that are left; as it was where more come of it.
     void again(const PointMap& back);
-    /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where many more faults
-    /// come of it.
+    /// By the other direction (missed_parts.h), and repairs what comes of it; as it was where many more
+    /// faults come of it.
     void recover(const PointMap& back);
     /// Faulty faces that are left, where they were counted.
     std::optional<int> faults() const { return faults_; }
