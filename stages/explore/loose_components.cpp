@@ -194,11 +194,13 @@ int LooseComponents::exchange(MapPair& maps, Rest& rest) const {
     const auto are_alike = [](double a, double b) { return std::max(a, b) < alike * std::min(a, b); };
     const auto middle_B = [&](int b) { return B_.mean(b, B_.mesh().vertices); };
     const Points images = positions(B_.mesh(), maps.A_to_B);
-    const auto place = [&](int a) {
-        const Vec3 middle = A_.mean(a, A_.mesh().vertices);
-        return neighbourhood(middle, images, rest.opposed)(middle);
-    };
     std::vector<std::optional<int>> partner = partners(maps);
+    std::vector<Vec3> place(partner.size());
+    for (std::size_t a = 0; a < place.size(); ++a) {
+        if (!partner[a]) continue;
+        const Vec3 middle = A_.mean(int(a), A_.mesh().vertices);
+        place[a] = neighbourhood(middle, images, rest.opposed)(middle);
+    }
     int exchanged = 0;
     for (int a = 0; a < A_.count(); ++a)
         for (int c = a + 1; c < A_.count(); ++c) {
@@ -206,7 +208,8 @@ int LooseComponents::exchange(MapPair& maps, Rest& rest) const {
             if (!b || !d || !are_alike(A_.area(a), A_.area(c)) || !are_alike(B_.area(*b), B_.area(*d)))
                 continue;
             // Between the two: that both lie aside, as on a body that was bent, says nothing.
-            const Vec3 expected = place(c) - place(a), found = middle_B(*d) - middle_B(*b);
+            const Vec3 expected = place[std::size_t(c)] - place[std::size_t(a)],
+                       found = middle_B(*d) - middle_B(*b);
             if ((expected + found).norm() >= nearer * (expected - found).norm()) continue;
             MapPair laid = maps;
             rest.there.lay(laid.A_to_B, a, *d, rest.turn);

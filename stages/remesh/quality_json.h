@@ -40,9 +40,8 @@ namespace varimap {
 ///                         parts_replaced, replaced_area_percent, mirrored_parts, gated_area_percent,
 ///                         disagreeing_before, disagreeing_after (definitions: untangling.h)
 ///   round_trip        source -> target -> source: mean, p95
-///   components        where both surfaces together have more than two, of source and target, each: vertex of
-///   the
-///                     file, area_percent, onto (the number of that in the other list, from 0; absent if it
+///   components        where a surface has several, of source and target, each: vertex of the file,
+///                     area_percent, onto (the number of that in the other list, from 0; absent if it
 ///                     has no image), on_that_percent, taken_percent, has_partner (definitions: components.h)
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy

@@ -220,6 +220,7 @@ std::string without_partner(const std::vector<ComponentImage>& components) {
 }
 
 void warn_of_components(const ComponentImages& components, const PairRecord& record) {
+    if (!components.are_several()) return;
     const std::string source = without_partner(components.of_source),
                       target = without_partner(components.of_target);
     if (source.empty() && target.empty()) return;
@@ -234,9 +235,8 @@ void warn_of_components(const ComponentImages& components, const PairRecord& rec
              : std::string("What the other surface lacks is better left out"));
 }
 
-/// Not of surfaces of one component each, of which it is said before they are mapped (unlike_surfaces.h).
+/// Of whole surfaces it is said before they are mapped (unlike_surfaces.h).
 void warn_of_opposed_components(const ComponentImages& components) {
-    if (!components.are_several()) return;
     std::vector<std::string> pairs;
     for (const int c : components.opposed()) {
         const ComponentImage& one = components.of_source[std::size_t(c)];
@@ -246,9 +246,8 @@ void warn_of_opposed_components(const ComponentImages& components) {
     }
     if (!pairs.empty())
         warn(
-            "the faces of components look inward on one surface, outward on the other: {}. They are mapped "
-            "as "
-            "mirror images; if they are none, reverse the faces of one of them",
+            "faces look inward on one surface, outward on the other, where those of the largest component do "
+            "not: {}. They are mapped as mirror images; if they are none, reverse the faces of one",
             list_in_words(std::move(pairs)));
 }
 

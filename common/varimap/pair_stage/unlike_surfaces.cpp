@@ -60,24 +60,23 @@ Opening widest_opening(const Surface& surface) {
             int(std::count_if(lengths.begin(), lengths.end(), [&](double l) { return l >= wide * unit; }))};
 }
 
-/// Which comes first: of a whole with holes that is taken for a part more can go wrong than the other way
-/// round.
+/// To be tried first: of a whole with holes that is taken for a part more can go wrong than the other way
+/// round. Empty where it is no hole.
 std::string how_to_close(const Opening& own) {
     if (own.long_loops > 1)
-        return fmt::format(
-            "If its {} long loops are holes, --fill-holes all closes them; try that first. As ",
-            own.long_loops);
-    if (own.width < as_holes)
-        return fmt::format("If it is a hole, --fill-holes {} closes it. As ", own.edges);
-    return "As ";
+        return fmt::format("If its {} long loops are holes, --fill-holes all closes them; try that first. ",
+                           own.long_loops);
+    if (own.width < as_holes) return fmt::format("If it is a hole, --fill-holes {} closes it. ", own.edges);
+    return "";
 }
 
 void warn_of_part(const Opening& own, const Opening& other, const char* which, const char* whole) {
     if (own.width < wide || other.width > much_narrower * own.width) return;
     warn(
         "the {} looks like a part of the {}: it ends at a loop, {:.2f} sqrt(area) around, where the {} has "
-        "none beyond {:.2f}. {}a part it is stretched over the whole: then give --part {}, or cut the {} to "
-        "the same part",
+        "none beyond {:.2f}. {}If it is a part, it is stretched over the whole: give --part {}, or cut the "
+        "{} "
+        "to the same part",
         which, whole, own.width, whole, other.width, how_to_close(own), which, whole);
 }
 

@@ -10,12 +10,12 @@ namespace varimap {
 namespace {
 
 /// A mesh's faces by component, and how large they are.
-struct Components {
+struct ComponentFaces {
     std::vector<int> of_vertex;           ///< -1 where no face uses it
     std::vector<std::vector<int>> faces;  ///< per component
     FaceData<double> share;               ///< per face: of the mesh's area
 
-    explicit Components(const TriangleMesh& mesh)
+    explicit ComponentFaces(const TriangleMesh& mesh)
         : of_vertex(vertex_components(mesh)), share(mesh.face_count()) {
         const double area = surface_area(mesh);
         for (int f = 0; f < mesh.face_count(); ++f) {
@@ -29,8 +29,8 @@ struct Components {
 
 /// Per component of the source, and of the target, how much of the source's area lies on the latter.
 using Shares = std::vector<std::vector<double>>;
-Shares shares_on(const PointMap& map, const TriangleMesh& source, const Components& of_source,
-                 const TriangleMesh& target, const Components& of_target) {
+Shares shares_on(const PointMap& map, const TriangleMesh& source, const ComponentFaces& of_source,
+                 const TriangleMesh& target, const ComponentFaces& of_target) {
     Shares shares(of_source.faces.size(), std::vector<double>(of_target.faces.size(), 0));
     for (std::size_t c = 0; c < shares.size(); ++c)
         for (const int f : of_source.faces[c])
@@ -43,7 +43,7 @@ Shares shares_on(const PointMap& map, const TriangleMesh& source, const Componen
 }
 
 /// `there`: of these components; `back`: of the other surface's.
-std::vector<ComponentImage> images(const TriangleMesh& mesh, const Components& components,
+std::vector<ComponentImage> images(const TriangleMesh& mesh, const ComponentFaces& components,
                                    const Shares& there, const Shares& back) {
     std::vector<ComponentImage> found(components.faces.size());
     for (int v = mesh.vertex_count() - 1; v >= 0; --v)
@@ -69,23 +69,28 @@ bool lacks_partner(const ComponentImage& one) {
 }  // namespace
 
 bool ComponentImages::are_astray() const {
-    return std::ranges::any_of(of_source, lacks_partner) && std::ranges::any_of(of_target, lacks_partner);
+    return are_several() && std::ranges::any_of(of_source, lacks_partner) &&
+           std::ranges::any_of(of_target, lacks_partner);
+}
+
+int ComponentImages::sides(const ComponentImage& one) const {
+    if (one.onto < 0) return 0;
+    const ComponentImage& partner = of_target[std::size_t(one.onto)];
+    if (partner.onto < 0 || &of_source[std::size_t(partner.onto)] != &one) return 0;
+    return one.side * partner.side;
 }
 
 std::vector<int> ComponentImages::opposed() const {
+    const auto largest = std::ranges::max_element(of_source, {}, &ComponentImage::area);
     std::vector<int> found;
-    for (std::size_t c = 0; c < of_source.size(); ++c) {
-        const ComponentImage& one = of_source[c];
-        if (one.onto < 0) continue;
-        const ComponentImage& partner = of_target[std::size_t(one.onto)];
-        if (partner.onto == int(c) && one.side * partner.side < 0) found.push_back(int(c));
-    }
+    for (std::size_t c = 0; c < of_source.size(); ++c)
+        if (sides(of_source[c]) * sides(*largest) < 0) found.push_back(int(c));
     return found;
 }
 
 ComponentImages measure_components(const PointMap& map, const PointMap& back, const TriangleMesh& source,
                                    const TriangleMesh& target) {
-    const Components of_source(source), of_target(target);
+    const ComponentFaces of_source(source), of_target(target);
     const Shares there = shares_on(map, source, of_source, target, of_target),
                  here = shares_on(back, target, of_target, source, of_source);
     return {images(source, of_source, there, here), images(target, of_target, here, there)};

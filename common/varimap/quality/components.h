@@ -30,8 +30,13 @@ struct ComponentImages {
     /// Whether components of both are without a partner, so that some may have been each other's.
     bool are_astray() const;
     /// Those of the source of which and of whose partner, which have each other, one looks inward and one
-    /// outward.
+    /// outward, where that is not so of the largest; or the other way round, as where one surface is
+    /// mirrored.
     std::vector<int> opposed() const;
+
+  private:
+    /// The product of a component's side and of its partner's; 0 where they have not each other.
+    int sides(const ComponentImage& one) const;
 };
 
 /// `map` leads from `source` to `target`, `back` the other way. Vertices count by the area around them, those

@@ -21,8 +21,8 @@ constexpr int few_faults = 100;
 /// By the other direction; more, as of a limb that one direction mirrors, where the other has far fewer.
 constexpr int few_to_adopt = 300;
 constexpr int far_fewer = 4;
-/// Of all faces: so many faulty ones more is a limb worth which a direction had lost. Repairs that follow mend
-/// most of them.
+/// Of all faces: so many faulty ones more is a limb worth which a direction had lost. Repairs that follow
+/// mend most of them.
 constexpr double few_more = 0.003;
 
 void log_repair(const ChartRepair::Report& report) {

@@ -19,7 +19,7 @@ namespace varimap {
 namespace {
 
 constexpr int steps_after_repairs = 4;  ///< chosen by hand
-constexpr int settling_sweeps = 3;  ///< local ones in each of its steps where there are no global ones
+constexpr int settling_sweeps = 3;      ///< local ones in each of its steps where there are no global ones
 /// Energy of a direction, times the other's, from which on all of it may be taken from the other.
 constexpr double much_worse = 1.2;
 /// Times the steps for sheets, which boundaries make slide as a whole: slowly, since each direction holds the

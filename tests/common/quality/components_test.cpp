@@ -97,6 +97,12 @@ TEST(Components, AreOpposedWhereOneLooksInward) {
     const ComponentImages found =
         measure_components(points_at_vertices(turned), points_at_vertices(balls), balls, turned);
     EXPECT_EQ(found.opposed(), std::vector<int>{2});
+    TriangleMesh mirrored = balls;
+    mirrored.faces.col(1).swap(mirrored.faces.col(2));
+    EXPECT_TRUE(measure_components(points_at_vertices(mirrored), points_at_vertices(balls), balls, mirrored)
+                    .opposed()
+                    .empty())
+        << "as --mirror has it";
     EXPECT_EQ(found.of_source[2].side, 1);
     EXPECT_EQ(found.of_target[2].side, -1);
 }
