@@ -115,17 +115,18 @@ printf '0 0\n6 6\n' >tips.txt
 grep -q '^verdict  look here: .*tips.txt: changed since the map was made' out.txt || fail "report of landmarks that were replaced: $(<out.txt)"
 # A folder with meshes and results that is moved as a whole.
 mkdir -p project/shapes
-cp plain.off bent.off project/shapes
-(cd project && map shapes/plain.off shapes/bent.off -o out "${coarse[@]}")
+cp plain.off project/shapes/first.off
+cp bent.off project/shapes/second.off
+(cd project && map shapes/first.off shapes/second.off -o out "${coarse[@]}")
 mv project elsewhere
 "$varimap" report elsewhere/out >out.txt 2>log || fail "report of a project that was moved: $(<log)"
 ! grep '^verdict ' out.txt | grep 'not there\|changed' || fail "report of a project that was moved: $(<out.txt)"
 echo 0 >tip.txt
 "$varimap" transfer elsewhere/out --points tip.txt >out.txt 2>log || fail "transfer of a project that was moved: $(<log)"
 ! grep -F '[inspect]' log || fail "a look at what was moved is told of"
-cp elsewhere/shapes/bent.off elsewhere/shapes/plain.off
+cp bent.off elsewhere/shapes/first.off
 "$varimap" report elsewhere/out >out.txt 2>log || fail "report of a mesh that was moved and replaced"
-grep -q '^verdict  look here: .*plain.off: the mesh is not there any more' out.txt || fail "report of a mesh that was moved and replaced: $(<out.txt)"
+grep -q '^verdict  look here: .*first.off: the mesh is not there any more' out.txt || fail "report of a mesh that was moved and replaced: $(<out.txt)"
 
 # Results that were moved with the meshes of their batch.
 mkdir meshes && cp plain.off bent.off meshes
