@@ -186,14 +186,13 @@ bool LooseComponents::keep(MapPair& maps, MapPair laid, double much, Rest& rest)
     return true;
 }
 
-int LooseComponents::exchange(MapPair& maps, Rest& rest) const {
+int LooseComponents::exchange(MapPair& maps, const Points& images, Rest& rest) const {
     constexpr double nearer = 0.5, alike = 1.5;
     // Of rough score, for each unit of area: the tubes that distances are measured along stretch from place
     // to place.
     constexpr double clearly = 25;
     const auto are_alike = [](double a, double b) { return std::max(a, b) < alike * std::min(a, b); };
     const auto middle_B = [&](int b) { return B_.mean(b, B_.mesh().vertices); };
-    const Points images = positions(B_.mesh(), maps.A_to_B);
     std::vector<std::optional<int>> partner = partners(maps);
     std::vector<Vec3> place(partner.size());
     for (std::size_t a = 0; a < place.size(); ++a) {
@@ -242,13 +241,12 @@ int LooseComponents::turn(MapPair& maps, Rest& rest) const {
 
 int LooseComponents::lay_as_the_rest(MapPair& maps) const {
     const int largest = A_.largest();
-    if (A_.count() < 2 || B_.count() < 2) return 0;
-    if (!counterpart(largest, maps)) return 0;
+    if (A_.count() < 2 || B_.count() < 2 || !counterpart(largest, maps)) return 0;
     const bool opposed = are_opposed(context_.A().surface, context_.B().surface);
     const Points images = positions(B_.mesh(), maps.A_to_B);
     Rest rest{Laying(A_, B_, opposed), Laying(B_, A_, opposed), opposed, A_.turn(largest, images, opposed),
               rough_score(appraisal_.cues(maps))};
-    const int exchanged = exchange(maps, rest);
+    const int exchanged = exchange(maps, images, rest);
     return exchanged + turn(maps, rest);
 }
 

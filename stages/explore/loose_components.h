@@ -65,7 +65,8 @@ class LooseComponents {
     std::vector<std::optional<int>> partners(const MapPair& maps) const;
     /// The component of B that a map and its inverse lead to from one of A, if both can be laid.
     std::optional<int> counterpart(int component, const MapPair& maps) const;
-    int exchange(MapPair& maps, Rest& rest) const;
+    /// `images`: as above.
+    int exchange(MapPair& maps, const Points& images, Rest& rest) const;
     int turn(MapPair& maps, Rest& rest) const;
     /// Whether the map with components laid anew fits not worse by `much`, in rough score; then it is kept.
     bool keep(MapPair& maps, MapPair laid, double much, Rest& rest) const;
