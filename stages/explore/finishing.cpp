@@ -15,10 +15,10 @@
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/multilevel/vertex_images.h"
-#include "varimap/relaxation/untangling.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
 #include "varimap/spectral/local_shape.h"
+#include "varimap/untangling/untangling.h"
 
 namespace varimap {
 

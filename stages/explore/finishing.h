@@ -7,8 +7,8 @@
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/ironing.h"
 #include "varimap/multilevel/matching.h"
-#include "varimap/relaxation/untangling_options.h"
 #include "varimap/transport/alternating_minimization.h"
+#include "varimap/untangling/untangling_options.h"
 
 namespace varimap {
 

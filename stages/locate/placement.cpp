@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "varimap/core/index_set.h"
-#include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
 #include "varimap/relaxation/movable_vertices.h"
-#include "varimap/relaxation/rounds.h"
+#include "varimap/sliding/face_energy.h"
+#include "varimap/untangling/rounds.h"
 
 namespace varimap {
 

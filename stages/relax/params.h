@@ -1,7 +1,7 @@
 #pragma once
 
-#include "varimap/relaxation/untangling_options.h"
 #include "varimap/stage/parameters.h"
+#include "varimap/untangling/untangling_options.h"
 
 namespace varimap {
 

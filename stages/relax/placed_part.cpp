@@ -8,7 +8,7 @@
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/quality/quality.h"
-#include "varimap/relaxation/inverse_map.h"
+#include "varimap/sliding/inverse_map.h"
 
 namespace varimap {
 

@@ -4,14 +4,14 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
+#include "varimap/map_repair/chart_repair.h"
 #include "varimap/mesh/pulled_back.h"
 #include "varimap/mesh/subdivision.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/relaxation/chart_repair.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/local_relaxation.h"
 #include "varimap/relaxation/movable_vertices.h"
-#include "varimap/relaxation/rounds.h"
+#include "varimap/untangling/rounds.h"
 
 namespace varimap {
 

@@ -5,7 +5,7 @@
 #include "varimap/core/indexed.h"
 #include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/surface.h"
-#include "varimap/relaxation/untangling_options.h"
+#include "varimap/untangling/untangling_options.h"
 
 namespace varimap {
 

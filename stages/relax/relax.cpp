@@ -10,8 +10,8 @@
 #include "varimap/core/counted.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/relaxation/untwisting.h"
 #include "varimap/spectral/local_shape.h"
+#include "varimap/untangling/untwisting.h"
 
 namespace varimap {
 

@@ -4,10 +4,10 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "varimap/map_repair/normal_agreement.h"
 #include "varimap/mesh/coarsening.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/local_relaxation.h"
-#include "varimap/relaxation/normal_agreement.h"
 
 // What relaxing on the input and coarsening spend their time with, at 10 * 4^n + 2 vertices. The floor beside
 // each is what it has to read and compute: bytes are those of the vertex's star and of the target beneath,

@@ -69,7 +69,8 @@ expect_found() {
 }
 expect_found common/varimap/core/log.cpp '"varimap/mesh/surface.h"'
 expect_found common/varimap/transport/sinkhorn.cpp '"varimap/spectral/laplacian.h"'
-expect_found common/varimap/relaxation/untangling.cpp '"varimap/multilevel/orientation.h"'
+expect_found common/varimap/untangling/untangling.cpp '"varimap/multilevel/orientation.h"'
+expect_found common/varimap/sliding/sliding_map.cpp '"varimap/relaxation/fold_removal.h"'
 expect_found common/varimap/verification/verification.h '"varimap/quality/quality.h"'
 expect_found common/varimap/verification/verification.cpp '<CLI/CLI.hpp>'
 expect_found common/varimap/mesh/surface.h '<embree3/rtcore.h>'

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/relaxation/sliding_map.h"
+#include "varimap/sliding/sliding_map.h"
 
 namespace varimap {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/relaxation/sliding_map.h"
+#include "varimap/sliding/sliding_map.h"
 
 namespace varimap {
 

@@ -7,8 +7,8 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
-#include "varimap/relaxation/face_energy.h"
 #include "varimap/relaxation/triangle_system.h"
+#include "varimap/sliding/face_energy.h"
 
 namespace varimap {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "varimap/relaxation/relief_agreement.h"
-#include "varimap/relaxation/sliding_map.h"
 #include "varimap/relaxation/soft_constraints.h"
+#include "varimap/sliding/sliding_map.h"
 
 namespace varimap {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "varimap/relaxation/face_energy.h"
+#include "varimap/sliding/face_energy.h"
 
 namespace varimap {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "varimap/relaxation/branch_points.h"
-#include "varimap/relaxation/sliding_map.h"
+#include "varimap/sliding/branch_points.h"
+#include "varimap/sliding/sliding_map.h"
 
 namespace varimap {
 

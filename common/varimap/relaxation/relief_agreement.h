@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "varimap/relaxation/sliding_map.h"
+#include "varimap/sliding/sliding_map.h"
 
 namespace varimap {
 

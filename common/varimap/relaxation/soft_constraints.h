@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/relaxation/face_energy.h"
+#include "varimap/sliding/face_energy.h"
 
 namespace varimap {
 

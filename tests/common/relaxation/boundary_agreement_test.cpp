@@ -8,7 +8,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/quality/quality.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/untangling/untangling.h"
 
 namespace varimap {
 namespace {

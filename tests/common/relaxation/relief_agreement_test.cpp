@@ -7,7 +7,7 @@
 #include "fixtures/bad_maps.h"
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/untangling/untangling.h"
 
 namespace varimap {
 namespace {

@@ -7,7 +7,7 @@
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/relaxation/global_relaxation.h"
-#include "varimap/relaxation/untangling.h"
+#include "varimap/untangling/untangling.h"
 
 namespace varimap {
 namespace {
