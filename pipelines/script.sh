@@ -240,6 +240,13 @@ kind_of() {  # NAME AS_TYPED
     echo "${options[$1]}"
 }
 
+# take_options_of_maps: what says how a map is made is an option, too: of `varimap map`, and of what makes many maps.
+take_options_of_maps() {
+    options+=([explore]=flag [full-resolution]=flag [landmark-weight]=value [landmark-vicinity]=value [landmark-space]=value
+        [landmark-base]=value [area-bound]=value [area-energy]=value [repair]=value [components]=value [fill-holes]=value
+        [cut-handles]=value [set]=value [config]=value)
+}
+
 declare -A short=([-o]=--out [-j]=--cores)
 
 # parse_options ARGUMENTS: calls `option` and `word` as the head of this file says.

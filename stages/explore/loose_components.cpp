@@ -22,8 +22,7 @@ namespace {
 std::vector<int> component_of_each_vertex(const Surface& surface) {
     std::vector<int> of(std::size_t(surface.mesh.vertex_count()), 0);
     const std::vector<int>& file_face = surface.link.face;
-    const bool has_added_faces = std::any_of(file_face.begin(), file_face.end(), [](int f) { return f < 0; });
-    if (!has_added_faces || is_cut_out(surface)) return of;
+    if (!has_added_faces(surface) || is_cut_out(surface)) return of;
     const std::vector<int> of_input = vertex_components(without_added_faces(surface));
     for (std::size_t v = 0; v < of.size(); ++v) {
         const SurfacePoint& at = surface.on_input[v];

@@ -31,7 +31,7 @@ bool has_holes_alone(const TriangleMesh& mesh) {
 /// Not where components were joined by tubes, which would count as well.
 std::optional<Coverage> coverage_when_closed(const PointMap& map, const Surface& source,
                                              const TriangleMesh& own_faces, const Surface& target) {
-    const bool has_lids = own_faces.face_count() < source.input.face_count();
+    const bool has_lids = has_added_faces(source);
     const bool has_holes = has_holes_alone(source.input);
     if (!has_lids && !has_holes) return {};
     const std::vector<int> components = vertex_components(own_faces);
@@ -54,7 +54,7 @@ VertexData<char> rim_of_added_faces(const Surface& target) {
 /// Images on faces that a repair added were taken to the rim of these, on top of each other, and their
 /// triangles folded: they are none on the target's own faces.
 PointMap without_images_on_added_faces(PointMap map, const Surface& target) {
-    if (without_added_faces(target).face_count() == target.input.face_count()) return map;
+    if (!has_added_faces(target)) return map;
     const VertexData<char> on_rim = rim_of_added_faces(target);
     for (SurfacePoint& image : map) {
         if (image.face < 0) continue;

@@ -118,11 +118,15 @@ MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex) {
     return {nearest_vertex(surface.mesh, point)};
 }
 
+bool has_added_faces(const Surface& surface) {
+    return std::ranges::any_of(surface.link.face, [](int in_file) { return in_file < 0; });
+}
+
 TriangleMesh without_added_faces(const Surface& surface) {
+    if (!has_added_faces(surface)) return surface.input;
     std::vector<int> left;
     for (int f = 0; f < int(surface.link.face.size()); ++f)
         if (surface.link.face[std::size_t(f)] >= 0) left.push_back(f);
-    if (left.size() == surface.link.face.size()) return surface.input;
     return {surface.input.vertices, surface.input.faces(left, Eigen::all), surface.input.space};
 }
 

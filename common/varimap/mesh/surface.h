@@ -71,6 +71,9 @@ SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh);
 /// face uses the input vertex.
 MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex);
 
+/// Whether a repair added faces to those of the file: lids on holes, tubes between components.
+bool has_added_faces(const Surface& surface);
+
 /// The surface's input with the faces of its file alone, without those that a repair added: what maps are
 /// measured on.
 TriangleMesh without_added_faces(const Surface& surface);
