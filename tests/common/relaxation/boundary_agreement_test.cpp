@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fixtures/bad_maps.h"
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
 #include "varimap/quality/quality.h"
@@ -43,13 +44,6 @@ TriangleMesh with_hole(TriangleMesh mesh, const Vec3& at, double radius) {
             mesh.faces.row(kept++) = mesh.faces.row(f).eval();
     mesh.faces.conservativeResize(kept, 3);
     return mesh;
-}
-
-double mean_error(const PointMap& map, const TriangleMesh& target) {
-    double sum = 0;
-    for (int v = 0; v < target.vertex_count(); ++v)
-        sum += (position(target, map[std::size_t(v)]) - target.vertex(v)).norm();
-    return sum / target.vertex_count();
 }
 
 BoundaryAgreement matched(const SlidingMap& map) {
@@ -108,7 +102,7 @@ Found untangled(const TriangleMesh& A, const TriangleMesh& B, const UntanglingOp
     MapPair maps{moved(shapes::square(24), 0.95, 0.03), moved(shapes::square(24), 0.95, -0.03)};
     const VertexData<bool> pinned(A.vertex_count());
     untangle(maps, A, B, {pinned, pinned}, options);
-    return {mean_error(maps.A_to_B, B), measure_coverage(maps.A_to_B, A, B).share};
+    return {shapes::mean_error(maps.A_to_B, B), measure_coverage(maps.A_to_B, A, B).share};
 }
 
 /// Without, both directions leave a margin out, each held by the other.
