@@ -52,7 +52,7 @@ TEST(AreaBound, ATightOneIsKeptFromTheStart) {
 TEST(AreaBound, IsRestoredAfterRepairs) {
     const TriangleMesh figure = shapes::figure(0.15);
     TriangleMesh tall = figure;
-    tall.vertices.col(2) *= 3;
+    tall.vertices.col(2) *= 2.5;
     const double bound = 1.2;
     const auto share = [&](bool restored) {
         MapPair maps{shapes::at_vertices(tall), shapes::at_vertices(figure)};
