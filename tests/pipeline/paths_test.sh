@@ -102,7 +102,7 @@ cp plain.off replaced.off
 map replaced.off bent.off -o earlier "${coarse[@]}"
 cp bent.off replaced.off
 "$varimap" report earlier >out.txt 2>log || fail "report of a mesh that was replaced: $(<log)"
-grep -q '^verdict  look here: .*replaced.off: changed since the map was made; run varimap map again' out.txt ||
+grep -q '^verdict  look here: .*replaced.off: changed since the map was made; make the map again' out.txt ||
     fail "report of a mesh that was replaced: $(<out.txt)"
 
 # Nor as those of other landmarks.

@@ -102,7 +102,7 @@ expect_exit 2 "$varimap" view spaced --landmark-space
 cp a.off kept.off
 awk 'NR == 2 { n = $1 } NR == 3 { first = $0; next } { print } NR == n + 2 { print first }' kept.off >a.off
 expect_exit 4 "$varimap" view spaced
-grep -q 'a.off: changed since the map was made; run varimap map again' log || fail "a changed mesh is not named"
+grep -q 'a.off: changed since the map was made; make the map again' log || fail "a changed mesh is not named"
 mv kept.off a.off
 "$varimap" view spaced >out.txt 2>log || fail "view of the mesh as it was (exit $?)"
 

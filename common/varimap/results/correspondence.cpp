@@ -50,7 +50,7 @@ void require_fit(const PointMap& map, const std::string& path, const TriangleMes
 
 void require_unchanged(const std::string& path, const std::string& hash) {
     if (!hash.empty() && file_hash(path) != hash)
-        throw ArtifactError(path + ": changed since the map was made; run varimap map again");
+        throw ArtifactError(path + ": changed since the map was made; make the map again");
 }
 
 Correspondence read_correspondence(const MapFiles& files, bool reverse, UnplacedFaces unplaced) {
