@@ -17,6 +17,8 @@ namespace {
 constexpr double tolerance = .1;  // distance at which a map hardly agrees with the layout any more
 constexpr double chance = .05;    // that a layout is right which none of a pair's maps agrees with
 constexpr double clearly = 4;     // by that much (log) a layout is more probable that gives up a first map
+/// Ways over third surfaces against which no pair is sure: so many that are certain, more that are less so.
+constexpr double ways_against_sure = 2;
 constexpr std::size_t most_loops = 60;       // for each pair; over the first surfaces
 constexpr std::size_t most_neighbours = 20;  // over which a surface is tried to be laid out; the surest
 constexpr std::size_t most_roots = 10;       // layouts
@@ -87,15 +89,11 @@ class Layout {
     /// The number of a pair's map; that behind its last one: none of them, but what the layout says.
     std::size_t choice(std::size_t p) const {
         const PairOfMaps& pair = pairs_[p];
-        if (pair.sure) return 0;
         const auto terms =
             probabilities(p, places_[std::size_t(pair.source)], places_[std::size_t(pair.target)]);
         const auto best = std::max_element(terms.begin(), terms.end());
         const auto number = std::size_t(best - terms.begin());
-        if (number == 0) return 0;
-        const bool given_up = number < pair.maps.size() ? loss_with_first(p) >= clearly
-                                                        : seen(p) > pair.maps.front().probability;
-        return given_up ? number : 0;
+        return number > 0 && is_first_given_up(p, number) ? number : 0;
     }
 
     /// What the layout says of a pair.
@@ -201,6 +199,13 @@ class Layout {
         return terms;
     }
 
+    bool is_first_given_up(std::size_t p, std::size_t number) const {
+        const PairOfMaps& pair = pairs_[p];
+        if (pair.sure && seen(p) < ways_against_sure) return false;
+        return number < pair.maps.size() ? loss_with_first(p) >= clearly
+                                         : seen(p) > pair.maps.front().probability;
+    }
+
     /// How much less probable (log) the layout is with one of the pair's surfaces where the pair's first map
     /// has it.
     double loss_with_first(std::size_t p) const {
@@ -255,6 +260,20 @@ const Images& images(const PairOfMaps& pair, int map, bool reversed) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> kinds(const std::vector<SampledMap>& maps, const Points& target) {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < maps.size(); ++k) {
+        std::size_t first = 0;
+        while (first < k &&
+               (result[first] < first ||
+                distance(
+                    maps[k].there, [&](std::size_t v) { return maps[first].there[v]; }, target) >= closing))
+            ++first;
+        result.push_back(first);
+    }
+    return result;
+}
 
 std::vector<Loops> measure_loops(const Samples& samples, const std::vector<PairOfMaps>& pairs,
                                  const Choice& choice) {

@@ -20,7 +20,8 @@ struct SampledMap {
 struct PairOfMaps {
     int source = 0, target = 0;
     std::vector<SampledMap> maps;
-    bool sure = false;  ///< the first map stays
+    bool sure =
+        false;  ///< of the first map, which stays unless many ways over third surfaces speak against it
 };
 
 /// A choice among the maps of every pair, by number from 0.
@@ -36,15 +37,20 @@ inline constexpr double closing = .1;
 std::vector<Loops> measure_loops(const Samples& samples, const std::vector<PairOfMaps>& pairs,
                                  const Choice& choice);
 
+/// Per map, the first whose images are hardly elsewhere (less than `closing` in the mean): by another way the
+/// same was found. target: its samples.
+std::vector<std::size_t> kinds(const std::vector<SampledMap>& maps, const Points& target);
+
 /// Synchronisation of the collection: every surface has one map to a common root, so that all loops close,
 /// and of all such ways of laying the collection out, the most probable is looked for. If d_k is the mean
 /// distance (units of sqrt(area)) between what the layout says of a pair and the pair's k-th map, which is
 /// right with probability p_k, the layout's log-probability is the sum over the pairs of
 ///   log(sum_k p_k exp(-(d_k / 0.1)^2) + 0.05 (1 - sum_k p_k)).
-/// A pair that is not sure takes the map whose term is largest, unless the layout is nearly as probable (log,
-/// 4) with one of the pair's surfaces laid out over the pair's first map instead. If the last term is the
-/// largest, what the layout says of the pair is added to its maps, with probability 0, and taken where ways
-/// over third surfaces that agree with it are right more often, in the mean, than the first map is.
+/// A pair takes the map whose term is largest, unless the layout is nearly as probable (log, 4) with one of
+/// the pair's surfaces laid out over the pair's first map instead. If the last term is the largest, what the
+/// layout says of the pair is added to its maps, with probability 0, and taken where ways over third surfaces
+/// that agree with it are right more often, in the mean, than the first map is. A pair that is sure keeps its
+/// first map unless two such ways or more, in the mean, are right.
 Choice choose(const Samples& samples, std::vector<PairOfMaps>& pairs);
 
 }  // namespace varimap

@@ -1,8 +1,10 @@
 #include "stages/cycles/collection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
@@ -74,15 +76,15 @@ class Reader {
             keep_samples(pair.source, map.from_A, file);
             keep_samples(pair.target, map.from_B, file);
         }
-        const auto probable = probabilities(found.list);
         // Nearest vertices of the sketches, which all maps of a surface share.
-        for (std::size_t k = 0; k < found.maps.size(); ++k) {
-            if (k > 0 && is_mirrored(found.list[k])) continue;
+        for (const Correspondences& map : found.maps)
             pair.maps.push_back(
-                {nearest(positions(found.maps[k].from_A, meshes_[b], units_[b], true), collection.samples[b]),
-                 nearest(positions(found.maps[k].from_B, meshes_[a], units_[a], true), collection.samples[a]),
-                 probable[k]});
-        }
+                {nearest(positions(map.from_A, meshes_[b], units_[b], true), collection.samples[b]),
+                 nearest(positions(map.from_B, meshes_[a], units_[a], true), collection.samples[a]), 0});
+        const auto probable = probabilities(found.list, kinds(pair.maps, collection.samples[b]));
+        for (std::size_t k = 0; k < pair.maps.size(); ++k) pair.maps[k].probability = probable[k];
+        for (std::size_t k = pair.maps.size(); --k > 0;)
+            if (is_mirrored(found.list[k])) pair.maps.erase(pair.maps.begin() + std::ptrdiff_t(k));
         pair.sure = confidence_of(found.list).confident;
         collection.names.push_back(name);
         collection.pairs.push_back(std::move(pair));
@@ -94,19 +96,25 @@ class Reader {
 
 }  // namespace
 
-std::vector<double> probabilities(const std::vector<Candidate>& candidates) {
-    // Scores mislead now and then, by much: a share of the probability is the same for all.
+std::vector<double> probabilities(const std::vector<Candidate>& candidates,
+                                  const std::vector<std::size_t>& kind) {
+    // Scores mislead now and then, by much: a share of the probability is the same for all kinds.
     constexpr double misled = .3;  // chosen on generated families
-    std::vector<double> result;
-    double sum = 0, count = 0;
-    for (const Candidate& candidate : candidates) {
-        const bool mirrored = is_mirrored(candidate);
-        result.push_back(mirrored ? 0 : std::exp(candidates.front().score - candidate.score));
-        sum += result.back();
-        count += !mirrored;
+    std::vector<double> weight, of_kind(kind.size(), 0), best(kind.size(), 0);
+    for (std::size_t k = 0; k < kind.size(); ++k) {
+        weight.push_back(
+            is_mirrored(candidates[k]) ? 0 : std::exp(candidates.front().score - candidates[k].score));
+        of_kind[kind[k]] += weight[k];
+        best[kind[k]] = std::max(best[kind[k]], weight[k]);
     }
-    for (double& p : result)
-        if (p > 0) p = plausibility(candidates.front()) * ((1 - misled) * p / sum + misled / count);
+    const double sum = std::accumulate(best.begin(), best.end(), 0.),
+                 count = double(std::ranges::count_if(best, [](double w) { return w > 0; }));
+    std::vector<double> result;
+    for (std::size_t k = 0; k < kind.size(); ++k) {
+        const double share = (1 - misled) * best[kind[k]] / sum + misled / count;
+        result.push_back(
+            weight[k] > 0 ? plausibility(candidates.front()) * share * weight[k] / of_kind[kind[k]] : 0);
+    }
     return result;
 }
 

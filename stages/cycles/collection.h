@@ -26,7 +26,9 @@ struct Collection {
 PointMap on_files(const SampledMap& map, const Surface& source, const Surface& target);
 
 /// Per candidate, how probable it is that it is the right map, as far as its pair alone tells; 0 for mirrored
-/// ones.
-std::vector<double> probabilities(const std::vector<Candidate>& candidates);
+/// ones. kind[k]: the first candidate that is hardly another one than k (choice.h); a kind is as probable as
+/// its best one would be alone.
+std::vector<double> probabilities(const std::vector<Candidate>& candidates,
+                                  const std::vector<std::size_t>& kind);
 
 }  // namespace varimap

@@ -101,13 +101,28 @@ TEST(Choice, IsNoMatterOfMajorities) {
     expect_identities(choose(samples, pairs), pairs);
 }
 
+/// Over four surfaces there are two ways for a pair.
 TEST(Choice, LeavesSurePairsAlone) {
-    const Samples samples(5, circle());
-    auto pairs = pairs_of(5, {2});
+    const Samples samples(4, circle());
+    auto pairs = pairs_of(4, {2});
     pairs[2].sure = true;
     EXPECT_THAT(choose(samples, pairs), Each(0));
     pairs[2].sure = false;
     expect_identities(choose(samples, pairs), pairs);
+}
+
+/// With six surfaces four ways over third ones say otherwise, whether or not the pair has that map.
+TEST(Choice, OverrulesASurePairWhereManyWaysSpeakAgainstIt) {
+    for (const bool has_right : {true, false}) {
+        const Samples samples(6, circle());
+        auto pairs = pairs_of(6, {});
+        pairs[2].maps = {turned(wrong_turn, .9), turned(has_right ? 0 : wrong_turn - 3, .05)};
+        pairs[2].sure = true;
+        expect_identities(choose(samples, pairs), pairs);
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+            if (p != 2) pairs[p].maps = {turned(0, .6), turned(wrong_turn, .3)};
+        EXPECT_EQ(choose(samples, pairs)[2], 0);  // .6 * .6 * 4 ways are not enough
+    }
 }
 
 /// What the layout says is one more map where the ways over third surfaces are more probable than the pair's
@@ -175,12 +190,31 @@ TEST(Probabilities, AreSharedByScore) {
     Candidate worse = good, mirrored = good;
     worse.score = 4;
     mirrored.reversed_mass = .9;
-    const auto p = probabilities({good, good, worse, mirrored});
+    const auto p = probabilities({good, good, worse, mirrored}, {0, 1, 2, 3});
     EXPECT_EQ(p[0], p[1]);
     EXPECT_LT(p[2], p[0] / 2);
     EXPECT_GT(p[2], 0.05);  // scores mislead now and then
     EXPECT_EQ(p[3], 0);
     EXPECT_NEAR(p[0] + p[1] + p[2], plausibility(good), 1e-12);
+}
+
+/// What was found twice is no more probable for it.
+TEST(Probabilities, AreThoseOfKinds) {
+    Candidate good, other;
+    good.relief = other.relief = .9;
+    good.score = 1;
+    other.score = 2;
+    const auto twice = probabilities({good, good, other}, {0, 0, 2}),
+               once = probabilities({good, other}, {0, 1});
+    EXPECT_NEAR(twice[0] + twice[1], once[0], 1e-12);
+    EXPECT_NEAR(twice[2], once[1], 1e-12);
+}
+
+TEST(Kinds, AreOfMapsThatAreHardlyElsewhere) {
+    std::vector<SampledMap> maps{turned(0, .1), turned(wrong_turn, .1), turned(0, .1),
+                                 turned(wrong_turn, .1)};
+    std::swap(maps[2].there[0], maps[2].there[1]);
+    EXPECT_THAT(kinds(maps, circle()), ElementsAre(0, 1, 0, 1));
 }
 
 }  // namespace

@@ -43,6 +43,10 @@ constexpr int global_chart_steps = 8;
 constexpr double least_chart_gain = 1e-4;
 constexpr double may_spoil = 0.1;
 const RobustEnergy global_energy({1, 0.1}, 0);
+/// Faults more than the badness to beat, from which on faces that cut through the target are not looked
+/// after. Of 607 such looks on six pairs, those beyond took six tenths of the time, and mended 22 of 166
+/// parts.
+constexpr double within_reach = 8;
 constexpr int attempts_without_gain = 3;  ///< after which defects are left as they are
 constexpr int rings_of_kernels = 2;       ///< around defects, where vertices may be moved one by one
 /// Faces of a cluster in which that is tried: tangles of a large mesh take long, and gain nothing.
@@ -85,7 +89,7 @@ ChartRepair::ChartRepair(SlidingMap& map, AlongTarget& along_target, NormalAgree
       on_boundary_(boundary_vertices(map.source(), source_.edges())),
       strikes_(map.source().face_count(), 0) {}
 
-double ChartRepair::badness(const std::vector<int>& faces, double limit) {
+double ChartRepair::faults(const std::vector<int>& faces, double limit) {
     // That a face cuts through the target is worth less than that it is reversed.
     constexpr double reversed = 4, branch = 12;
     double sum = 0;
@@ -94,6 +98,11 @@ double ChartRepair::badness(const std::vector<int>& faces, double limit) {
     const std::vector<int> vertices = vertices_of(map_.source(), faces);
     for (std::size_t i = 0; i < vertices.size() && sum < limit; ++i)
         sum += branch * along_target_.is_branch_point(vertices[i]);
+    return sum;
+}
+
+double ChartRepair::badness(const std::vector<int>& faces, double limit) {
+    const double sum = faults(faces, limit);
     return sum < limit ? sum + double(agreement_.disagreeing_among(faces).size()) : sum;
 }
 
@@ -203,8 +212,11 @@ ChartRepair::Outcome ChartRepair::attempt(std::vector<int> faces, const std::vec
         }
         return Outcome::repaired;
     }
-    agreement_.improve(agreement_.disagreeing_among(part.faces()), all_but(free));
-    if (is_better(around, before, part, kept)) return Outcome::repaired;
+    const double most = before.badness + within_reach;
+    if (faults(around, most) < most) {
+        agreement_.improve(agreement_.disagreeing_among(part.faces()), all_but(free));
+        if (is_better(around, before, part, kept)) return Outcome::repaired;
+    }
     if (int(free.size()) <= most_with_care) {
         map_.place(part.vertices(), unfolded);
         polish_with_care(free);

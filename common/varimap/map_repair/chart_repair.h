@@ -44,7 +44,9 @@ class ChartRepair {
     const Report& report() const { return report_; }
 
   private:
-    /// Once it gets to `limit`, the rest is left out.
+    /// Once they get to `limit`, the rest is left out. Of badness, faults are all but faces that cut through
+    /// the target.
+    double faults(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     /// What a repair is judged by.
     struct State {
