@@ -55,8 +55,8 @@ Diffusion diffuse(const PairContext& context, const DiffuseParams& params,
     const Candidates* candidates = found && !found->list.empty() ? &*found : nullptr;
     if (decided && params.candidate > 1)
         throw UsageError(
-            fmt::format("candidate {}: the landmarks decide, and no other map was kept; "
-                        "explore in any case (varimap map --explore)",
+            fmt::format("candidate {}: there is no other map than where the landmarks lead; if none was "
+                        "looked for, varimap map --explore does, and fewer landmarks leave more to find",
                         params.candidate));
     const int all = context.diffusion_levels();
     const int levels = params.levels > 0 ? std::min(params.levels, all) : all;

@@ -5,6 +5,7 @@
 #include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
+#include "varimap/core/rotation.h"
 #include "varimap/core/statistics.h"
 #include "varimap/multilevel/vertex_images.h"
 
@@ -19,6 +20,10 @@ constexpr int most_tips = 8;
 /// On coarser levels several tips share a sample.
 constexpr int tip_samples = 30;
 constexpr int extremities = 8;
+/// Maps that go on from every level, if there are so many, besides the others: turned by more than that
+/// against the best, which else may have no rival but other ends of the same limbs.
+constexpr int least_turned = 2;
+constexpr double turned_about = 110;  ///< degrees
 
 /// Least samples of levels on which images of extremities are exchanged, and for how many of the best maps.
 /// From 45 samples on instead of 30 they took up to half of the time of exploring: of 30 pairs of animals and
@@ -156,15 +161,36 @@ void Exploration::prune(int keep) {
     std::stable_sort(pool.begin(), pool.end(), [](const Trial& a, const Trial& b) {
         return std::pair(a.is_mirrored(), a.energy()) < std::pair(b.is_mirrored(), b.energy());
     });
+    const Points best = pool.empty() ? Points() : places(pool.front());
     std::vector<Trial> kept;
+    int turned = 0;
     for (Trial& trial : pool) {
-        if (int(kept.size()) == keep) break;
-        if (std::none_of(kept.begin(), kept.end(), [&](const Trial& better) {
+        const bool is_full = int(kept.size()) >= keep;
+        if (is_full && (turned >= least_turned || trial.is_mirrored())) break;
+        const bool is_turned = turned < least_turned && turn(best, places(trial)) > turned_about;
+        if (is_full && !is_turned) continue;
+        if (std::any_of(kept.begin(), kept.end(), [&](const Trial& better) {
                 return relative_distance(better, trial, descent_.level()) < options_.distinct;
             }))
-            kept.push_back(std::move(trial));
+            continue;
+        turned += is_turned;
+        kept.push_back(std::move(trial));
     }
     pool = std::move(kept);
+}
+
+Points Exploration::places(const Trial& trial) const {
+    const std::vector<int> partner = largest_of_rows(trial.solution.plan);
+    const std::vector<int>& samples = descent_.level().B.level.samples;
+    Points result(Eigen::Index(partner.size()), 3);
+    for (std::size_t i = 0; i < partner.size(); ++i)
+        result.row(Eigen::Index(i)) =
+            context_.B().surface.mesh.vertices.row(samples[std::size_t(partner[i])]);
+    return result;
+}
+
+double Exploration::turn(const Points& best, const Points& other) const {
+    return degrees(nearest_rotation(best, other, descent_.level().A.side.mass));
 }
 
 VertexImages Exploration::images(const Trial& trial) const {

@@ -70,7 +70,12 @@ class Exploration {
     void add_tip_starts();
     void add_axes_starts();
     void add_swaps(int best);
+    /// Keeps so many that differ, and the best that are turned against the best of all.
     void prune(int keep);
+    /// Where the samples of A go: those of B that most of their mass goes to.
+    Points places(const Trial& trial) const;
+    /// Degrees of the rotation that takes the places of one map nearest to those of another.
+    double turn(const Points& best, const Points& other) const;
     void log_pool() const;
     Trial tried(const Start& start, bool ironed) const;
     void try_all(const std::vector<Start>& starts, bool ironed = true);

@@ -82,7 +82,11 @@ std::vector<Appraised> quickly_found(const PairContext& context, const Explorati
 std::vector<Appraised> with_turns(FinishedPool& finished, const PairContext& context,
                                   const Appraisal& appraisal) {
     std::vector<Appraised> list = finished.appraised();
-    const std::vector<PooledMap> turned = turned_about_axes(list.front(), context, appraisal);
+    std::vector<PooledMap> turned = turned_about_axes(list.front(), context, appraisal);
+    if (!has_turned_rival(list)) {
+        std::vector<PooledMap> halves = turned_by_halves(list.front(), context, appraisal);
+        std::ranges::move(halves, std::back_inserter(turned));
+    }
     if (turned.empty()) return list;
     finished.add(turned);
     return finished.appraised();

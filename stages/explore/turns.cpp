@@ -73,6 +73,15 @@ class TurnedMaps {
         return result;
     }
 
+    std::vector<MapPair> by_halves() const {
+        const PrincipalAxes principal = principal_axes(B_);
+        std::vector<MapPair> result;
+        for (int axis = 0; axis < 3; ++axis)
+            result.push_back(before_turn_of_B(
+                Turn(Eigen::AngleAxisd(std::numbers::pi, principal.axes.col(axis).normalized()))));
+        return result;
+    }
+
   private:
     MapPair after_turn_of_A(const Turn& turn) const {
         return {carried(A_, on_A_, turn, A_on_B_, on_B_),
@@ -105,6 +114,25 @@ double apart(const MapPair& a, const MapPair& b, const PairContext& context) {
 }
 
 }  // namespace
+
+std::vector<PooledMap> turned_by_halves(const Appraised& map, const PairContext& context,
+                                        const Appraisal& appraisal) {
+    constexpr std::size_t most = 2;
+    const Timer timer("turns by halves");
+    std::vector<std::pair<double, PooledMap>> turned;
+    for (const MapPair& maps : TurnedMaps(map.map.maps, context).by_halves())
+        turned.emplace_back(rough_score(appraisal.cues(maps)),
+                            PooledMap{vertex_images(maps, context), map.candidate});
+    std::ranges::stable_sort(turned, {}, [](const auto& one) { return one.first; });
+    turned.resize(std::min(turned.size(), most));
+    std::vector<PooledMap> pool;
+    for (auto& [score, one] : turned) {
+        log("turned by a half: score {:.2f}", score);
+        one.origin.turned_by_half = true;
+        pool.push_back(std::move(one));
+    }
+    return pool;
+}
 
 std::vector<PooledMap> turned_about_axes(const Appraised& map, const PairContext& context,
                                          const Appraisal& appraisal) {

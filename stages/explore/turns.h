@@ -14,4 +14,10 @@ namespace varimap {
 std::vector<PooledMap> turned_about_axes(const Appraised& map, const PairContext& context,
                                          const Appraisal& appraisal);
 
+/// What a map becomes where the target is turned by a half about a principal axis, before: of bodies that are
+/// much the same from front and back exploration may find the one map alone, and all it compares that with
+/// are other ends of the same limbs. The best two by their cues.
+std::vector<PooledMap> turned_by_halves(const Appraised& map, const PairContext& context,
+                                        const Appraisal& appraisal);
+
 }  // namespace varimap

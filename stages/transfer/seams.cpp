@@ -2,7 +2,6 @@
 
 #include <array>
 #include <map>
-#include <tuple>
 
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/surface.h"
@@ -12,9 +11,19 @@ namespace varimap {
 
 namespace {
 
-constexpr double same_uv = 1e-6;        ///< files round
+/// A tenth of a texel of a texture of a thousand: files round, and faces side by side see the coordinates of
+/// their corners each from its own inside.
+constexpr double same_uv = 1e-4;
 constexpr double inset = 1e-3;          ///< of a face, so that its rim is looked at from its inside
 constexpr double cut_tolerance = 1e-4;  ///< of a side's length
+/// The same: nearer cuts are one, or at the corner. Slivers between them would be no faces to map anew.
+constexpr double apart = 1e-3;
+/// Of a side: with more it runs along a seam, on one side of it and the other by turns.
+constexpr std::size_t most_cuts = 32;
+
+bool is_same(const Vec2& a, const Vec2& b) {
+    return (a - b).cwiseAbs().maxCoeff() <= same_uv;
+}
 
 /// A place of a face's inside or rim, seen from its inside.
 struct Sample {
@@ -51,9 +60,12 @@ class Tracer {
     }
     /// Where the straight way from a to b crosses seams.
     std::vector<Cut> cuts(int face, const Vec3& a, const Vec3& b) const {
+        const Sample first = sample(face, a), last = sample(face, b);
         std::vector<Cut> found;
-        bisect(face, a, b, {0, sample(face, a)}, {1, sample(face, b)}, found);
-        return found;
+        bisect(face, a, b, {0, first}, {1, last}, found);
+        if (found.size() <= most_cuts) return found;
+        if (atlas_.joined(first.face, last.face)) return {};
+        return {{.5, first.uv, last.uv}};
     }
     FaceTrace trace(int face) const {
         FaceTrace result;
@@ -72,7 +84,7 @@ class Tracer {
                 std::vector<Cut>& found) const {
         const auto& [t0, first] = from;
         const auto& [t1, last] = to;
-        if (atlas_.joined(first.face, last.face)) return;
+        if (found.size() > most_cuts || atlas_.joined(first.face, last.face)) return;
         const double t = (t0 + t1) / 2;
         if (t1 - t0 < cut_tolerance) return found.push_back({t, first.uv, last.uv});
         const Stop middle{t, sample(face, (1 - t) * a + t * b)};
@@ -136,7 +148,7 @@ class Cutter {
     std::vector<std::vector<int>> cut_vertices_;  ///< per side 3 f + c: the vertices at its cuts
     std::vector<Vec3> vertices_;
     std::vector<Vec2> uv_;
-    std::map<std::tuple<int, double, double>, int> known_uv_;
+    std::map<int, std::vector<int>> known_uv_;  ///< of the vertices
     std::vector<int> corners_, uv_corners_, materials_;
 };
 
@@ -144,9 +156,18 @@ void Cutter::make_cut_vertices(int side) {
     const int c = side % 3;
     const Vec3 a = map_.to.vertex(map_.to.faces(side / 3, c));
     const Vec3 b = map_.to.vertex(map_.to.faces(side / 3, (c + 1) % 3));
+    std::vector<int>& made = cut_vertices_[std::size_t(side)];
+    double before = 0;
+    int vertex = map_.to.faces(side / 3, c);
     for (const Cut& cut : cuts(side)) {
-        cut_vertices_[std::size_t(side)].push_back(int(vertices_.size()));
-        vertices_.push_back((1 - cut.at) * a + cut.at * b);
+        if (1 - cut.at < apart) {
+            vertex = map_.to.faces(side / 3, (c + 1) % 3);
+        } else if (cut.at - before >= apart) {
+            vertex = int(vertices_.size());
+            vertices_.push_back((1 - cut.at) * a + cut.at * b);
+            before = cut.at;
+        }
+        made.push_back(vertex);
     }
 }
 
@@ -228,13 +249,16 @@ void Cutter::star(const std::vector<Arc>& arcs, int f) {
 }
 
 int Cutter::uv_index(const RimPoint& point) {
-    const auto [entry, added] =
-        known_uv_.try_emplace({point.vertex, point.uv[0], point.uv[1]}, int(uv_.size()));
-    if (added) uv_.push_back(point.uv);
-    return entry->second;
+    std::vector<int>& known = known_uv_[point.vertex];
+    for (const int index : known)
+        if (is_same(uv_[std::size_t(index)], point.uv)) return index;
+    known.push_back(int(uv_.size()));
+    uv_.push_back(point.uv);
+    return known.back();
 }
 
 void Cutter::add_face(const RimPoint& a, const RimPoint& b, const RimPoint& c, int f) {
+    if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex) return;
     const bool mapped = traces_[std::size_t(f)].mapped;
     for (const RimPoint* point : {&a, &b, &c}) {
         corners_.push_back(point->vertex);
@@ -275,9 +299,9 @@ bool Atlas::joined(int f, int g) const {
             const int v = mesh_.faces(f, i), w = mesh_.faces(g, j);
             if (v != w && mesh_.vertices.row(v) != mesh_.vertices.row(w)) continue;
             touch = true;
-            const Vec2 difference =
-                model_.uv[std::size_t(model_.uv_of(f, i))] - model_.uv[std::size_t(model_.uv_of(g, j))];
-            if (difference.cwiseAbs().maxCoeff() > same_uv) return false;
+            if (!is_same(model_.uv[std::size_t(model_.uv_of(f, i))],
+                         model_.uv[std::size_t(model_.uv_of(g, j))]))
+                return false;
         }
     return touch;
 }

@@ -23,6 +23,7 @@
 #include "stages/explore/tips.h"
 #include "stages/explore/turns.h"
 #include "stages/generate/level_set.h"
+#include "varimap/core/rotation.h"
 #include "varimap/core/warnings.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
@@ -262,7 +263,10 @@ TEST(SelfMaps, AreThoseOfOneSurfaceWhereShapesAreAlike) {
     AskedFor asked;
     OnDemand ask;
     ask.self_maps = asked.ask;
-    explore({alike.A, alike.B, {}}, ExploreParams(), ask);
+    ExploreParams params;
+    params.exploration.candidates = 1;  // no rival that is turned about
+    params.exploration.coarse = 1;
+    explore({alike.A, alike.B, {}}, params, ask);
     EXPECT_EQ(asked.A, 0);
     EXPECT_EQ(asked.B, 1);
 }
@@ -424,6 +428,39 @@ TEST(TurnsAboutAxes, AreNotTriedWhereNoneBringsASurfaceNearToItself) {
     const PairContext context(pair.A, pair.B, {});
     const Appraised right = with_images(pair, pair.A_on_B, pair.B_on_A);
     EXPECT_TRUE(turned_about_axes(right, context, Appraisal(context)).empty());
+}
+
+double turn_between(const VertexImages& a, const VertexImages& b, const PairContext& context) {
+    const auto at = [&](const VertexImages& images) {
+        return Points(context.B().surface.mesh.vertices(images.A_to_B, Eigen::all));
+    };
+    return degrees(nearest_rotation(at(a), at(b), context.A().surface.mass));
+}
+
+/// Whatever they look like.
+TEST(TurnsByHalves, AreThoseAboutPrincipalAxes) {
+    const KnownPair pair = person();
+    const PairContext context(pair.A, pair.B, {});
+    const Appraised right = with_images(pair, pair.A_on_B, pair.B_on_A);
+    const std::vector<PooledMap> pool = turned_by_halves(right, context, Appraisal(context));
+    ASSERT_EQ(pool.size(), 2u);
+    for (const PooledMap& map : pool) {
+        EXPECT_TRUE(map.origin.turned_by_half);
+        EXPECT_GT(turn_between(vertex_images(right.map.maps, context), map.images, context), 150);
+    }
+}
+
+/// Besides the one that is asked for.
+TEST(Explore, CoarseLevelsKeepMapsThatAreTurnedAbout) {
+    for (const KnownPair& pair : {person(), figures()}) {
+        const PairContext context(pair.A, pair.B, {});
+        ExploreParams params;
+        params.exploration.candidates = params.exploration.coarse = 1;
+        const std::vector<PooledMap> pool = explored(context, params.exploration, params);
+        EXPECT_TRUE(std::any_of(pool.begin(), pool.end(), [&](const PooledMap& map) {
+            return turn_between(pool.front().images, map.images, context) > 150;
+        }));
+    }
 }
 
 /// Every image is another vertex.

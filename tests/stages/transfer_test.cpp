@@ -5,12 +5,14 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "fixtures/map_shapes.h"
@@ -882,6 +884,35 @@ TEST_F(Transfer, NoFaceSpansASeam) {
         }
         EXPECT_LT(widest, .15);
     }
+}
+
+/// What was cut is a mesh like others: cuts near a corner or another cut leave no slivers, the coordinates go
+/// on from face to face but at seams, and a texture is carried on from there as it was the first time.
+TEST_F(Transfer, WhatWasCutIsCutAgain) {
+    const TriangleMesh fine = shapes::ellipsoid(4, {1, .8, 1.3});
+    const ObjModel model = unwrapped(ball_);
+    const auto onto = [](const TriangleMesh& from, const TriangleMesh& to) {
+        return Correspondence{
+            "a.obj", "b.obj", from, to, closest_points(from.vertices, to), closest_points(to.vertices, from)};
+    };
+    const Correspondence there = onto(ball_, fine);
+    const TexturedMesh cut = cut_at_seams(there, PointCarrier(there.to, there.back, there.from), model);
+    std::map<int, std::set<int>> uv_at;
+    for (int f = 0; f < cut.mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto sides = [&](int i) {
+                return (cut.mesh.vertex(cut.mesh.faces(f, i)) -
+                        cut.mesh.vertex(cut.mesh.faces(f, (i + 1) % 3)))
+                    .norm();
+            };
+            EXPECT_GT(sides(k), 5e-4 * std::max({sides(0), sides(1), sides(2)})) << "face " << f;
+            uv_at[cut.mesh.faces(f, k)].insert(cut.model.uv_of(f, k));
+        }
+    const auto one = std::ranges::count_if(uv_at, [](const auto& at) { return at.second.size() == 1; });
+    EXPECT_GT(double(one), .9 * double(uv_at.size()));
+    const Correspondence back = onto(cut.mesh, ball_);
+    const TexturedMesh again = cut_at_seams(back, PointCarrier(back.to, back.back, back.from), cut.model);
+    EXPECT_LT(again.mesh.face_count(), 2 * ball_.face_count());
 }
 
 TEST_F(Transfer, TextureCoordinatesOfAMovedCopyAreThoseOfTheSource) {

@@ -223,6 +223,7 @@ std::string origin(const Candidate& candidate) {
             text += fmt::format(", then self-map {} of the target", candidate.self_map_B);
     }
     if (candidate.turned_about_axis) text += ", turned about an axis";
+    if (candidate.turned_by_half) text += ", turned by a half";
     return text;
 }
 

@@ -23,6 +23,7 @@ struct Candidate {
     /// mirror image, which the number of its self-map counts.
     bool mirrored_back = false;
     bool turned_about_axis = false;  ///< and then turned about an axis of one of the surfaces
+    bool turned_by_half = false;  ///< and then by a half about a principal axis of B, however unlike that is
     /// Its score on sketches, less that of the best map between A and the mirror image of B, if that is
     /// better; 0 where it was not looked for.
     double mirror_gain = 0;
