@@ -7,6 +7,9 @@ namespace varimap {
 
 // How much two maps differ.
 
+/// Degrees of the rotation between two maps from which on the one is turned about against the other.
+inline constexpr double turned_about = 110;
+
 /// Share of a surface whose vertices two maps take to places farther apart than `elsewhere`.
 double share_elsewhere(const Points& a, const Points& b, const Surface& from, double elsewhere);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stages/explore/difference.h"
 #include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
@@ -20,10 +21,9 @@ constexpr int most_tips = 8;
 /// On coarser levels several tips share a sample.
 constexpr int tip_samples = 30;
 constexpr int extremities = 8;
-/// Maps that go on from every level, if there are so many, besides the others: turned by more than that
+/// Maps that go on from every level, if there are so many, besides the others: turned about (difference.h)
 /// against the best, which else may have no rival but other ends of the same limbs.
 constexpr int least_turned = 2;
-constexpr double turned_about = 110;  ///< degrees
 
 /// Least samples of levels on which images of extremities are exchanged, and for how many of the best maps.
 /// From 45 samples on instead of 30 they took up to half of the time of exploring: of 30 pairs of animals and
@@ -180,13 +180,9 @@ void Exploration::prune(int keep) {
 }
 
 Points Exploration::places(const Trial& trial) const {
-    const std::vector<int> partner = largest_of_rows(trial.solution.plan);
-    const std::vector<int>& samples = descent_.level().B.level.samples;
-    Points result(Eigen::Index(partner.size()), 3);
-    for (std::size_t i = 0; i < partner.size(); ++i)
-        result.row(Eigen::Index(i)) =
-            context_.B().surface.mesh.vertices.row(samples[std::size_t(partner[i])]);
-    return result;
+    std::vector<int> vertices = largest_of_rows(trial.solution.plan);
+    for (int& image : vertices) image = descent_.level().B.level.samples[std::size_t(image)];
+    return context_.B().surface.mesh.vertices(vertices, Eigen::all);
 }
 
 double Exploration::turn(const Points& best, const Points& other) const {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "stages/explore/candidate_maps.h"
+#include "stages/explore/difference.h"
 #include "stages/explore/finished_pool.h"
 #include "stages/explore/landmark_spread.h"
 #include "stages/explore/mirror_images.h"
@@ -39,9 +40,9 @@ double logged_plausibility(const Candidate& best) {
 /// image, and is a map, of which it would be no wonder otherwise that it is worse. One that was turned by 79
 /// degrees, and bad, hid from a person that was turned by 180 that it was.
 bool has_turned_rival(const std::vector<Appraised>& list) {
-    constexpr double most = 0.5, torn = 0.1, about = 110;
+    constexpr double most = 0.5, torn = 0.1;
     return std::any_of(list.begin(), list.end(), [](const Appraised& one) {
-        return one.candidate.moved_mass > most && one.candidate.turn > about &&
+        return one.candidate.moved_mass > most && one.candidate.turn > turned_about &&
                one.candidate.reversed_mass < torn;
     });
 }

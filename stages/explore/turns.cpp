@@ -103,6 +103,17 @@ class TurnedMaps {
     ClosestPoint on_A_, on_B_;
 };
 
+/// With their rough scores, the best first.
+std::vector<std::pair<double, MapPair>> scored(std::vector<MapPair> all, const Appraisal& appraisal) {
+    std::vector<std::pair<double, MapPair>> result;
+    for (MapPair& maps : all) {
+        const double score = rough_score(appraisal.cues(maps));
+        result.emplace_back(score, std::move(maps));
+    }
+    std::ranges::stable_sort(result, {}, [](const auto& one) { return one.first; });
+    return result;
+}
+
 /// Mean distance between the images of two maps, of both directions.
 double apart(const MapPair& a, const MapPair& b, const PairContext& context) {
     const auto mean = [](const PointMap& one, const PointMap& other, const Surface& from, const Surface& to) {
@@ -119,17 +130,12 @@ std::vector<PooledMap> turned_by_halves(const Appraised& map, const PairContext&
                                         const Appraisal& appraisal) {
     constexpr std::size_t most = 2;
     const Timer timer("turns by halves");
-    std::vector<std::pair<double, PooledMap>> turned;
-    for (const MapPair& maps : TurnedMaps(map.map.maps, context).by_halves())
-        turned.emplace_back(rough_score(appraisal.cues(maps)),
-                            PooledMap{vertex_images(maps, context), map.candidate});
-    std::ranges::stable_sort(turned, {}, [](const auto& one) { return one.first; });
-    turned.resize(std::min(turned.size(), most));
     std::vector<PooledMap> pool;
-    for (auto& [score, one] : turned) {
+    for (const auto& [score, maps] : scored(TurnedMaps(map.map.maps, context).by_halves(), appraisal)) {
+        if (pool.size() == most) break;
         log("turned by a half: score {:.2f}", score);
-        one.origin.turned_by_half = true;
-        pool.push_back(std::move(one));
+        pool.push_back({vertex_images(maps, context), map.candidate});
+        pool.back().origin.turned_by_half = true;
     }
     return pool;
 }
@@ -139,14 +145,8 @@ std::vector<PooledMap> turned_about_axes(const Appraised& map, const PairContext
     constexpr double another = 0.04;  // mean distance of images, units of sqrt(area)
     constexpr int most = 3;
     const Timer timer("turns about axes");
-    std::vector<std::pair<double, MapPair>> turned;
-    for (MapPair& maps : TurnedMaps(map.map.maps, context).all()) {
-        const double score = rough_score(appraisal.cues(maps));
-        turned.emplace_back(score, std::move(maps));
-    }
+    const auto turned = scored(TurnedMaps(map.map.maps, context).all(), appraisal);
     if (turned.empty()) return {};
-    std::stable_sort(turned.begin(), turned.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
     const double as_it_was = rough_score(appraisal.cues(map.map.maps));
     std::vector<const MapPair*> kept{&map.map.maps};
     std::vector<PooledMap> pool;

@@ -46,7 +46,7 @@ class ChartRepair {
   private:
     /// Once they get to `limit`, the rest is left out. Of badness, faults are all but faces that cut through
     /// the target.
-    double faults(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
+    double faults(const std::vector<int>& faces, double limit);
     double badness(const std::vector<int>& faces, double limit = std::numeric_limits<double>::infinity());
     /// What a repair is judged by.
     struct State {
