@@ -15,12 +15,12 @@
 #include "stages/refine/refine.h"
 #include "stages/relax/relax.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/map_table.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/stage/parameter_text.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "stages/coarsen/params.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "stages/cycles/choice.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/results/candidates.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

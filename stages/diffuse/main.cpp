@@ -1,11 +1,11 @@
 #include <utility>
 
 #include "stages/diffuse/diffuse.h"
-#include "varimap/mesh/part_region.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/pair_stage/unlike_surfaces.h"
 #include "varimap/results/map_file.h"
 #include "varimap/stage/stage_main.h"
+#include "varimap/surface/part_region.h"
 
 using namespace varimap;
 

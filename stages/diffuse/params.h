@@ -3,7 +3,7 @@
 #include <array>
 
 #include "varimap/landmarks/vertex_list.h"
-#include "varimap/mesh/io/index_base.h"
+#include "varimap/mesh_files/index_base.h"
 #include "varimap/pair_stage/alternation_params.h"
 
 namespace varimap {

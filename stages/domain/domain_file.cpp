@@ -14,9 +14,10 @@
 #include "varimap/core/file_ending.h"
 #include "varimap/core/index_set.h"
 #include "varimap/core/lower_case.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

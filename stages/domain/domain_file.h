@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "stages/domain/params.h"
-#include "varimap/mesh/domain.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

@@ -9,7 +9,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/geodesic_coordinates.h"
+#include "varimap/geodesics/geodesic_coordinates.h"
 
 namespace varimap {
 

@@ -4,8 +4,8 @@
 
 #include "stages/explore/telling_vertex.h"
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/input_locator.h"
-#include "varimap/mesh/pulled_back.h"
+#include "varimap/surface/input_locator.h"
+#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -10,7 +10,6 @@
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
-#include "varimap/mesh/pulled_back.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
@@ -18,6 +17,7 @@
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
 #include "varimap/spectral/local_shape.h"
+#include "varimap/surface/pulled_back.h"
 #include "varimap/untangling/untangling.h"
 
 namespace varimap {

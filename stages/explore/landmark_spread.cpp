@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 
 namespace varimap {
 

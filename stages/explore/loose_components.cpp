@@ -7,10 +7,10 @@
 #include "varimap/core/rotation.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/pulled_back.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/local_shape.h"
+#include "varimap/surface/pulled_back.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

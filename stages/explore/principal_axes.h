@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "varimap/mesh/surface.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

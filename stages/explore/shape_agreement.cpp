@@ -5,9 +5,9 @@
 
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/pulled_back.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
+#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -10,7 +10,7 @@
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/pulled_back.h"
+#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -16,7 +16,7 @@
 #include "varimap/core/index_set.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/coarsening.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 
 namespace varimap {
 

@@ -8,7 +8,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/index_set.h"
 #include "varimap/core/log.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/transport/sinkhorn.h"
 

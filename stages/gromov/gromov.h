@@ -1,8 +1,8 @@
 #pragma once
 
 #include "stages/gromov/params.h"
-#include "varimap/mesh/domain.h"
 #include "varimap/results/plan.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

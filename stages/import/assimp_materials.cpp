@@ -9,7 +9,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/lower_case.h"
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/obj_model.h"
 
 namespace varimap {
 

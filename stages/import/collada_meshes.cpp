@@ -2,8 +2,8 @@
 #include <map>
 
 #include "stages/import/source_meshes.h"
-#include "varimap/mesh/io/text_scanner.h"
-#include "varimap/mesh/io/xml_tags.h"
+#include "varimap/mesh_files/text_scanner.h"
+#include "varimap/mesh_files/xml_tags.h"
 
 namespace varimap {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "stages/import/source_meshes.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 namespace {

@@ -14,8 +14,8 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/printable.h"
-#include "varimap/mesh/io/number_type.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/number_type.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 namespace {

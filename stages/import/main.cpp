@@ -7,7 +7,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {

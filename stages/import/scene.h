@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "varimap/mesh/io/polygon_soup.h"
+#include "varimap/mesh_files/polygon_soup.h"
 
 namespace varimap {
 

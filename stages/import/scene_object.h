@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "varimap/mesh/io/polygon_soup.h"
+#include "varimap/mesh_files/polygon_soup.h"
 
 namespace varimap {
 

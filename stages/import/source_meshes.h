@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "varimap/mesh/io/polygon_soup.h"
+#include "varimap/mesh_files/polygon_soup.h"
 
 namespace varimap {
 

@@ -5,8 +5,6 @@
 #include <map>
 
 #include "varimap/core/error.h"
-#include "varimap/mesh/part_region.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
@@ -15,6 +13,8 @@
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
 #include "varimap/stage/stamp.h"
+#include "varimap/surface/part_region.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 namespace {

@@ -10,7 +10,7 @@
 #include "stages/inspect/lineage.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/artifact/file_status.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 
 namespace varimap {
 namespace {

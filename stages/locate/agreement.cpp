@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "varimap/mesh/pulled_back.h"
+#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

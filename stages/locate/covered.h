@@ -1,7 +1,7 @@
 #pragma once
 
 #include "varimap/core/indexed.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

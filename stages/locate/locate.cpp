@@ -15,10 +15,10 @@
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/multilevel/exchanged_landmarks.h"
 #include "varimap/results/landmark_words.h"
+#include "varimap/surface/input_locator.h"
 
 namespace varimap {
 

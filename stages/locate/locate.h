@@ -1,8 +1,8 @@
 #pragma once
 
 #include "stages/locate/params.h"
-#include "varimap/mesh/part_region.h"
 #include "varimap/multilevel/pair_context.h"
+#include "varimap/surface/part_region.h"
 
 namespace varimap {
 

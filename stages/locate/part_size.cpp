@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 
 namespace varimap {
 

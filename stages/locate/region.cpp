@@ -8,8 +8,8 @@
 #include "stages/locate/covered.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
-#include "varimap/mesh/part_region.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/surface/part_region.h"
 
 namespace varimap {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "stages/locate/rigid_body.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/results/read_out.h"
 
 namespace varimap {

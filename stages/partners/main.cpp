@@ -5,11 +5,11 @@
 
 #include "stages/partners/picture.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/plan.h"
 #include "varimap/stage/stage_main.h"
+#include "varimap/surface/input_locator.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "stages/partners/params.h"
 #include "stages/partners/partners.h"
-#include "varimap/mesh/domain.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

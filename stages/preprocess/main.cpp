@@ -1,11 +1,11 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/log.h"
-#include "varimap/mesh/bridges.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/part_region.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_repair/bridges.h"
 #include "varimap/stage/stage_main.h"
+#include "varimap/surface/part_region.h"
+#include "varimap/surface/surface.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/mesh/mesh_repair.h"
+#include "varimap/mesh_repair/mesh_repair.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {

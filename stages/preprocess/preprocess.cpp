@@ -9,12 +9,12 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/bisection.h"
-#include "varimap/mesh/bridges.h"
-#include "varimap/mesh/handles.h"
-#include "varimap/mesh/holes.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/bridges.h"
+#include "varimap/mesh_repair/handles.h"
+#include "varimap/mesh_repair/holes.h"
 
 namespace varimap {
 namespace {

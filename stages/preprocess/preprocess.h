@@ -3,7 +3,7 @@
 #include <string>
 
 #include "stages/preprocess/params.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

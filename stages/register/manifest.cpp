@@ -11,8 +11,8 @@
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/vertex_list.h"
-#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 
 namespace varimap {

@@ -7,7 +7,7 @@
 #include "varimap/artifact/file_status.h"
 #include "varimap/artifact/npy.h"
 #include "varimap/landmarks/csv_fields.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 
 namespace varimap {

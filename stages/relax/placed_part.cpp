@@ -6,9 +6,9 @@
 #include "varimap/core/log.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/quality/quality.h"
 #include "varimap/sliding/inverse_map.h"
+#include "varimap/surface/input_locator.h"
 
 namespace varimap {
 

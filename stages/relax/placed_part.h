@@ -1,7 +1,7 @@
 #pragma once
 
 #include "stages/relax/relax.h"
-#include "varimap/mesh/part_region.h"
+#include "varimap/surface/part_region.h"
 
 namespace varimap {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "varimap/core/indexed.h"
-#include "varimap/mesh/input_locator.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/surface/input_locator.h"
+#include "varimap/surface/surface.h"
 #include "varimap/untangling/untangling_options.h"
 
 namespace varimap {

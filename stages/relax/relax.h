@@ -1,9 +1,9 @@
 #pragma once
 
 #include "stages/relax/params.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/results/read_out.h"
 #include "varimap/results/surface_map.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

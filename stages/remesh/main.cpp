@@ -8,7 +8,7 @@
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/remesh.h"
 #include "varimap/artifact/file_status.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_arrays.h"
 #include "varimap/results/map_table.h"

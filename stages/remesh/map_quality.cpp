@@ -6,9 +6,9 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/holes.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/holes.h"
 
 namespace varimap {
 

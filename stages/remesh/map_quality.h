@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "varimap/mesh/surface.h"
 #include "varimap/quality/components.h"
 #include "varimap/quality/quality.h"
 #include "varimap/quality/twist.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
+#include "varimap/surface/surface.h"
 #include "varimap/verification/verification.h"
 
 namespace varimap {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "varimap/mesh/surface.h"
 #include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

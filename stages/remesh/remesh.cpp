@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/polygon_cutting.h"
-#include "varimap/mesh/pulled_back.h"
+#include "varimap/mesh_files/polygon_cutting.h"
+#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "varimap/mesh/io/polygon_soup.h"
-#include "varimap/mesh/surface.h"
+#include "varimap/mesh_files/polygon_soup.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

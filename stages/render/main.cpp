@@ -5,7 +5,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/landmarks/vertex_list.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/correspondence.h"
 #include "varimap/results/map_table.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "varimap/landmarks/vertex_list.h"
-#include "varimap/mesh/mesh_repair.h"
+#include "varimap/mesh_repair/mesh_repair.h"
 #include "varimap/stage/parameters.h"
 
 namespace varimap {

@@ -15,8 +15,8 @@
 #include "varimap/core/log.h"
 #include "varimap/image/png_file.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/unit_area.h"
+#include "varimap/mesh_files/text_scanner.h"
 #include "varimap/quality/image_mesh.h"
 
 namespace varimap {

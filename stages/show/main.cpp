@@ -2,7 +2,8 @@
 
 #include "stages/show/params.h"
 #include "stages/show/show.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/plan.h"
 #include "varimap/spectral/spectral_check.h"

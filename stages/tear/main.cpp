@@ -3,7 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "stages/tear/tear.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 #include "varimap/stage/stage_main.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "stages/transfer/image.h"
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/obj_model.h"
 #include "varimap/results/correspondence.h"
 
 namespace varimap {

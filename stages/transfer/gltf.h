@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/obj_model.h"
 
 namespace varimap {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/obj_model.h"
 
 namespace varimap {
 

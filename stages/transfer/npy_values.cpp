@@ -1,6 +1,6 @@
 #include "stages/transfer/values.h"
 #include "varimap/core/log.h"
-#include "varimap/mesh/io/npy_array.h"
+#include "varimap/mesh_files/npy_array.h"
 
 namespace varimap {
 

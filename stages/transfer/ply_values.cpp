@@ -11,9 +11,9 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/io/ply_columns.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_files/ply_columns.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

@@ -13,8 +13,8 @@
 #include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/csv_fields.h"
-#include "varimap/mesh/io/text_scanner.h"
-#include "varimap/mesh/io/xml_tags.h"
+#include "varimap/mesh_files/text_scanner.h"
+#include "varimap/mesh_files/xml_tags.h"
 
 namespace varimap {
 

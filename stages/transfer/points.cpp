@@ -16,8 +16,8 @@
 #include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

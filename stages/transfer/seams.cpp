@@ -4,8 +4,8 @@
 #include <map>
 
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/obj_model.h"
 #include "varimap/results/correspondence.h"
 
 namespace varimap {

@@ -10,7 +10,7 @@
 #include "varimap/core/lower_case.h"
 #include "varimap/core/trimmed.h"
 #include "varimap/landmarks/csv_fields.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

@@ -12,7 +12,7 @@
 #include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/shortest_text.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

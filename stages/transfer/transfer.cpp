@@ -20,8 +20,8 @@
 #include "varimap/core/file_ending.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/io/ply_columns.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_files/ply_columns.h"
 
 namespace varimap {
 

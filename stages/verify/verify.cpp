@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "varimap/core/index_set.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 
 namespace varimap {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "varimap/mesh/mesh_repair.h"
+#include "varimap/mesh_repair/mesh_repair.h"
 #include "varimap/results/map_file.h"
 #include "varimap/verification/verification.h"
 

@@ -12,9 +12,9 @@
 #include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/rotation.h"
-#include "varimap/mesh/mesh_repair.h"
 #include "varimap/mesh/pattern_axes.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/mesh_repair.h"
 #include "varimap/quality/quality.h"
 #include "varimap/verification/verification.h"
 

@@ -8,8 +8,8 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_files/obj_model.h"
 
 namespace varimap {
 

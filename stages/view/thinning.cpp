@@ -8,7 +8,7 @@
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/coarsening.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {

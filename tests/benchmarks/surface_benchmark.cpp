@@ -1,9 +1,9 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/example.h"
+#include "varimap/geodesics/triangle_strip.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/topology.h"
-#include "varimap/mesh/triangle_strip.h"
 #include "varimap/spectral/sampling.h"
 
 namespace varimap::benchmarks {

@@ -1,6 +1,6 @@
 #include <varimap/artifact/artifact.h>
 #include <varimap/map_surfaces.h>
-#include <varimap/mesh/io/mesh_file.h>
+#include <varimap/mesh_files/mesh_file.h>
 #include <varimap/results/map_table.h>
 
 #include <cmath>

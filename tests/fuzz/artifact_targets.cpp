@@ -8,11 +8,9 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/geodesic_graph.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/mesh/part_region.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_arrays.h"
@@ -24,6 +22,8 @@
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
 #include "varimap/spectral/laplacian.h"
+#include "varimap/surface/input_locator.h"
+#include "varimap/surface/part_region.h"
 
 namespace varimap::fuzz {
 namespace {

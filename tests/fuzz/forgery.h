@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap::fuzz {
 

@@ -8,9 +8,10 @@
 #include "fuzz/target.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/bridges.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/thin_faces.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_repair/bridges.h"
 
 namespace varimap::fuzz {
 namespace {

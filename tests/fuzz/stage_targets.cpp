@@ -19,7 +19,7 @@
 #include "stages/remesh/remesh.h"
 #include "stages/render/render.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/quality_numbers.h"
 #include "varimap/spectral/spectral_check.h"

@@ -7,8 +7,8 @@
 #include "stages/transfer/points.h"
 #include "stages/transfer/values.h"
 #include "varimap/artifact/npy.h"
-#include "varimap/mesh/io/obj_model.h"
-#include "varimap/mesh/io/ply_columns.h"
+#include "varimap/mesh_files/obj_model.h"
+#include "varimap/mesh_files/ply_columns.h"
 
 namespace varimap::fuzz {
 namespace {

@@ -67,14 +67,14 @@ expect_found() {
         exit 1
     }
 }
-expect_found common/varimap/core/log.cpp '"varimap/mesh/surface.h"'
+expect_found common/varimap/core/log.cpp '"varimap/surface/surface.h"'
 expect_found common/varimap/transport/sinkhorn.cpp '"varimap/spectral/laplacian.h"'
 expect_found common/varimap/untangling/untangling.cpp '"varimap/multilevel/orientation.h"'
 expect_found common/varimap/sliding/sliding_map.cpp '"varimap/relaxation/fold_removal.h"'
 expect_found common/varimap/verification/verification.h '"varimap/quality/quality.h"'
 expect_found common/varimap/verification/verification.cpp '<CLI/CLI.hpp>'
-expect_found common/varimap/mesh/surface.h '<embree3/rtcore.h>'
-expect_found common/varimap/mesh/io/mesh_file.cpp '"varimap/stage/stage_main.h"'
+expect_found common/varimap/mesh/closest_point.h '<embree3/rtcore.h>'
+expect_found common/varimap/mesh_files/mesh_file.cpp '"varimap/mesh_repair/weld.h"'
 expect_found stages/refine/refine.cpp '"stages/diffuse/params.h"'
 expect_found stages/eigen/main.cpp '"varimap/multilevel/orientation.h"'
 echo "include rules hold"

@@ -5,8 +5,8 @@
 #include "fixtures/shapes.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/surface/input_locator.h"
 
 namespace varimap {
 namespace {

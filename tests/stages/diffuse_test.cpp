@@ -10,8 +10,8 @@
 #include "fixtures/surface_data.h"
 #include "stages/diffuse/check_landmarks.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/input_locator.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/surface/input_locator.h"
 
 namespace varimap {
 namespace {

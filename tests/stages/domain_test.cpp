@@ -7,7 +7,7 @@
 #include "fixtures/temporary_folder.h"
 #include "stages/domain/make_domain.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/geodesic_coordinates.h"
+#include "varimap/geodesics/geodesic_coordinates.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/hierarchy.h"
 #include "varimap/spectral/laplacian.h"

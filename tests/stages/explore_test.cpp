@@ -790,7 +790,7 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     Candidate partly = best;
     partly.reversed_mass = .17;  // a limb
     EXPECT_FALSE(confidence_of({partly, rival}).confident);
-    EXPECT_THAT(doubt({partly, rival}), testing::HasSubstr("17% of the surface is mirrored"));
+    EXPECT_THAT(doubt({partly, rival}), testing::HasSubstr("17% of its sketch is mirrored"));
     partly.reversed_mass = .04;  // a foot, which the final map still puts right
     EXPECT_TRUE(confidence_of({partly, rival}).confident);
     Candidate left = best;

@@ -7,8 +7,9 @@
 #include "stages/generate/families.h"
 #include "stages/generate/partner.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_files/mesh_file.h"
 
 namespace varimap {
 namespace {

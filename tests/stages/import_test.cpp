@@ -18,8 +18,8 @@
 #include "stages/import/source_meshes.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/io/obj_model.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_files/obj_model.h"
 
 namespace varimap {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "fixtures/shapes.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"

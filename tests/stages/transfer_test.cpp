@@ -25,8 +25,8 @@
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
 #include "varimap/core/warnings.h"
-#include "varimap/mesh/io/mesh_file.h"
-#include "varimap/mesh/io/ply_columns.h"
+#include "varimap/mesh_files/mesh_file.h"
+#include "varimap/mesh_files/ply_columns.h"
 #include "varimap/results/map_table.h"
 
 namespace varimap {

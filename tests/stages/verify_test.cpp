@@ -8,7 +8,7 @@
 #include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 
 namespace varimap {

@@ -16,8 +16,8 @@
 #include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/io/text_scanner.h"
-#include "varimap/mesh/io/xml_tags.h"
+#include "varimap/mesh_files/text_scanner.h"
+#include "varimap/mesh_files/xml_tags.h"
 
 namespace varimap {
 

@@ -13,7 +13,7 @@
 #include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/csv_fields.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

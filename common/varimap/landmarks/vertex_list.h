@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "varimap/landmarks/landmark_points.h"
-#include "varimap/mesh/file_link.h"
-#include "varimap/mesh/io/index_base.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/mesh/vertex_index.h"
+#include "varimap/mesh_files/index_base.h"
+#include "varimap/mesh_repair/file_link.h"
 
 namespace varimap {
 

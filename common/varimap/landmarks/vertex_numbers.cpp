@@ -7,7 +7,7 @@
 #include "varimap/core/log.h"
 #include "varimap/landmarks/private/named.h"
 #include "varimap/landmarks/vertex_list.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

@@ -6,8 +6,8 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/timing.h"
+#include "varimap/geodesics/triangle_strip.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/triangle_strip.h"
 #include "varimap/parts/strained_parts.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "varimap/mesh/log_map.h"
+#include "varimap/geodesics/log_map.h"
 #include "varimap/sliding/along_target.h"
 #include "varimap/sliding/sliding_map.h"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "varimap/mesh/private/disjoint_sets.h"
+#include "varimap/mesh/disjoint_sets.h"
 
 namespace varimap {
 

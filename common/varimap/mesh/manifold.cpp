@@ -1,3 +1,5 @@
+#include "varimap/mesh/manifold.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <vector>
 
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {

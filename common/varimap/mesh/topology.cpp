@@ -5,7 +5,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/private/disjoint_sets.h"
+#include "varimap/mesh/disjoint_sets.h"
 
 namespace varimap {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "varimap/core/index_set.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 
 namespace varimap {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/input_locator.h"
+#include "varimap/surface/input_locator.h"
 
 namespace varimap {
 

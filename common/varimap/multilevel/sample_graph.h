@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/multilevel/pair_context.h"
 
 namespace varimap {

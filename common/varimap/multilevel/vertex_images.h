@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/multilevel/level_transfer.h"
 #include "varimap/multilevel/matching.h"
 #include "varimap/transport/alternating_minimization.h"

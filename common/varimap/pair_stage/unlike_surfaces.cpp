@@ -7,9 +7,9 @@
 
 #include "varimap/core/log.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/mesh/handles.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/handles.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

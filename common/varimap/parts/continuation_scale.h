@@ -1,6 +1,6 @@
 #pragma once
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/sliding/sliding_map.h"
 
 namespace varimap {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/parts/part_trial.h"
 
 namespace varimap {

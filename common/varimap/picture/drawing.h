@@ -3,7 +3,7 @@
 #include <string>
 
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/domain.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "varimap/core/index_set.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/mesh/face_geometry.h"
-#include "varimap/mesh/geodesic_graph.h"
 #include "varimap/mesh/unit_area.h"
 #include "varimap/quality/quality.h"
 

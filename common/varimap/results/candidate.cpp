@@ -168,10 +168,10 @@ std::string doubt(const std::vector<Candidate>& candidates, std::optional<InTheE
     if (finished && !finished->many_handles && finished->dirichlet > strained_in_the_end)
         add(fmt::format("finished, it is strained, with a Dirichlet energy of {:.2f}", finished->dirichlet));
     else if (best.dirichlet > strained)
-        add(fmt::format("it is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
+        add(fmt::format("its sketch is strained, with a Dirichlet energy of {:.2f}", best.dirichlet));
     if (best.reversed_mass > mirrored)
-        add(fmt::format("{:.0f}% of the surface is mirrored", 100 * best.reversed_mass));
-    if (best.relief < unlike) add(fmt::format("relief agrees by {:.2f} only", best.relief));
+        add(fmt::format("{:.0f}% of its sketch is mirrored", 100 * best.reversed_mass));
+    if (best.relief < unlike) add(fmt::format("on sketches relief agrees by {:.2f} only", best.relief));
     if (why.empty())
         return fmt::format("no number is bad by itself: Dirichlet energy {:.2f}, relief agrees by {:.2f}",
                            finished ? finished->dirichlet : best.dirichlet, best.relief);

@@ -6,7 +6,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 
 namespace varimap {

@@ -13,9 +13,9 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/printable.h"
-#include "varimap/mesh/io/npy_array.h"
-#include "varimap/mesh/io/text_scanner.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_files/npy_array.h"
+#include "varimap/mesh_files/text_scanner.h"
 #include "varimap/results/map_table.h"
 
 namespace varimap {

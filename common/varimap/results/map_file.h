@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "varimap/mesh/io/index_base.h"
 #include "varimap/mesh/triangle_mesh.h"
+#include "varimap/mesh_files/index_base.h"
 
 namespace varimap {
 

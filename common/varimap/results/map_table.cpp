@@ -8,7 +8,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/shortest_text.h"
-#include "varimap/mesh/io/text_scanner.h"
+#include "varimap/mesh_files/text_scanner.h"
 
 namespace varimap {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "varimap/mesh/surface.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_pair.h"
 #include "varimap/results/plan.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

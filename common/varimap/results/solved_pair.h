@@ -1,9 +1,9 @@
 #pragma once
 
-#include "varimap/mesh/surface.h"
 #include "varimap/results/pair_record.h"
 #include "varimap/results/sample_plan.h"
 #include "varimap/results/trace.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

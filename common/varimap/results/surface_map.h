@@ -3,8 +3,8 @@
 #include <string>
 
 #include "varimap/artifact/artifact.h"
-#include "varimap/mesh/surface.h"
 #include "varimap/results/untangling_report.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "varimap/mesh/log_map.h"
+#include "varimap/geodesics/log_map.h"
 
 namespace varimap {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "varimap/core/indexed.h"
-#include "varimap/mesh/surface_walk.h"
+#include "varimap/geodesics/surface_walk.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh/triangle_mesh.h"
 #include "varimap/sliding/fold_energy.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/sliding/sliding_map.h"
 
 namespace varimap {

@@ -5,7 +5,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/domain.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "varimap/artifact/artifact.h"
-#include "varimap/mesh/domain.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/level_builder.h"
 #include "varimap/spectral/local_shape.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

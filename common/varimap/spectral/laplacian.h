@@ -2,8 +2,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "varimap/mesh/domain.h"
 #include "varimap/mesh/triangle_mesh.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

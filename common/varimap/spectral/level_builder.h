@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "varimap/mesh/domain.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/spectral/eigenbasis.h"
 #include "varimap/spectral/level.h"
 #include "varimap/spectral/neighbourhoods.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/domain.h"
 #include "varimap/spectral/eigenbasis.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "varimap/core/linear_algebra.h"
-#include "varimap/mesh/domain.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
+#include "varimap/surface/domain.h"
 
 namespace varimap {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "varimap/mesh/surface.h"
 #include "varimap/spectral/hierarchy.h"
+#include "varimap/surface/surface.h"
 
 namespace varimap {
 

@@ -9,7 +9,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/statistics.h"
-#include "varimap/mesh/geodesic.h"
+#include "varimap/geodesics/geodesic.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {

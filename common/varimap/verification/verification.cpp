@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "varimap/core/parallel.h"
+#include "varimap/geodesics/log_map.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/log_map.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/verification/map_degree.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "fixtures/shapes.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {

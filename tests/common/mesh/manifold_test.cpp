@@ -1,10 +1,11 @@
+#include "varimap/mesh/manifold.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "fixtures/shapes.h"
 #include "fixtures/together.h"
 #include "varimap/core/error.h"
-#include "varimap/mesh/io/mesh_file.h"
 
 namespace varimap {
 namespace {

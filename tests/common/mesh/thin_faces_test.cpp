@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/shapes.h"
-#include "varimap/mesh/io/mesh_file.h"
+#include "varimap/mesh/manifold.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/shapes.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {

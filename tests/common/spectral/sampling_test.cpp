@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fixtures/shapes.h"
-#include "varimap/mesh/geodesic_graph.h"
+#include "varimap/geodesics/geodesic_graph.h"
 
 namespace varimap {
 namespace {

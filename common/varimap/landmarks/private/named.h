@@ -8,7 +8,7 @@
 
 #include "varimap/landmarks/landmark_points.h"
 #include "varimap/landmarks/list_rows.h"
-#include "varimap/mesh/io/index_base.h"
+#include "varimap/mesh_files/index_base.h"
 
 namespace varimap {
 
