@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "stages/explore/candidate_maps.h"
 #include "stages/explore/difference.h"
@@ -184,55 +185,66 @@ Candidate best_led(const PairContext& context, const Appraisal& appraisal, const
     return finished.appraised().front().candidate;
 }
 
-/// Warns where the map that landmarks lead to would be far more probable with two or more of them exchanged:
-/// with left and right exchanged, the only map that meets all landmarks and mirrors nothing has the front of
+/// An exchange of landmarks by which the map that they lead to becomes far more probable.
+struct BetterExchange {
+    Exchange exchange;
+    double score;        ///< of that map
+    bool fits_mirrored;  ///< as they are, the landmarks fit mirror images of the surfaces even better
+};
+
+/// With left and right exchanged, the only map that meets all landmarks and mirrors nothing has the front of
 /// a body on its back, and is hardly strained. Asked only where relief agrees less than it does on right maps
 /// of shapes in other poses, and taken to its end only where the map is no worse roughly, since it costs half
 /// a second.
-void warn_of_exchanged_landmarks(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
-                                 const ExploreParams& params) {
+std::optional<BetterExchange> better_exchange(const Appraised& led, const PairContext& context,
+                                              const Appraisal& appraisal, const ExploreParams& params) {
     constexpr double alike = 0.9, much = 3, plausible = 0.9;
     // Of 19 pairs with right landmarks, all maps with exchanged ones were worse by 1.3 and more then, and by
     // 2.4 and more in the end.
     constexpr double roughly_worse = 1;
     // Bodies that are their own mirror images, whose landmarks are exchanged, fit as well both ways.
     constexpr double clear = 0.5;
-    if (led.candidate.relief > alike) return;
+    if (led.candidate.relief > alike) return {};
     const Exchange exchange = likely_exchange(context);
-    if (exchange.empty()) return;
+    if (exchange.empty()) return {};
     const Timer timer("exchanged landmarks");
     const PairContext other(context.A(), context.B(), exchanged(context.landmarks(), exchange),
                             context.landmark_weight());
-    if (rough_score_led(other, appraisal, params) > led.map.rough_scores.at(1) + roughly_worse) return;
+    if (rough_score_led(other, appraisal, params) > led.map.rough_scores.at(1) + roughly_worse) return {};
     const Candidate found = best_led(other, appraisal, params);
     log("landmarks {} exchanged: score {:.2f}, as they are {:.2f}", exchanged_in_words(exchange), found.score,
         led.candidate.score);
     if (is_mirrored(found) || plausibility(found) < plausible || found.score + much > led.candidate.score)
-        return;
+        return {};
     const PairContext mirror = with_mirror_image(context);
     const double mirrored = best_led(mirror, Appraisal(mirror), params).score;
     log("as mirror images: score {:.2f}", mirrored);
-    if (mirrored < found.score - clear)
+    return BetterExchange{exchange, found.score, mirrored < found.score - clear};
+}
+
+/// Unless a map was found that meets the landmarks as they are, and fits about as well: of a body with many
+/// legs, right landmarks may lead to a map with legs exchanged.
+void warn_of(const BetterExchange& better, const Candidate& best, const PairContext& context) {
+    constexpr double about = 1.5;  // half of what an exchange must gain
+    if (best.score < better.score + about) return;
+    if (better.fits_mirrored)
         warn(
             "the landmarks fit mirror images: if one of the surfaces is a left and the other a right one, "
             "{}; "
             "with landmarks {} exchanged the map would be more probable, too, but less so",
-            mirror_advice(context), exchanged_in_words(exchange));
+            mirror_advice(context), exchanged_in_words(better.exchange));
     else
         warn(
             "landmarks {} look exchanged: with their partners exchanged the map is far more probable; are "
             "they left and right? If they are right, one of the surfaces may be a mirror image of what it "
             "should be: {}",
-            exchanged_in_words(exchange), mirror_advice(context));
+            exchanged_in_words(better.exchange), mirror_advice(context));
 }
 
 /// Whether nothing else need be looked for than the map that landmarks lead to: it is plausible, not
-/// strained, and they decide it. Warns where they look exchanged. Chosen by hand on half of the known pairs.
-bool landmarks_suffice(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
-                       const ExploreParams& params) {
+/// strained, and they decide it. Chosen by hand on half of the known pairs.
+bool landmarks_suffice(const Appraised& led, const PairContext& context) {
     constexpr double suffices = 0.995;
-    if (is_isometry_of_sheets(led.candidate, context)) return true;
-    warn_of_exchanged_landmarks(led, context, appraisal, params);
     return logged_plausibility(led.candidate) >= suffices && is_good(led.candidate, true) &&
            landmarks_span(context);
 }
@@ -255,10 +267,13 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     const std::vector<PooledMap> led_there = led_by_landmarks(context, params);
     const Appraisal appraisal(context);
     FinishedPool finished(context, quick_finishing(params), appraisal);
+    std::optional<BetterExchange> exchange;
     if (if_needed) {
         finished.add_new_of(led_there);
         std::vector<Appraised> alone = finished.appraised();
-        if (landmarks_suffice(alone.front(), context, appraisal, params))
+        const bool of_sheets = is_isometry_of_sheets(alone.front().candidate, context);
+        if (!of_sheets) exchange = better_exchange(alone.front(), context, appraisal, params);
+        if (of_sheets || (!exchange && landmarks_suffice(alone.front(), context)))
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask.self_maps);
@@ -270,14 +285,17 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         finished.add(mirrored.maps);
         list = with_turns(finished, context, appraisal);
     }
-    if (!is_good(list.front().candidate, if_needed)) {
+    const bool good = is_good(list.front().candidate, if_needed);
+    if (!good) {
         log("the best of these maps is not good (plausible by {:.2f}, Dirichlet energy {:.2f}): looking "
             "further",
             plausibility(list.front().candidate), list.front().candidate.dirichlet);
         std::vector<PooledMap> known = led_there;
         known.insert(known.end(), mirrored.maps.begin(), mirrored.maps.end());
         list = thoroughly_found(context, params, known, appraisal, self_maps);
-    } else if (if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
+    }
+    if (exchange) warn_of(*exchange, list.front().candidate, context);
+    if (good && if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }

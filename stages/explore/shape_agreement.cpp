@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/explore/surface_components.h"
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/boundary.h"
+#include "varimap/mesh/face_geometry.h"
 #include "varimap/relaxation/relief_agreement.h"
 #include "varimap/spectral/local_shape.h"
 #include "varimap/surface/pulled_back.h"
@@ -51,6 +53,7 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, 
     for (const Eigen::VectorXd& heights : reliefs(mesh, relief_scales)) relief.push_back(outward * heights);
     const RowMatrix to_all = distances_from_each(graph, samples);
     distance = to_all.transpose();
+    component = component_of_each_vertex(data.surface);
     sample_mass = Eigen::VectorXd::Zero(Eigen::Index(samples.size()));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         Eigen::Index nearest = 0;
@@ -74,15 +77,33 @@ double ShapeAgreement::alignment(const MapPair& maps) const {
     return (alignment(maps.A_to_B, A_, B_) + alignment(maps.B_to_A, B_, A_)) / 2;
 }
 
+bool ShapeAgreement::Side::are_on_different_components(int vertex, const SurfacePoint& point) const {
+    const int one = component[std::size_t(vertex)],
+              other = component[std::size_t(nearest_vertex(mesh, point))];
+    return one >= 0 && other >= 0 && one != other;
+}
+
+double ShapeAgreement::Side::straight_distance(int vertex, const SurfacePoint& point) const {
+    return (mesh.vertex(vertex) - position(mesh, point)).norm();
+}
+
 double ShapeAgreement::stretch(const MapPair& maps) const {
     // Between samples of A and the images of those of B, and between the images of the former and the latter:
     // distances from samples to everywhere are known.
-    const RowMatrix here = pulled_back(A_.distance, A_.mesh, at(maps.B_to_A, B_.samples)),
-                    there = pulled_back(B_.distance, B_.mesh, at(maps.A_to_B, A_.samples)).transpose();
+    const PointMap on_A = at(maps.B_to_A, B_.samples), on_B = at(maps.A_to_B, A_.samples);
+    const RowMatrix here = pulled_back(A_.distance, A_.mesh, on_A),
+                    there = pulled_back(B_.distance, B_.mesh, on_B).transpose();
+    const auto stretch_of = [&](Eigen::Index i, Eigen::Index j) {
+        const int p = A_.samples[std::size_t(i)], q = B_.samples[std::size_t(j)];
+        const SurfacePoint &image_of_p = on_B[std::size_t(i)], &image_of_q = on_A[std::size_t(j)];
+        if (A_.are_on_different_components(p, image_of_q) && B_.are_on_different_components(q, image_of_p))
+            return stretch_between(A_.straight_distance(p, image_of_q), B_.straight_distance(q, image_of_p));
+        return stretch_between(here(j, i), there(j, i));
+    };
     double sum = 0;
     for (Eigen::Index j = 0; j < here.rows(); ++j)
         for (Eigen::Index i = 0; i < here.cols(); ++i)
-            sum += A_.sample_mass[i] * B_.sample_mass[j] * stretch_between(here(j, i), there(j, i));
+            sum += A_.sample_mass[i] * B_.sample_mass[j] * stretch_of(i, j);
     return sum / (A_.sample_mass.sum() * B_.sample_mass.sum());
 }
 

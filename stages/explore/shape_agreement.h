@@ -23,7 +23,8 @@ class ShapeAgreement {
     /// How much distances along the surface change: mean of |log| of the ratios
     ///     d_A(p, psi(q)) / d_B(phi(p), q)
     /// over places p of A and q of B, for the maps phi from A to B and psi back; of each, most_stretch at
-    /// most. 0 at best.
+    /// most. 0 at best. Between components that a repair joined, distances are straight: ways over its
+    /// bridges tell where these are.
     double stretch(const MapPair& maps) const;
 
   private:
@@ -35,9 +36,12 @@ class ShapeAgreement {
         std::vector<int> samples;             ///< vertices, spread over the surface
         Eigen::VectorXd sample_mass;          ///< of their cells
         RowMatrix distance;                   ///< vertices x samples
+        std::vector<int> component;           ///< of vertices (surface_components.h)
         PatchAlignment patches;
 
         Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward);
+        bool are_on_different_components(int vertex, const SurfacePoint& point) const;
+        double straight_distance(int vertex, const SurfacePoint& point) const;
     };
     double relief(const PointMap& map, const Side& source, const Side& target) const;
     double alignment(const PointMap& map, const Side& source, const Side& target) const;

@@ -176,5 +176,49 @@ TEST(LooseComponents, StayWhereTheyDoLieOtherwise) {
     EXPECT_EQ(error_as_the_rest(right, pair, pair.context()), shapes::mean_error(right, pair));
 }
 
+/// A box of half sizes `half`, a little rounded.
+double distance_from_box(const Vec3& p, const Vec3& middle, const Vec3& half) {
+    constexpr double round = .04;
+    const Vec3 beyond = (p - middle).cwiseAbs() - half + Vec3::Constant(round);
+    return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.) - round;
+}
+
+/// A square seat, a back behind it, and four legs below, none of which touches another.
+TriangleMesh chair(double cell) {
+    const auto f = [](const Vec3& p) {
+        double nearest = std::min(distance_from_box(p, {0, 0, 0}, {1, 1, .12}),
+                                  distance_from_box(p, {0, .88, 1.2}, {1, .12, .9}));
+        for (const double x : {-.85, .85})
+            for (const double y : {-.85, .85})
+                nearest = std::min(nearest, distance_from_box(p, {x, y, -1}, {.15, .15, .7}));
+        return nearest;
+    };
+    return shapes::level_set(f, {-1.3, -1.3, -2}, {1.3, 1.3, 2.4}, cell);
+}
+
+/// The nearest points, where all below the back is turned by so many quarters about the vertical axis.
+PointMap seat_turned(const Surface& from, const Surface& to, int quarters) {
+    Points places = (from.mesh.vertices / from.scale).rowwise() + from.centre.transpose();
+    const Eigen::AngleAxisd turn(quarters * std::numbers::pi / 2, Vec3::UnitZ());
+    for (Eigen::Index i = 0; i < places.rows(); ++i)
+        if (places(i, 2) < .21) places.row(i) = (turn * Vec3(places.row(i).transpose())).transpose();
+    return nearest_points((places.rowwise() - to.centre.transpose()) * to.scale, to.mesh);
+}
+
+/// Distances over bridges would not: these are where rounding has the components nearest.
+TEST(LooseComponents, LieToEachOtherAsStraightDistancesTell) {
+    const KnownPair pair = shapes::known_pair(chair(.11), chair(.1), {}, 60, {}, 1000);
+    const Surface &A = pair.A.surface, &B = pair.B.surface;
+    ASSERT_EQ(SurfaceComponents(A).count(), 6);
+    const PairContext context = pair.context();
+    const Appraisal appraisal(context);
+    const auto stretch = [&](int quarters) {
+        return appraisal.cues({seat_turned(A, B, quarters), seat_turned(B, A, -quarters)}).stretch;
+    };
+    EXPECT_LT(stretch(0), .03);
+    EXPECT_GT(stretch(1), .06);
+    EXPECT_GT(stretch(2), .06);
+}
+
 }  // namespace
 }  // namespace varimap
