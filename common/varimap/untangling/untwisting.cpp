@@ -108,8 +108,8 @@ double farthest_moved(const Untwisting& found, const std::vector<int>& held, dou
 
 /// None where nothing is twisted, or where landmarks hold it: one on a side of the tube says how it stays.
 std::optional<Steps> steps_out(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target,
-                               const VertexData<bool>& is_held) {
-    const std::optional<Untwisting> found = untwisting(map, source, target, doubtful_twist);
+                               const VertexData<bool>& is_held, double least_degrees) {
+    const std::optional<Untwisting> found = untwisting(map, source, target, least_degrees);
     if (!found) return {};
     const std::vector<int> held = marked(is_held);
     double reference = 0, least = farthest_moved(*found, held, 0);
@@ -139,12 +139,13 @@ VertexData<bool> not_marked(VertexData<bool> marks) {
     return marks;
 }
 
-/// The maps without the twist of the direction that has more; none if neither has any.
+/// The maps without the twist of the direction that has more; none if neither has any, of so many degrees.
 std::optional<MapPair> without_twist(const MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
-                                     const PinnedPair& pinned) {
+                                     const PinnedPair& pinned, double least_degrees) {
     const VertexData<bool> held_A = held(pinned.A, pinned.points, A, true),
                            held_B = held(pinned.B, pinned.points, B, false);
-    const auto there = steps_out(maps.A_to_B, A, B, held_A), back = steps_out(maps.B_to_A, B, A, held_B);
+    const auto there = steps_out(maps.A_to_B, A, B, held_A, least_degrees),
+               back = steps_out(maps.B_to_A, B, A, held_B, least_degrees);
     if (!there && !back) return {};
     const bool is_there = !back || (there && there->degrees >= back->degrees);
     log("a tube is twisted by {:.0f} degrees: once more without that", (is_there ? there : back)->degrees);
@@ -196,10 +197,12 @@ std::optional<Untwisting> untwisting(const PointMap& map, const TriangleMesh& so
 
 UntanglingReports untangle_untwisted(MapPair& maps, const TriangleMesh& A, const TriangleMesh& B,
                                      const PinnedPair& pinned, const UntanglingOptions& options) {
-    constexpr int most_rounds = 3;  // what shears much is taken for less than it is twisted by
+    // What shears much is taken for less than it is twisted by; so rounds follow, for what may be the rest.
+    constexpr int most_rounds = 3;
+    constexpr double rest = doubtful_twist / 2;
     UntanglingReports reports = untangle(maps, A, B, pinned, options);
     for (int round = 0; options.enabled && round < most_rounds; ++round) {
-        std::optional<MapPair> other = without_twist(maps, A, B, pinned);
+        std::optional<MapPair> other = without_twist(maps, A, B, pinned, round > 0 ? rest : doubtful_twist);
         if (!other) break;
         const UntanglingReports other_reports = untangle(*other, A, B, pinned, options);
         const double twisted_strain = strain(maps, A, B), other_strain = strain(*other, A, B);
