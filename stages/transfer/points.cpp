@@ -107,6 +107,11 @@ int number_of(const TextRow& row, const std::string& path, int first, int count,
     return int(number) - first;
 }
 
+/// A line, with the comment that stood behind it.
+std::string with_comment(std::string line, const TextRow& row) {
+    return std::move(line) + (row.comment.empty() ? "" : " " + row.comment) + "\n";
+}
+
 /// `first`: the number of the first vertex.
 std::string carry_vertices(const TextRows& rows, const std::string& path, int first,
                            const Correspondence& map, const PointCarrier& there) {
@@ -119,7 +124,7 @@ std::string carry_vertices(const TextRows& rows, const std::string& path, int fi
         const int v = number_of(rows.rows[i], path, first, map.from.vertex_count(), "vertices");
         const SurfacePoint image = there(at_vertex[std::size_t(v)]);
         if (image.face >= 0)
-            text += fmt::format("{}\n", nearest_vertex(map.to, image) + first);
+            text += with_comment(std::to_string(nearest_vertex(map.to, image) + first), rows.rows[i]);
         else
             without.push_back(std::to_string(v + first));
     }
@@ -144,7 +149,7 @@ std::string carry_rows(TextRows rows, const std::string& path, const Corresponde
     for (std::size_t i = 0; i < rows.rows.size(); ++i) {
         for (std::size_t axis = 0; axis < 3 && i >= first; ++axis)
             rows.rows[i].words[columns[axis]] = fmt::format("{}", images[i - first][Eigen::Index(axis)]);
-        text += rows.rows[i].before + join(rows.rows[i].words, rows.separator) + "\n";
+        text += rows.rows[i].before + with_comment(join(rows.rows[i].words, rows.separator), rows.rows[i]);
     }
     return text + rows.behind;
 }

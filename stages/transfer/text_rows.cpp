@@ -42,6 +42,9 @@ class LineSplitter {
         }
     }
 
+    /// A comment that the words end at.
+    std::string_view rest() const { return rest_; }
+
   private:
     /// Up to the separator, which stays.
     std::string take_word(char separator) {
@@ -99,8 +102,9 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
         LineSplitter splitter(line, number, path);
         if (text.rows.empty()) text.separator = separator_of(line);
         if (text.separator == ' ' && blanks_belong) text.separator = ',';
-        text.rows.push_back(
-            {number, splitter.words(text.separator, content), std::exchange(text.behind, {})});
+        std::vector<std::string> words = splitter.words(text.separator, content);
+        text.rows.push_back({number, std::move(words), std::exchange(text.behind, {}),
+                             std::string(trimmed(splitter.rest(), blanks))});
     }
     if (text.rows.empty()) throw InputError(path + ": holds no rows");
     return text;

@@ -22,10 +22,22 @@ bool any_number(const TextRow& row) {
     return std::any_of(row.words.begin(), row.words.end(), is_number);
 }
 
-/// Whether the row begins with the number of the first, and goes on.
-bool is_first_number(const TextRow& row) {
-    long long number;
-    return row.words.size() > 1 && to_index(row.words[0], number) && number == 0;
+bool has_number(const TextRow& row, std::size_t number) {
+    long long found;
+    return to_index(row.words[0], found) && found == static_cast<long long>(number);
+}
+
+/// Whether the rows behind the first begin with their numbers from 1, as tables of R do, and go on.
+bool are_numbered_from_1(const std::vector<TextRow>& rows) {
+    if (rows.size() < 2 || rows[1].words.size() < 2) return false;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        if (!has_number(rows[i], i)) return false;
+    return true;
+}
+
+/// Whether the rows behind the first may be numbered, as the first of them tells if it is from 0.
+bool seem_numbered(const std::vector<TextRow>& rows) {
+    return (rows[1].words.size() > 1 && has_number(rows[1], 0)) || are_numbered_from_1(rows);
 }
 
 /// Words stand for numbers where values are labels.
@@ -68,12 +80,24 @@ bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh, c
     const bool names_rows = is_index_name(rows[0].words[0]);
     if (!names_rows && any_number(rows[0])) return false;
     // No number is called so, and nothing else stands above rows that are numbered.
-    if (names_rows && (kind != ValueKind::label || is_first_number(rows[1]))) return true;
+    if (names_rows && (kind != ValueKind::label || seem_numbered(rows))) return true;
     const bool all_fit = place_of(rows.size(), mesh).has_value();
     const bool others_fit = place_of(rows.size() - 1, mesh).has_value();
     if (all_fit && !others_fit) require_certain_names(text, path);
     if (all_fit != others_fit) return others_fit;
     return names_rows || kind != ValueKind::label || any_number(rows[1]);
+}
+
+/// What to do with a word where a number should stand.
+const char* advice_about(std::string_view word) {
+    const std::string lower = lower_case(word);
+    if (lower == "na" || lower == "n/a" || lower == "null" || lower == "none" || lower == "-")
+        return "write nan where there is none";
+    std::string with_point(word);
+    std::ranges::replace(with_point, ',', '.');
+    double ignored;
+    if (to_number(with_point, ignored)) return "write decimals with a point";
+    return "give words as --labels, and write nan where a number is missing";
 }
 
 double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& words,
@@ -85,19 +109,18 @@ double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& 
         throw InputError(
             fmt::format("{}:{}: a number is missing; write nan where there is none", path, row.line));
     if (!to_number(word, value))
-        throw InputError(fmt::format("{}:{}: '{}' is not a number; give words as --labels", path, row.line,
-                                     excerpt(word)));
+        throw InputError(fmt::format("{}:{}: '{}' is not a number; {}", path, row.line, excerpt(word),
+                                     advice_about(word)));
     return value;
 }
 
-/// Rows of a numbered table stand in the order of their numbers, from 0.
+/// Rows of a numbered table stand in the order of their numbers, from 0 or 1.
 void require_number(const TextRow& row, std::size_t number, const std::string& name,
                     const std::string& path) {
-    long long found;
-    if (!to_index(row.words[0], found) || found != static_cast<long long>(number))
+    if (!has_number(row, number))
         throw InputError(fmt::format(
             "{}:{}: number '{}' where {} should stand: the column '{}' numbers the rows, in their "
-            "order from 0; call one that holds values otherwise",
+            "order from 0 or from 1; call one that holds values otherwise",
             path, row.line, excerpt(row.words[0]), number, excerpt(name)));
 }
 
@@ -123,6 +146,7 @@ void warn_of_decimal_commas(const TextRows& text, const std::string& path) {
 struct TableLayout {
     std::string names;  ///< the first line, if it names columns
     bool numbered = false;
+    std::size_t first_number = 0;
     char separator = ' ';
     ValueKind kind;
     Dictionary words;
@@ -132,7 +156,7 @@ std::string to_text(const Eigen::MatrixXd& values, const TableLayout& layout) {
     std::string text = layout.names;
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
         std::vector<std::string> words;
-        if (layout.numbered) words.push_back(std::to_string(row));
+        if (layout.numbered) words.push_back(std::to_string(std::size_t(row) + layout.first_number));
         for (const double value : values.row(row))
             words.push_back(layout.kind == ValueKind::label ? layout.words.word_of(value)
                                                             : shortest_text(value));
@@ -151,7 +175,7 @@ Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::s
         if (row.words.size() != width)
             throw InputError(fmt::format("{}:{}: {} columns, but the first line has {}", path, row.line,
                                          row.words.size(), width));
-        if (layout.numbered) require_number(row, i - first, text.rows[0].words[0], path);
+        if (layout.numbered) require_number(row, i - first + layout.first_number, text.rows[0].words[0], path);
         for (std::size_t c = skipped; c < width; ++c)
             values(Eigen::Index(i - first), Eigen::Index(c - skipped)) =
                 cell(row, c, layout.kind, layout.words, path);
@@ -168,7 +192,9 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
     if (kind == ValueKind::number) warn_of_decimal_commas(text, path);
     const auto& first = text.rows[0].words;
     const bool named = has_names(text, kind, mesh, path);
-    TableLayout layout{"", named && first.size() > 1 && is_index_name(first[0]), text.separator, kind, {}};
+    const bool numbered = named && first.size() > 1 && is_index_name(first[0]);
+    const std::size_t first_number = numbered && are_numbered_from_1(text.rows) ? 1 : 0;
+    TableLayout layout{"", numbered, first_number, text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
     const std::string numbers = layout.numbered ? lower_case(first[0]) : "";
     ValueTable table{numbers == "face" ? Place::face : Place::vertex,

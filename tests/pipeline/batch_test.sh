@@ -440,6 +440,14 @@ grep -q 'no landmarks for 1 of 3 surfaces (b)' log || fail "which surface of a l
 printf 'mesh,landmarks\nmeshes/a.off,\nmeshes/b.off,three.txt\nmeshes/c.off,\n' >surfaces.csv
 expect_landmarks "a.txt three.txt a.txt c.txt three.txt c.txt" surfaces.csv
 expect_landmarks "three.txt a.txt three.txt c.txt" --star meshes/b.off surfaces.csv
+# Without --landmarks-from those that lack them are named, too; capitals, blanks and dashes of a heading do not matter.
+printf 'Mesh,Landmarks\nmeshes/a.off,\nmeshes/b.off,three.txt\nmeshes/c.off,three.txt\n' >surfaces.csv
+"$varimap" batch surfaces.csv -o planned --plan >out.txt 2>log || fail "--plan of surfaces with landmarks: $(<log)"
+[[ $(landmarks_in) == "- - - - three.txt three.txt " ]] || fail "landmarks of a list of surfaces: $(landmarks_in)"
+grep -q 'surfaces.csv: no landmarks for 1 of 3 surfaces (a)' log || fail "which surface of a list has no landmarks is not said: $(<log)"
+printf 'source,target,Source Landmarks,target-landmarks\nmeshes/a.off,meshes/b.off,tips.txt,three.txt\n' >headings.csv
+"$varimap" batch headings.csv -o planned --plan >out.txt 2>log || fail "--plan with other headings: $(<log)"
+[[ $(landmarks_in) == "tips.txt three.txt " ]] || fail "headings with capitals and blanks: $(landmarks_in)"
 
 # Ended by an interrupt: all that it started ends with it, and it says so.
 setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &

@@ -60,6 +60,9 @@ for file in right.txt kept/source_to_target.npz; do
 done
 jq -e '.reversed_area_percent < 1' verified.json >/dev/null || fail "arrays are read wrongly by verify"
 is_below "$(mean kept/source_to_target.npz)" .03 || fail "arrays are read wrongly by evaluate"
+cp b.off b_before.off
+expect_exit 2 "$VARIMAP_BIN/varimap-evaluate" b.off kept/source_to_target.npz all.txt all.txt --curve b.off
+cmp b.off b_before.off || fail "evaluate wrote its curve over the mesh"
 
 # Landmarks in other forms: points, one file of pairs.
 points() { awk -v n="$n" 'NR > 2 && NR <= n + 2 && NR % 40 == 5' "$1"; }

@@ -28,6 +28,11 @@ awk -F, '$2 == "outside_part" { print $1 }' out/target_vertices.csv | cmp -s - l
 
 "$varimap" report out >report.txt || fail "report"
 grep -q 'part placed  *strained by 0[.]0[0-9]*  *good$' report.txt || fail "the report does not tell how the part was placed"
+"$varimap" report out --json | jq -e '.verdict and (.checks | length > 0)' >/dev/null || fail "the report as JSON"
+expect_exit 2 "$varimap" report out --jsn
+grep -q 'unknown option --jsn' log || fail "an unknown option of report: $(<log)"
+expect_exit 2 "$varimap" transfer --values values.csv out
+grep -q 'the folder of the map comes first' log || fail "options before the folder: $(<log)"
 jq '.part.strain = .13' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/report.jq" |
     jq -e '.verdict == "look here" and any(.checks[]; .what == "part placed" and .grade == "look here")' >/dev/null ||
     fail "a strained part does not make one look"

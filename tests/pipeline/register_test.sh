@@ -123,6 +123,8 @@ volume() { awk 'NF == 3 && !/[a-z]/ { x[n] = $1; y[n] = $2; z[n++] = $3 } NF == 
     sum += x[a] * (y[b] * z[c] - z[b] * y[c]) - y[a] * (x[b] * z[c] - z[b] * x[c]) + z[a] * (x[b] * y[c] - y[b] * x[c]) } END { print (sum > 0) }'; }
 [[ $(sed 1,/end_header/d sided/specimens/left.ply | volume) == $(sed 1,2d left.off | volume) ]] || fail "a mirrored specimen is inside out"
 expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --mirrored template.off
+expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --mirrored
+grep -q -- '--mirrored: give meshes or folders behind it' log || fail "--mirrored of nothing: $(<log)"
 expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --landmark-weight .2
 grep -q -- '--landmark-weight: no map has landmarks' log || fail "an option of landmarks without any"
 expect_exit 2 "$varimap" register "${small_picture[@]}" template.off sides -o none --landmark-base 1

@@ -178,7 +178,7 @@ TEST(LocateStage, SaysThatAllLandmarksAreExchanged) {
 /// A part that does not fit is no reason to suspect its landmarks.
 TEST(LocateStage, DoesNotCallRightLandmarksExchanged) {
     Pair pair;
-    pair.whole.input.vertices.col(1) *= 2.5;
+    pair.whole.input.vertices.col(1) *= 3;
     pair.whole = preprocess(pair.whole.input, {});
     const std::size_t before = logged_warnings().size();
     EXPECT_GT(pair.locate(true).strain, .12);

@@ -797,6 +797,39 @@ TEST_F(Transfer, RefusesValuesOfAnotherMesh) {
                 HasSubstr("id.csv:2: number '7' where 0 should stand: the column 'id' numbers the rows"));
 }
 
+/// As R's write.csv numbers them.
+TEST_F(Transfer, RowsMayBeNumberedFrom1) {
+    std::string rows = "\"\",heat\n";
+    for (int v = 1; v <= ball_.vertex_count(); ++v) rows += fmt::format("\"{}\",2\n", v);
+    TransferRequest request;
+    request.values = {write("heat.csv", rows)};
+    const std::string carried = carry(request, identity_onto(ball_)).at("heat.csv");
+    EXPECT_THAT(carried, testing::StartsWith(",heat\n1,2\n2,2\n"));
+    EXPECT_THAT(carried, testing::EndsWith(fmt::format("\n{},2\n", ball_.vertex_count())));
+}
+
+TEST_F(Transfer, SaysWhatToWriteInsteadOfWhatIsNoNumber) {
+    TransferRequest request;
+    const auto refusal_of = [&](const std::string& rows) {
+        request.values = {write("a.txt", rows)};
+        return refusal(request, identity_onto(ball_));
+    };
+    EXPECT_THAT(refusal_of(by_turns("1", "NA")), HasSubstr("'NA' is not a number; write nan where there"));
+    EXPECT_THAT(refusal_of(by_turns("1;2", "1,5;2")),
+                HasSubstr("'1,5' is not a number; write decimals with"));
+}
+
+/// In lines that blanks split, where they may be landmarks' names.
+TEST_F(Transfer, CommentsBehindPointsStay) {
+    const Vec3 p = ball_.vertex(7);
+    TransferRequest request;
+    request.points = {write("p.txt", fmt::format("{} {} {}   # nose\n", p[0], p[1], p[2])),
+                      write("v.txt", "7 # ear\n8\n")};
+    auto carried = carry(request, identity_onto(ball_));
+    EXPECT_THAT(carried.at("p.txt"), testing::EndsWith(" # nose\n"));
+    EXPECT_EQ(carried.at("v.txt"), "7 # ear\n8\n");
+}
+
 TEST_F(Transfer, NumbersOfRowsMayBeWrittenAsFloats) {
     const auto table = [&](const std::string& value, double shift = 0) {
         std::string rows = "vertex,x\n";

@@ -18,8 +18,8 @@ void place(std::vector<Named>& list, const std::vector<Vec3>& positions, const s
     const auto farthest = std::ranges::max_element(snapped.distances) - snapped.distances.begin();
     require_near(snapped, positions, mesh, row_of(path, list[std::size_t(farthest)].line).place, "landmarks");
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::string what =
-            fmt::format("{}: landmark {}", row_of(path, list[i].line).place, excerpt(list[i].name));
+        std::string what = row_of(path, list[i].line).place + ": landmark";
+        if (!list[i].name.empty()) what += fmt::format(" {}", excerpt(list[i].name));
         log("{} lies {:.4f} from the surface, in units of sqrt(area); vertex {}", what, snapped.distances[i],
             snapped.vertices[i]);
         if (snapped.distances[i] > far_from_surface)

@@ -51,6 +51,7 @@ struct Stage::State {
     std::string output_kind;
     int output_schema = 0;
     const std::string* output_path = nullptr;
+    std::vector<const std::string*> output_options;
     std::vector<InputRecord> inputs;
     std::map<std::string, FileState> states_at_start;  ///< of the input files
     std::vector<InputRecord> identities;               ///< of the input files, where a stamp needs them
@@ -72,7 +73,7 @@ struct Stage::State {
     std::string run_file() const { return *output_path + ".run.json"; }
     std::vector<std::string> outputs() const;
     void require_possible_files() const;
-    void require_possible_output() const;
+    void require_possible_output(const std::string& path) const;
     void log_parameters() const;
     void note_run() const;
 };
@@ -154,24 +155,25 @@ std::vector<std::string> Stage::State::outputs() const {
 /// Opening a pipe would wait for its writer for ever.
 void Stage::State::require_possible_files() const {
     for (const auto& [role, path] : line.input_files()) file_state(path);
-    require_possible_output();
+    if (output_path != nullptr) require_possible_output(*output_path);
+    for (const std::string* path : output_options)
+        if (!path->empty()) require_possible_output(*path);
 }
 
 /// Found out before the work, not after it.
-void Stage::State::require_possible_output() const {
-    if (output_path == nullptr) return;
+void Stage::State::require_possible_output(const std::string& path) const {
     std::error_code ignored;
-    const auto parent = fs::path(*output_path).parent_path();
+    const auto parent = fs::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     if (!fs::is_directory(folder, ignored))
-        throw IoError("cannot write '" + *output_path + "': there is no folder '" + folder + "'");
-    if (fs::exists(*output_path, ignored) && !fs::is_regular_file(*output_path, ignored))
-        throw IoError("cannot write '" + *output_path + "': it is there and not a regular file");
+        throw IoError("cannot write '" + path + "': there is no folder '" + folder + "'");
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+        throw IoError("cannot write '" + path + "': it is there and not a regular file");
     if (::access(folder.c_str(), W_OK) != 0)
-        throw IoError("cannot write '" + *output_path + "': no permission to write in '" + folder + "'");
-    for (const auto& [role, path] : line.input_files())
-        if (fs::equivalent(path, *output_path, ignored))
-            throw UsageError("'" + *output_path + "' is both an input and the output");
+        throw IoError("cannot write '" + path + "': no permission to write in '" + folder + "'");
+    for (const auto& [role, input] : line.input_files())
+        if (fs::equivalent(input, path, ignored))
+            throw UsageError("'" + path + "' is both an input and the output");
 }
 
 void Stage::State::log_parameters() const {
@@ -247,6 +249,12 @@ const std::vector<std::string>& Stage::input_list_option(const std::string& name
 const std::string& Stage::option(const std::string& name, const std::string& help) {
     return state_->line.options.emplace_back(CommandLine::Text{name, help, CommandLine::Use::other, {}})
         .value;
+}
+
+const std::string& Stage::output_option(const std::string& name, const std::string& help) {
+    const std::string& path = option(name, help);
+    state_->output_options.push_back(&path);
+    return path;
 }
 
 const bool& Stage::flag(const std::string& name, const std::string& help) {
