@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "stages/generate/assembly.h"
 #include "stages/generate/families.h"
 #include "stages/generate/isometric.h"
 #include "stages/generate/merged.h"
@@ -24,7 +25,7 @@ namespace {
 
 using TruePair = GeneratedPair::TruePair;
 
-constexpr const char* any = "any";
+constexpr const char *any = "any", *assembly = "assembly";
 
 /// A shape and its mesh at rest.
 struct Shape {
@@ -45,23 +46,25 @@ int vertices_of(const GenerateParams& params, shapes::Random& random) {
     return params.vertices > 0 ? params.vertices : by_seed;
 }
 
-/// Pairs of these source vertices and the target vertices at their true images; only the fifth of them whose
-/// images are nearest to a vertex, so that the target's tessellation hardly counts as an error. Of many
-/// vertices, some thousands are asked.
+void sort_by_distance(std::vector<TruePair>& rows) {
+    std::sort(rows.begin(), rows.end(),
+              [](const TruePair& a, const TruePair& b) { return a.squared_distance < b.squared_distance; });
+}
+
+/// Pairs of these source vertices and the vertices, of those of the target, at their true images; only the
+/// fifth of them whose images are nearest to a vertex, so that the target's tessellation hardly counts as an
+/// error. Of many vertices, some thousands are asked.
 std::vector<TruePair> true_pairs(const std::vector<int>& vertices, const Points& images,
-                                 const TriangleMesh& target) {
+                                 const Points& target) {
     std::vector<TruePair> rows;
     const std::size_t step = std::max<std::size_t>(1, vertices.size() / 6000);
     for (std::size_t i = 0; i < vertices.size(); i += step) {
         int nearest;
-        const double squared = (target.vertices.rowwise() - images.row(Eigen::Index(i)))
-                                   .rowwise()
-                                   .squaredNorm()
-                                   .minCoeff(&nearest);
+        const double squared =
+            (target.rowwise() - images.row(Eigen::Index(i))).rowwise().squaredNorm().minCoeff(&nearest);
         rows.push_back({squared, vertices[i], nearest});
     }
-    std::sort(rows.begin(), rows.end(),
-              [](const TruePair& a, const TruePair& b) { return a.squared_distance < b.squared_distance; });
+    sort_by_distance(rows);
     rows.resize(rows.size() / 5);
     return rows;
 }
@@ -79,6 +82,13 @@ class Placement {
     double scale_, angle_;
 };
 
+/// Of vertices that shapes::shuffled took from these.
+std::vector<int> new_numbers(const std::vector<int>& old_vertex) {
+    std::vector<int> numbers(old_vertex.size());
+    for (std::size_t v = 0; v < old_vertex.size(); ++v) numbers[std::size_t(old_vertex[v])] = int(v);
+    return numbers;
+}
+
 GeneratedPair isometric_pair(unsigned seed, const GenerateParams& params) {
     const auto [kind, body] = shapes::isometric_shape(seed);
     shapes::Random random(seed + 1000);
@@ -89,8 +99,8 @@ GeneratedPair isometric_pair(unsigned seed, const GenerateParams& params) {
     const Shape source = draw(), target = draw();
     const Placement placed(random);
     GeneratedPair pair{kind, source.rest, shapes::shuffled(placed(target.posed()), seed), {}};
-    pair.truth =
-        true_pairs(all_indices(source.rest.vertex_count()), placed(source.posed()).vertices, pair.target);
+    pair.truth = true_pairs(all_indices(source.rest.vertex_count()), placed(source.posed()).vertices,
+                            pair.target.vertices);
     return pair;
 }
 
@@ -117,7 +127,7 @@ GeneratedPair pair_of(const std::string& name, const Shape& source, const Shape&
             partners.push_back(*image);
         }
     const Shape images{target.body, shapes::make_mesh(partners, {})};
-    pair.truth = true_pairs(vertices, placed(images.posed()).vertices, pair.target);
+    pair.truth = true_pairs(vertices, placed(images.posed()).vertices, pair.target.vertices);
     return pair;
 }
 
@@ -169,13 +179,42 @@ GeneratedPair merged_pair(const std::string& name, std::pair<shapes::Body, shape
     return pair_of(name, source, target, seed, Placement(random));
 }
 
+GeneratedPair assembly_pair(unsigned seed, const GenerateParams& params) {
+    shapes::Random random(seed);
+    const auto [source, target] = shapes::assemblies(seed, params.variation, random);
+    const auto meshed = [&](const shapes::Assembly& one) {
+        return shapes::assembled(one, vertices_of(params, random));
+    };
+    const TriangleMesh here = meshed(source), there = meshed(target);
+    const Placement placed(random);
+    const TriangleMesh there_placed = placed(there);
+    std::vector<int> old_vertex;
+    GeneratedPair pair{source.kind, here, shapes::shuffled(there_placed, seed, &old_vertex), {}};
+    const std::vector<int> renumbered = new_numbers(old_vertex);
+    const Points images = placed({shapes::partners(here, source, target), here.faces}).vertices;
+    // Part by part: where parts touch, the nearest vertex of all may be another's.
+    const int parts = int(source.parts.size()), of_each = here.vertex_count() / parts,
+              there_of_each = there.vertex_count() / parts;
+    for (int part = 0; part < parts; ++part) {
+        std::vector<int> vertices = all_indices(of_each);
+        for (int& v : vertices) v += part * of_each;
+        for (const TruePair& row :
+             true_pairs(vertices, images.middleRows(part * of_each, of_each),
+                        there_placed.vertices.middleRows(part * there_of_each, there_of_each)))
+            pair.truth.push_back({row.squared_distance, row.source,
+                                  renumbered[std::size_t(part * there_of_each + row.target)]});
+    }
+    sort_by_distance(pair.truth);
+    return pair;
+}
+
 /// Throws UsageError where what only families take is given to another.
-void require_defaults(const GenerateParams& params, const char* why) {
+void require_defaults(const GenerateParams& params, const char* why, bool may_vary = false) {
     const GenerateParams usual;
     const auto require = [&](const char* name, double value, double usual_value) {
         if (value != usual_value) throw UsageError(fmt::format("--{} is for families; {}", name, why));
     };
-    require("variation", params.variation, usual.variation);
+    if (!may_vary) require("variation", params.variation, usual.variation);
     require("build", params.build, usual.build);
     require("bending", params.bending, usual.bending);
     require("asymmetry", params.asymmetry, usual.asymmetry);
@@ -240,7 +279,7 @@ std::string lines_of(const std::vector<int>& numbers) {
 }  // namespace
 
 std::vector<std::string> generated_families() {
-    std::vector<std::string> names{"isometric", any};
+    std::vector<std::string> names{"isometric", any, assembly};
     for (const auto& others : {shapes::family_names(), shapes::merged_names()})
         names.insert(names.end(), others.begin(), others.end());
     return names;
@@ -255,6 +294,10 @@ GeneratedPair generate(const std::string& family, unsigned seed, const GenerateP
     if (family == any) {
         require_defaults(params, "the seed draws it for any");
         return any_pair(seed, params);
+    }
+    if (family == assembly) {
+        require_defaults(params, "parts of an assembly are stiff", true);
+        return assembly_pair(seed, params);
     }
     if (auto bodies = shapes::merged_pair(family, params))
         return merged_pair(family, std::move(*bodies), seed, params);
@@ -276,10 +319,10 @@ GeneratedCollection generate_collection(const std::string& family, unsigned seed
     GeneratedCollection collection{family, {}, {}};
     const auto rows = common_vertices(members);
     for (std::size_t m = 0; m < members.size(); ++m) {
-        std::vector<int> old_vertex, renumbered(std::size_t(members[m].rest.vertex_count()));
+        std::vector<int> old_vertex;
         collection.meshes.push_back(
             shapes::shuffled(Placement(random)(members[m].posed()), seed + unsigned(m), &old_vertex));
-        for (std::size_t v = 0; v < old_vertex.size(); ++v) renumbered[std::size_t(old_vertex[v])] = int(v);
+        const std::vector<int> renumbered = new_numbers(old_vertex);
         collection.vertices.emplace_back();
         for (const int v : rows[m]) collection.vertices.back().push_back(renumbered[std::size_t(v)]);
     }

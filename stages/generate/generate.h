@@ -19,11 +19,13 @@ struct GeneratedPair {
     std::vector<TruePair> truth;  ///< those nearest to a vertex first
 };
 
-/// What `family` may be: "isometric", "any", shapes::family_names() and shapes::merged_names(), which see.
+/// What `family` may be: "isometric", "any", "assembly", shapes::family_names() and shapes::merged_names(),
+/// which see.
 std::vector<std::string> generated_families();
 
 /// A pair of that family; the target is scaled, turned, moved and renumbered. "isometric": a shape at rest
-/// and the same one bent, differently tessellated. Of merged_names: a body, and one grown
+/// and the same one bent, differently tessellated. "assembly": two of a kind whose parts touch, each a
+/// component of its own (assembly.h). Of merged_names: a body, and one grown
 /// together with itself. Otherwise two members, each posed; both of genus 0;
 /// of "any" the family and its parameters are drawn by the seed, and `kind` tells which it is.
 /// Deterministic. Throws UsageError for an unknown family, and for parameters that the family has not.

@@ -86,7 +86,7 @@ TEST(Generate, FamiliesAreClosedSurfacesOfGenusZeroHoweverTheyVary) {
 }
 
 TEST(Generate, TheSeedDecidesAll) {
-    for (const char* family : {"isometric", "tool"}) {
+    for (const char* family : {"isometric", "tool", "assembly"}) {
         SCOPED_TRACE(family);
         const GeneratedPair pair = generate(family, 8, small_meshes()),
                             again = generate(family, 8, small_meshes());
@@ -109,6 +109,29 @@ TEST(Generate, AnyDrawsAFamilyAndHowItVaries) {
     }
     EXPECT_GE(kinds.size(), 3u);
     EXPECT_EQ(kinds.count("any"), 0u);
+}
+
+/// Chairs without and with arms, a table, a car, a robot.
+TEST(Generate, AssembliesAreOfPartsThatArePartners) {
+    const int parts[] = {6, 10, 7, 8, 8};
+    for (unsigned seed = 0; seed < 5; ++seed) {
+        const GeneratedPair pair = generate("assembly", seed, small_meshes());
+        SCOPED_TRACE(pair.kind);
+        expect_truth(pair);
+        const std::vector<int> source = vertex_components(pair.source),
+                               target = vertex_components(pair.target);
+        for (const TriangleMesh* mesh : {&pair.source, &pair.target}) {
+            EXPECT_NO_THROW(require_sheets(*mesh, "generated"));
+            EXPECT_TRUE(is_closed(*mesh));
+            EXPECT_GT(signed_volume(*mesh), 0);
+            EXPECT_NEAR(mesh->vertex_count(), 1000, 350);
+        }
+        EXPECT_EQ(std::set<int>(source.begin(), source.end()).size(), std::size_t(parts[seed]));
+        std::set<std::pair<int, int>> partners;
+        for (const auto& [v, w] : pairs_of(pair))
+            partners.emplace(source[std::size_t(v)], target[std::size_t(w)]);
+        EXPECT_LE(partners.size(), std::size_t(parts[seed])) << "each part has one partner";
+    }
 }
 
 TEST(Generate, StoutQuadrupedsHaveMoreVolumeForTheirArea) {
@@ -259,7 +282,7 @@ TEST(Generate, RowsOfACollectionAreTheSamePlaces) {
 }
 
 TEST(Generate, SaysWhatFamiliesThereAre) {
-    EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, any, biped"));
+    EXPECT_THAT(refusal("bird", {}), HasSubstr("'bird'; there are isometric, any, assembly, biped"));
     GenerateParams varied;
     varied.variation = 0.5;
     EXPECT_THAT(refusal("isometric", varied), HasSubstr("--variation"));
