@@ -178,6 +178,15 @@ if [[ -x $VARIMAP_BIN/varimap-import ]]; then
     grep -q '^verdict  look here: .*b.gltf: is no longer the scene that was mapped' out.txt || fail "report of a scene that was replaced: $(<out.txt)"
     batch scenes.csv -o imported --plan
     [[ $(cut -d ' ' -f 1,2 imported/batch/pending | xargs) == "pair one--b surface b" ]] || fail "a changed buffer: $(<imported/batch/pending)"
+    # What was imported is found, or imported again, where the folder was moved.
+    "$varimap" register "${small_picture[@]}" "${coarse[@]}" meshes/b.off scenes/a.gltf -o registered -j 1 >out.txt 2>log || fail "register of a scene: $(<log)"
+    cp registered/specimens/a.csv before.csv
+    mv registered elsewhere
+    for try in "in a folder that was moved" "whose import is gone"; do
+        "$varimap" register "${small_picture[@]}" "${coarse[@]}" meshes/b.off scenes/a.gltf -o elsewhere -j 1 >out.txt 2>log || fail "register of a scene $try: $(<log)"
+        same elsewhere/specimens/a.csv before.csv
+        rm elsewhere/maps/artifacts/a.obj
+    done
 fi
 
 # As far as a stage, and then on.
