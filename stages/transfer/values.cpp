@@ -58,11 +58,18 @@ Shares shares_of(int row, Place place, const Correspondence& map, const PointCar
     return shares;
 }
 
+/// Of the values that are numbers, where these have most of the shares; else none.
 Eigen::RowVectorXd mixed(const Shares& shares, const Eigen::MatrixXd& values) {
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(values.cols());
     double total = 0;
     for (const Share& share : shares) total += share.weight;
-    for (const Share& share : shares) row += share.weight / total * values.row(share.row);
+    Eigen::RowVectorXd row(values.cols());
+    for (Eigen::Index column = 0; column < values.cols(); ++column) {
+        double sum = 0, known = 0;
+        for (const Share& share : shares)
+            if (const double value = values(share.row, column); !std::isnan(value))
+                sum += share.weight * value, known += share.weight;
+        row[column] = known > total / 2 ? sum / known : std::numeric_limits<double>::quiet_NaN();
+    }
     return row;
 }
 

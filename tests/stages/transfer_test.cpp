@@ -415,6 +415,24 @@ Correspondence onto_middle(const TriangleMesh& ball, const Vec3& barycentric) {
     return map;
 }
 
+/// They would spread to all vertices whose image lies on a face beside them.
+TEST_F(Transfer, MissingValuesCountWhereTheyHaveMostOfAShare) {
+    const int row = ball_.faces(0, 0), second = ball_.faces(0, 1);
+    const auto carried = [&](const Vec3& barycentric) {
+        std::string text;
+        for (int v = 0; v < ball_.vertex_count(); ++v)
+            text += v == second ? "nan\n" : v == row ? "2\n" : "4\n";
+        TransferRequest request;
+        request.values = {write("a.txt", text)};
+        std::istringstream lines(carry(request, onto_middle(ball_, barycentric)).at("a.txt"));
+        std::string line;
+        for (int i = 0; i <= row; ++i) std::getline(lines, line);
+        return line;
+    };
+    EXPECT_EQ(carried({.25, .5, .25}), "nan");
+    EXPECT_EQ(carried({.375, .25, .375}), "3");
+}
+
 TEST_F(Transfer, EveryColumnOfLabelsIsElectedByItself) {
     const Correspondence map = onto_middle(ball_, {.3, .3, .4});
     const int row = ball_.faces(0, 0), last = ball_.faces(0, 2);
