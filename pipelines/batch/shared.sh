@@ -50,23 +50,24 @@ hashes_beside() { (cd -- "${1%/*}" && sha256sum -- "${@:2}" 2>/dev/null) || true
 # short_hash: sixteen digits of the SHA-256 of what is read.
 short_hash() { sha256sum | cut -c 1-16; }
 
-# split_csv LIST: as lines of fields separated by \037; quotes as in RFC 4180, lines of # alone and blank ones left out. The first line
-# tells what separates: commas, or where it has none semicolons or tabs.
+# split_csv LIST: as lines of fields separated by \037; quotes as in RFC 4180, blanks around fields and lines of # alone and blank ones
+# left out. The first line tells what separates: commas, or where it has none semicolons or tabs.
 split_csv() {
     tr -d '\r' <"$1" | sed '1s/^\xef\xbb\xbf//' | awk '
         /^[ \t]*(#|$)/ { next }
+        function without_blanks(text) { if (!had_quotes) gsub(/^ +| +$/, "", text); return text }
         separator == "" { separator = /,/ ? "," : /;/ ? ";" : /\t/ ? "\t" : "," }
         {
-            line = $0; field = ""; out = ""; quoted = 0
+            line = $0; field = ""; out = ""; quoted = 0; had_quotes = 0
             for (i = 1; i <= length(line); i++) {
                 c = substr(line, i, 1)
                 if (quoted && c == "\"" && substr(line, i + 1, 1) == "\"") { field = field c; i++ }
-                else if (c == "\"") quoted = !quoted
-                else if (c == separator && !quoted) { out = out field "\037"; field = "" }
-                else field = field c
+                else if (c == "\"") { quoted = !quoted; if (field ~ /^ *$/ && !had_quotes) field = ""; had_quotes = 1 }
+                else if (c == separator && !quoted) { out = out without_blanks(field) "\037"; field = ""; had_quotes = 0 }
+                else if (quoted || !had_quotes || c != " ") field = field c
             }
             if (quoted || index(line, "\037") || (separator != "\t" && index(line, "\t"))) { print "\036" NR; exit }
-            print out field
+            print out without_blanks(field)
         }'
 }
 

@@ -124,7 +124,8 @@ int main(int argc, char** argv) {
         stage.option("map-base", "number of the first vertex in a vertex-to-vertex map: 0, 1 or auto");
     const auto& source_path = stage.input_option(
         "source-mesh", "mesh the map starts from, to check the source's points and their base");
-    const auto& curve_path = stage.output_option("curve", "CSV to write: share of the pairs within each error");
+    const auto& curve_path =
+        stage.output_option("curve", "CSV to write: share of the pairs within each error");
     const auto& json = stage.flag("json", "print a JSON object");
     return stage.main(argc, argv, [&] {
         if (lists.size() > 2)

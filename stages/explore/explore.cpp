@@ -38,13 +38,15 @@ double logged_plausibility(const Candidate& best) {
 }
 
 /// Whether the best map has been compared with one that is turned about: it gives most of the surface another
-/// image, and is a map, of which it would be no wonder otherwise that it is worse. One that was turned by 79
-/// degrees, and bad, hid from a person that was turned by 180 that it was.
+/// image, and is a map that is not worse by far, of which it would be no wonder otherwise that it is worse.
+/// One that was turned by 79 degrees, and bad, hid from a person that was turned by 180 that it was, one with
+/// a score that was worse by 18 from a robot.
 bool has_turned_rival(const std::vector<Appraised>& list) {
-    constexpr double most = 0.5, torn = 0.1;
-    return std::any_of(list.begin(), list.end(), [](const Appraised& one) {
+    constexpr double most = 0.5, torn = 0.1, far = 12;
+    const double best = list.front().candidate.score;
+    return std::any_of(list.begin(), list.end(), [&](const Appraised& one) {
         return one.candidate.moved_mass > most && one.candidate.turn > turned_about &&
-               one.candidate.reversed_mass < torn;
+               one.candidate.reversed_mass < torn && one.candidate.score < best + far;
     });
 }
 

@@ -23,8 +23,8 @@ class ShapeAgreement {
     /// How much distances along the surface change: mean of |log| of the ratios
     ///     d_A(p, psi(q)) / d_B(phi(p), q)
     /// over places p of A and q of B, for the maps phi from A to B and psi back; of each, most_stretch at
-    /// most. 0 at best. Between components that a repair joined, distances are straight: ways over its
-    /// bridges tell where these are.
+    /// most. 0 at best. Where both of a pair lie on different components that a repair joined, on either
+    /// surface, distances are straight: ways over its bridges tell where these are.
     double stretch(const MapPair& maps) const;
 
   private:

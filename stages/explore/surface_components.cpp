@@ -10,6 +10,8 @@
 
 namespace varimap {
 
+// Numbers in this file were chosen by hand.
+
 std::vector<int> component_of_each_vertex(const Surface& surface) {
     std::vector<int> of(std::size_t(surface.mesh.vertex_count()), 0);
     const std::vector<int>& file_face = surface.link.face;

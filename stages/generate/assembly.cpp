@@ -82,7 +82,7 @@ Parts robot_parts(DrawnSizes& draw) {
     Parts parts{{Form::box, {-width / 2, -depth / 2, leg}, {width / 2, depth / 2, neck}},
                 {Form::ball, {-head, -1.2 * head, neck}, {head, 1.2 * head, neck + 2 * head}}};
     for (const double side : {-1., 1.}) {
-        const double hip = side * width / 4, shoulder = side * (width / 2 + thick);
+        const double hip = side * std::max(width / 4, thick), shoulder = side * (width / 2 + thick);
         parts.push_back({Form::along_z, {hip - thick, -thick, 0}, {hip + thick, thick, leg}});
         parts.push_back({Form::box, {hip - thick, -.45, 0}, {hip + thick, -thick, .15}});
         parts.push_back(

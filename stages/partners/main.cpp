@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "stages/partners/picture.h"
-#include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/plan.h"

@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
                      "target_vertices.csv");
     const auto& meshes = stage.input_list_option(
         "meshes", "the files of source and target, whose polygons the exported surfaces keep", 2, 2);
-    const std::string& json_file = stage.option("numbers", "JSON file for the quality numbers");
+    const std::string& json_file = stage.output_option("numbers", "JSON file for the quality numbers");
     return stage.main(argc, argv, [&] {
         const auto A = stage.read<Surface>("A.surface", surface_A);
         const auto B = stage.read<Surface>("B.surface", surface_B);

@@ -93,9 +93,14 @@ bool has_name(const TextRows& list) {
     return !first.empty() && is_index_name(first);
 }
 
+/// A line, with the comment that stood behind it.
+std::string with_comment(std::string line, const TextRow& row) {
+    return std::move(line) + (row.comment.empty() ? "" : " " + row.comment) + "\n";
+}
+
 /// The name of a list as a line, if it has one.
 std::string name_line(const TextRows& list) {
-    return has_name(list) ? join(list.rows[0].words, list.separator) + "\n" : "";
+    return has_name(list) ? with_comment(join(list.rows[0].words, list.separator), list.rows[0]) : "";
 }
 
 /// From 0. `first`: the number of the first one in the file.
@@ -105,11 +110,6 @@ int number_of(const TextRow& row, const std::string& path, int first, int count,
         throw InputError(fmt::format("{}:{}: '{}' is not one of the mesh's {} {}, counted from {}", path,
                                      row.line, excerpt(row.words[0]), count, what, first));
     return int(number) - first;
-}
-
-/// A line, with the comment that stood behind it.
-std::string with_comment(std::string line, const TextRow& row) {
-    return std::move(line) + (row.comment.empty() ? "" : " " + row.comment) + "\n";
 }
 
 /// `first`: the number of the first vertex.

@@ -74,6 +74,18 @@ bool needs_quotes(std::string_view word, char separator) {
            (separator == ' ' && (word.empty() || word.find(' ') != word.npos));
 }
 
+/// A comment behind numbers that blanks separate may hold any separator.
+std::string_view without_comment(std::string_view line, Content content) {
+    const std::string_view before = line.substr(0, line.find(" #"));
+    if (content != Content::numbers || before == line) return line;
+    for (std::string_view rest = trimmed(before); !rest.empty(); rest = trimmed(rest)) {
+        const std::size_t end = std::min(rest.find_first_of(blanks), rest.size());
+        if (!is_number(rest.substr(0, end))) return line;
+        rest.remove_prefix(end);
+    }
+    return before;
+}
+
 }  // namespace
 
 TextRows split_rows(std::string_view bytes, const std::string& path, Content content) {
@@ -100,7 +112,7 @@ TextRows split_rows(std::string_view bytes, const std::string& path, Content con
         }
         empty.clear();
         LineSplitter splitter(line, number, path);
-        if (text.rows.empty()) text.separator = separator_of(line);
+        if (text.rows.empty()) text.separator = separator_of(without_comment(line, content));
         if (text.separator == ' ' && blanks_belong) text.separator = ',';
         std::vector<std::string> words = splitter.words(text.separator, content);
         text.rows.push_back({number, std::move(words), std::exchange(text.behind, {}),

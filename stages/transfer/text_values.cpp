@@ -175,7 +175,8 @@ Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::s
         if (row.words.size() != width)
             throw InputError(fmt::format("{}:{}: {} columns, but the first line has {}", path, row.line,
                                          row.words.size(), width));
-        if (layout.numbered) require_number(row, i - first + layout.first_number, text.rows[0].words[0], path);
+        if (layout.numbered)
+            require_number(row, i - first + layout.first_number, text.rows[0].words[0], path);
         for (std::size_t c = skipped; c < width; ++c)
             values(Eigen::Index(i - first), Eigen::Index(c - skipped)) =
                 cell(row, c, layout.kind, layout.words, path);
@@ -193,7 +194,7 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
     const auto& first = text.rows[0].words;
     const bool named = has_names(text, kind, mesh, path);
     const bool numbered = named && first.size() > 1 && is_index_name(first[0]);
-    const std::size_t first_number = numbered && are_numbered_from_1(text.rows) ? 1 : 0;
+    const std::size_t first_number = numbered && has_number(text.rows[1], 1) ? 1 : 0;
     TableLayout layout{"", numbered, first_number, text.separator, kind, {}};
     if (named) layout.names = join(first, text.separator) + "\n";
     const std::string numbers = layout.numbered ? lower_case(first[0]) : "";

@@ -10,7 +10,6 @@
 #include "varimap/core/error.h"
 #include "varimap/geodesics/geodesic_graph.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/mass.h"
 #include "varimap/results/candidates.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_arrays.h"

@@ -27,7 +27,6 @@
 #include "varimap/core/warnings.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/mass.h"
 
 namespace varimap {
 namespace {

@@ -130,7 +130,10 @@ TEST(Generate, AssembliesAreOfPartsThatArePartners) {
         std::set<std::pair<int, int>> partners;
         for (const auto& [v, w] : pairs_of(pair))
             partners.emplace(source[std::size_t(v)], target[std::size_t(w)]);
-        EXPECT_LE(partners.size(), std::size_t(parts[seed])) << "each part has one partner";
+        EXPECT_EQ(partners.size(), std::size_t(parts[seed])) << "each part has one partner";
+        std::set<int> reached;
+        for (const auto& [part, partner] : partners) reached.insert(partner);
+        EXPECT_EQ(reached.size(), partners.size()) << "and no two have the same";
     }
 }
 

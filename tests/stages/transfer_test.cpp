@@ -824,6 +824,9 @@ TEST_F(Transfer, RowsMayBeNumberedFrom1) {
     const std::string carried = carry(request, identity_onto(ball_)).at("heat.csv");
     EXPECT_THAT(carried, testing::StartsWith(",heat\n1,2\n2,2\n"));
     EXPECT_THAT(carried, testing::EndsWith(fmt::format("\n{},2\n", ball_.vertex_count())));
+    rows.replace(rows.find("\"9\""), 3, "\"7\"");
+    request.values = {write("heat.csv", rows)};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("heat.csv:10: number '7' where 9 should"));
 }
 
 TEST_F(Transfer, SaysWhatToWriteInsteadOfWhatIsNoNumber) {
@@ -842,10 +845,11 @@ TEST_F(Transfer, CommentsBehindPointsStay) {
     const Vec3 p = ball_.vertex(7);
     TransferRequest request;
     request.points = {write("p.txt", fmt::format("{} {} {}   # nose\n", p[0], p[1], p[2])),
-                      write("v.txt", "7 # ear\n8\n")};
+                      write("v.txt", "vertex # of tips\n7 # ear\n8\n"), write("w.txt", "7 # ear, left\n8\n")};
     auto carried = carry(request, identity_onto(ball_));
     EXPECT_THAT(carried.at("p.txt"), testing::EndsWith(" # nose\n"));
-    EXPECT_EQ(carried.at("v.txt"), "7 # ear\n8\n");
+    EXPECT_EQ(carried.at("v.txt"), "vertex # of tips\n7 # ear\n8\n");
+    EXPECT_EQ(carried.at("w.txt"), "7 # ear, left\n8\n");
 }
 
 TEST_F(Transfer, NumbersOfRowsMayBeWrittenAsFloats) {

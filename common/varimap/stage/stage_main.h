@@ -77,7 +77,8 @@ class Stage {
     /// looks at flags where there is a stamp.
     const std::string& option(const std::string& name, const std::string& help);
     const bool& flag(const std::string& name, const std::string& help);
-    /// A file that is written besides: none where the value is empty.
+    /// A file that is written besides: none where the value is empty. As that of `output` it is refused
+    /// before the body where it is an input (UsageError) or cannot be written (IoError).
     const std::string& output_option(const std::string& name, const std::string& help);
 
     /// Parses, runs `body`, reports; returns the process's exit code. Never throws.
