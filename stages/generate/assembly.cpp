@@ -114,9 +114,6 @@ Vec3 place_on(const AssemblyPart& part, Vec3 p) {
         for (const int axis : axes) p[axis] *= factor;
     };
     switch (part.form) {
-        case Form::along_x:
-            round_off({1, 2});
-            break;
         case Form::along_y:
             round_off({0, 2});
             break;

@@ -8,9 +8,9 @@
 
 namespace varimap::shapes {
 
-/// A closed surface in a box: its walls, the ellipsoid in it, or the cylinder along an axis.
+/// A closed surface in a box: its walls, the ellipsoid in it, or the cylinder along an axis, y or z.
 struct AssemblyPart {
-    enum class Form : int { along_x, along_y, along_z, box, ball };
+    enum class Form : int { along_y, along_z, box, ball };
     Form form;
     Vec3 low, high;
 };

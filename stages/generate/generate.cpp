@@ -209,12 +209,12 @@ GeneratedPair assembly_pair(unsigned seed, const GenerateParams& params) {
 }
 
 /// Throws UsageError where what only families take is given to another.
-void require_defaults(const GenerateParams& params, const char* why, bool may_vary = false) {
+void require_defaults(const GenerateParams& params, const char* why) {
     const GenerateParams usual;
     const auto require = [&](const char* name, double value, double usual_value) {
         if (value != usual_value) throw UsageError(fmt::format("--{} is for families; {}", name, why));
     };
-    if (!may_vary) require("variation", params.variation, usual.variation);
+    require("variation", params.variation, usual.variation);
     require("build", params.build, usual.build);
     require("bending", params.bending, usual.bending);
     require("asymmetry", params.asymmetry, usual.asymmetry);
@@ -296,7 +296,9 @@ GeneratedPair generate(const std::string& family, unsigned seed, const GenerateP
         return any_pair(seed, params);
     }
     if (family == assembly) {
-        require_defaults(params, "parts of an assembly are stiff", true);
+        GenerateParams others = params;
+        others.variation = GenerateParams().variation;  // which assemblies have, too
+        require_defaults(others, "parts of an assembly are stiff");
         return assembly_pair(seed, params);
     }
     if (auto bodies = shapes::merged_pair(family, params))

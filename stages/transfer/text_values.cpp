@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "stages/transfer/text_rows.h"
 #include "stages/transfer/values.h"
@@ -27,17 +28,14 @@ bool has_number(const TextRow& row, std::size_t number) {
     return to_index(row.words[0], found) && found == static_cast<long long>(number);
 }
 
-/// Whether the rows behind the first begin with their numbers from 1, as tables of R do, and go on.
-bool are_numbered_from_1(const std::vector<TextRow>& rows) {
-    if (rows.size() < 2 || rows[1].words.size() < 2) return false;
+/// Whether the rows behind the first begin with their numbers, and go on: the first of them tells if these
+/// are from 0, all if they are from 1, as R's are.
+bool seem_numbered(const std::vector<TextRow>& rows) {
+    if (rows[1].words.size() < 2) return false;
+    if (has_number(rows[1], 0)) return true;
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (!has_number(rows[i], i)) return false;
     return true;
-}
-
-/// Whether the rows behind the first may be numbered, as the first of them tells if it is from 0.
-bool seem_numbered(const std::vector<TextRow>& rows) {
-    return (rows[1].words.size() > 1 && has_number(rows[1], 0)) || are_numbered_from_1(rows);
 }
 
 /// Words stand for numbers where values are labels.
@@ -144,9 +142,8 @@ void warn_of_decimal_commas(const TextRows& text, const std::string& path) {
 
 /// What a file looks like besides its values.
 struct TableLayout {
-    std::string names;  ///< the first line, if it names columns
-    bool numbered = false;
-    std::size_t first_number = 0;
+    std::string names;                        ///< the first line, if it names columns
+    std::optional<std::size_t> first_number;  ///< if the first column numbers the rows
     char separator = ' ';
     ValueKind kind;
     Dictionary words;
@@ -156,7 +153,7 @@ std::string to_text(const Eigen::MatrixXd& values, const TableLayout& layout) {
     std::string text = layout.names;
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
         std::vector<std::string> words;
-        if (layout.numbered) words.push_back(std::to_string(std::size_t(row) + layout.first_number));
+        if (layout.first_number) words.push_back(std::to_string(std::size_t(row) + *layout.first_number));
         for (const double value : values.row(row))
             words.push_back(layout.kind == ValueKind::label ? layout.words.word_of(value)
                                                             : shortest_text(value));
@@ -168,15 +165,15 @@ std::string to_text(const Eigen::MatrixXd& values, const TableLayout& layout) {
 /// The rows behind `first`, without the column that numbers them.
 Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::string& path,
                            TableLayout& layout) {
-    const std::size_t width = text.rows[0].words.size(), skipped = layout.numbered ? 1 : 0;
+    const std::size_t width = text.rows[0].words.size(), skipped = layout.first_number ? 1 : 0;
     Eigen::MatrixXd values(Eigen::Index(text.rows.size() - first), Eigen::Index(width - skipped));
     for (std::size_t i = first; i < text.rows.size(); ++i) {
         const TextRow& row = text.rows[i];
         if (row.words.size() != width)
             throw InputError(fmt::format("{}:{}: {} columns, but the first line has {}", path, row.line,
                                          row.words.size(), width));
-        if (layout.numbered)
-            require_number(row, i - first + layout.first_number, text.rows[0].words[0], path);
+        if (layout.first_number)
+            require_number(row, i - first + *layout.first_number, text.rows[0].words[0], path);
         for (std::size_t c = skipped; c < width; ++c)
             values(Eigen::Index(i - first), Eigen::Index(c - skipped)) =
                 cell(row, c, layout.kind, layout.words, path);
@@ -193,11 +190,11 @@ ValueFile parse_text_values(std::string_view bytes, const std::string& path, Val
     if (kind == ValueKind::number) warn_of_decimal_commas(text, path);
     const auto& first = text.rows[0].words;
     const bool named = has_names(text, kind, mesh, path);
-    const bool numbered = named && first.size() > 1 && is_index_name(first[0]);
-    const std::size_t first_number = numbered && has_number(text.rows[1], 1) ? 1 : 0;
-    TableLayout layout{"", numbered, first_number, text.separator, kind, {}};
+    TableLayout layout{"", {}, text.separator, kind, {}};
+    if (named && first.size() > 1 && is_index_name(first[0]))
+        layout.first_number = has_number(text.rows[1], 1) ? 1 : 0;
     if (named) layout.names = join(first, text.separator) + "\n";
-    const std::string numbers = layout.numbered ? lower_case(first[0]) : "";
+    const std::string numbers = layout.first_number ? lower_case(first[0]) : "";
     ValueTable table{numbers == "face" ? Place::face : Place::vertex,
                      read_cells(text, named ? 1 : 0, path, layout)};
     table.says_place = numbers == "face" || numbers == "vertex";
