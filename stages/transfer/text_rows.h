@@ -10,7 +10,7 @@ namespace varimap {
 struct TextRow {
     int line = 0;  ///< from 1
     std::vector<std::string> words;
-    std::string before = {};   ///< empty lines and comments between the row before and this one, as they stand
+    std::string before = {};  ///< empty lines and comments between the row before and this one, as they stand
     std::string comment = {};  ///< what stands behind the words, from its # on
 };
 
