@@ -9,6 +9,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/parallel.h"
+#include "varimap/results/choice.h"
 
 namespace varimap {
 namespace {

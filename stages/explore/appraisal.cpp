@@ -22,7 +22,12 @@ double rough_score(const Cues& cues) {
     return candidate.score;
 }
 
-Appraisal::Appraisal(const PairContext& context) : context_(context), agreement_(context) {}
+Appraisal::Appraisal(const PairContext& context)
+    : context_(context),
+      orientation_(context.A().surface, context.B().surface),
+      components_A_(context.A().surface),
+      components_B_(context.B().surface),
+      agreement_(context, orientation_, components_A_, components_B_) {}
 
 Cues Appraisal::cues(const MapPair& maps) const {
     return {agreement_.relief(maps), agreement_.alignment(maps), agreement_.stretch(maps)};

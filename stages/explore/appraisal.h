@@ -27,11 +27,13 @@ void set_cues(Candidate& candidate, const Cues& cues);
 /// The score of an isometry with these cues: of a map that is not finished, strain tells nothing.
 double rough_score(const Cues& cues);
 
-/// Measures maps of a pair.
+/// Measures maps of a pair, and keeps what of its surfaces that needs.
 class Appraisal {
   public:
     /// Keeps a reference to the context.
     explicit Appraisal(const PairContext& context);
+    Appraisal(const Appraisal&) = delete;
+    Appraisal& operator=(const Appraisal&) = delete;
 
     /// Fills in what is known of the map by itself, and its score.
     void measure(const FinishedMap& map, Candidate& candidate) const;
@@ -39,9 +41,16 @@ class Appraisal {
     /// nothing as long as it has folds.
     Cues cues(const MapPair& maps) const;
 
+    const PairOrientation& orientation() const { return orientation_; }
+    const SurfaceComponents& components_A() const { return components_A_; }
+    const SurfaceComponents& components_B() const { return components_B_; }
+    const ShapeAgreement& agreement() const { return agreement_; }
+
   private:
     const PairContext& context_;
-    ShapeAgreement agreement_;
+    const PairOrientation orientation_;
+    const SurfaceComponents components_A_, components_B_;
+    const ShapeAgreement agreement_;  ///< refers to these
 };
 
 /// Fills in what a map is to the best one.

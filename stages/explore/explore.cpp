@@ -15,6 +15,7 @@
 #include "varimap/core/timing.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/multilevel/exchanged_landmarks.h"
+#include "varimap/results/choice.h"
 #include "varimap/results/landmark_words.h"
 
 namespace varimap {

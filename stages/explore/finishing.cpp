@@ -16,7 +16,6 @@
 #include "varimap/multilevel/vertex_images.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
-#include "varimap/spectral/local_shape.h"
 #include "varimap/surface/pulled_back.h"
 #include "varimap/untangling/untangling.h"
 
@@ -240,7 +239,7 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
     }
     log("finished {} of {} maps", finished.size(), starts.size());
     UntanglingOptions untangling = options.untangling;
-    untangling.opposed = are_opposed(context.A().surface, context.B().surface);
+    untangling.opposed = appraisal.orientation().are_opposite();
     parallel_for_each_index(finished.size(), std::size_t(1), [&](std::size_t n) {
         untangle(finished[n].maps, context.A().surface.mesh, context.B().surface.mesh, pinned(context),
                  untangling);

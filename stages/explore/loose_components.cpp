@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "varimap/core/rotation.h"
-#include "varimap/spectral/local_shape.h"
 #include "varimap/surface/pulled_back.h"
 
 namespace varimap {
@@ -13,7 +12,7 @@ namespace varimap {
 // Numbers in this file were chosen by hand.
 
 LooseComponents::LooseComponents(const PairContext& context, const Appraisal& appraisal)
-    : context_(context), appraisal_(appraisal), A_(context.A().surface), B_(context.B().surface) {}
+    : context_(context), appraisal_(appraisal), A_(appraisal.components_A()), B_(appraisal.components_B()) {}
 
 std::optional<int> LooseComponents::counterpart(int component, const MapPair& maps) const {
     if (!A_.can_be_laid(component)) return {};
@@ -129,7 +128,7 @@ int LooseComponents::turn(MapPair& maps, Rest& rest) const {
 int LooseComponents::lay_as_the_rest(MapPair& maps) const {
     const int largest = A_.largest();
     if (A_.count() < 2 || B_.count() < 2 || !counterpart(largest, maps)) return 0;
-    const bool opposed = are_opposed(context_.A().surface, context_.B().surface);
+    const bool opposed = appraisal_.orientation().are_opposite();
     const Points images = positions(B_.mesh(), maps.A_to_B);
     Rest rest{ComponentLaying(A_, B_, opposed), ComponentLaying(B_, A_, opposed), opposed,
               A_.turn(largest, images, opposed), rough_score(appraisal_.cues(maps))};

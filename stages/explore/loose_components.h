@@ -40,7 +40,7 @@ class LooseComponents {
 
     const PairContext& context_;
     const Appraisal& appraisal_;
-    SurfaceComponents A_, B_;
+    const SurfaceComponents &A_, &B_;
 };
 
 }  // namespace varimap

@@ -5,6 +5,7 @@
 #include "stages/explore/explore.h"
 #include "stages/explore/mirror_images.h"
 #include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/results/choice.h"
 #include "varimap/spectral/spectral_check.h"
 #include "varimap/stage/stage_main.h"
 

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/explore/surface_components.h"
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/relaxation/relief_agreement.h"
-#include "varimap/spectral/local_shape.h"
 #include "varimap/surface/pulled_back.h"
 
 namespace varimap {
@@ -43,17 +41,18 @@ double stretch_between(double here, double there) {
 
 }  // namespace
 
-ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward)
+ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward,
+                           const SurfaceComponents& components)
     : mesh(data.surface.mesh),
       mass(data.surface.mass),
       normals(outward_normals(mesh, inward)),
       samples(spread_vertices(data.hierarchy, sample_count)),
+      components(components),
       patches(mesh.vertices, normals, mass) {
     const double outward = inward ? -1 : 1;
     for (const Eigen::VectorXd& heights : reliefs(mesh, relief_scales)) relief.push_back(outward * heights);
     const RowMatrix to_all = distances_from_each(graph, samples);
     distance = to_all.transpose();
-    component = component_of_each_vertex(data.surface);
     sample_mass = Eigen::VectorXd::Zero(Eigen::Index(samples.size()));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         Eigen::Index nearest = 0;
@@ -63,10 +62,11 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, 
     for (const double radius : patch_radii) patches.add_patches(to_all, radius, sample_mass);
 }
 
-ShapeAgreement::ShapeAgreement(const PairContext& context)
-    : A_(context.A(), context.graph_A(), looks_inward(context.A().surface, context.B().surface)),
-      B_(context.B(), context.graph_B(), looks_inward(context.B().surface, context.A().surface)),
-      opposed_(are_opposed(context.A().surface, context.B().surface)),
+ShapeAgreement::ShapeAgreement(const PairContext& context, const PairOrientation& orientation,
+                               const SurfaceComponents& components_A, const SurfaceComponents& components_B)
+    : A_(context.A(), context.graph_A(), orientation.A_inward, components_A),
+      B_(context.B(), context.graph_B(), orientation.B_inward, components_B),
+      opposed_(orientation.are_opposite()),
       sheets_(is_sheet(A_.mesh) && is_sheet(B_.mesh)) {}
 
 double ShapeAgreement::relief(const MapPair& maps) const {
@@ -78,9 +78,8 @@ double ShapeAgreement::alignment(const MapPair& maps) const {
 }
 
 bool ShapeAgreement::Side::are_on_different_components(int vertex, const SurfacePoint& point) const {
-    const int one = component[std::size_t(vertex)],
-              other = component[std::size_t(nearest_vertex(mesh, point))];
-    return one >= 0 && other >= 0 && one != other;
+    const std::optional<int> one = components.of(vertex), other = components.of(nearest_vertex(mesh, point));
+    return one && other && *one != *other;
 }
 
 double ShapeAgreement::Side::straight_distance(int vertex, const SurfacePoint& point) const {

@@ -2,18 +2,21 @@
 
 #include <vector>
 
+#include "stages/explore/surface_components.h"
 #include "varimap/multilevel/pair_context.h"
 #include "varimap/quality/patch_alignment.h"
 #include "varimap/results/map_pair.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
 /// How well maps between two surfaces of unit area bring like places together, by cues that do not go into
 /// the maps' energies. Each is a mean over the surfaces, of both directions; the surfaces may be of opposite
-/// handedness. Keeps a reference to the context.
+/// handedness. Keeps references.
 class ShapeAgreement {
   public:
-    explicit ShapeAgreement(const PairContext& context);
+    ShapeAgreement(const PairContext& context, const PairOrientation& orientation,
+                   const SurfaceComponents& components_A, const SurfaceComponents& components_B);
 
     /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales. 0.75 at a scale at which
     /// either surface has none. Of two sheets agreement_of_bent_sheets at least: less tells nothing.
@@ -36,10 +39,11 @@ class ShapeAgreement {
         std::vector<int> samples;             ///< vertices, spread over the surface
         Eigen::VectorXd sample_mass;          ///< of their cells
         RowMatrix distance;                   ///< vertices x samples
-        std::vector<int> component;           ///< of vertices (surface_components.h)
+        const SurfaceComponents& components;
         PatchAlignment patches;
 
-        Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward);
+        Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward,
+             const SurfaceComponents& components);
         bool are_on_different_components(int vertex, const SurfacePoint& point) const;
         double straight_distance(int vertex, const SurfacePoint& point) const;
     };

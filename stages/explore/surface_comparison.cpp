@@ -5,6 +5,7 @@
 #include "stages/explore/candidate_maps.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
+#include "varimap/results/choice.h"
 
 namespace varimap {
 

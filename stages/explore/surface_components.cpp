@@ -12,6 +12,9 @@ namespace varimap {
 
 // Numbers in this file were chosen by hand.
 
+namespace {
+
+/// Per vertex of the mesh, all 0 where nothing was joined; -1 on a bridge.
 std::vector<int> component_of_each_vertex(const Surface& surface) {
     std::vector<int> of(std::size_t(surface.mesh.vertex_count()), 0);
     const std::vector<int>& file_face = surface.link.face;
@@ -24,6 +27,8 @@ std::vector<int> component_of_each_vertex(const Surface& surface) {
     }
     return of;
 }
+
+}  // namespace
 
 SurfaceComponents::SurfaceComponents(const Surface& surface)
     : surface_(surface), of_(component_of_each_vertex(surface)) {
@@ -50,6 +55,11 @@ bool SurfaceComponents::can_be_laid(int component) const {
 
 int SurfaceComponents::largest() const {
     return int(std::max_element(areas_.begin(), areas_.end()) - areas_.begin());
+}
+
+std::optional<int> SurfaceComponents::of(int vertex) const {
+    const int component = of_[std::size_t(vertex)];
+    return component < 0 ? std::nullopt : std::optional(component);
 }
 
 std::vector<int> SurfaceComponents::faces(int component) const {

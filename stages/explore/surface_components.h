@@ -7,9 +7,6 @@
 
 namespace varimap {
 
-/// Per vertex of the mesh: the component that it lies on, all 0 where nothing was joined; -1 on a bridge.
-std::vector<int> component_of_each_vertex(const Surface& surface);
-
 /// The components of what was mapped, which hang together by thin bridges (bridges.h). One holds all where
 /// nothing was joined, and of a part that was cut out, whose pieces lie as they did. Keeps a reference to the
 /// surface.
@@ -21,6 +18,8 @@ class SurfaceComponents {
     /// Whether there are two or more that matter: of a twentieth of the area.
     bool are_several() const;
     int largest() const;
+    /// The component that a vertex lies on; none on a bridge.
+    std::optional<int> of(int vertex) const;
     double area(int component) const { return areas_[std::size_t(component)]; }
     const TriangleMesh& mesh() const { return surface_.mesh; }
     const std::vector<int>& vertices(int component) const { return vertices_[std::size_t(component)]; }

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "stages/explore/loose_components.h"
 #include "stages/explore/principal_axes.h"
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
@@ -40,9 +39,10 @@ double distance_from_itself(const Surface& surface, const ClosestPoint& closest,
 }
 
 /// Turns about the principal axes that lay a surface nearly on itself.
-std::vector<Turn> turns_onto_itself(const Surface& surface, const ClosestPoint& closest) {
+std::vector<Turn> turns_onto_itself(const SurfaceComponents& components, const Surface& surface,
+                                    const ClosestPoint& closest) {
     // Of people and animals the least are .019 to .04. A lamp whose foot tells how it stands has .016 to .03.
-    const double near = SurfaceComponents(surface).are_several() ? 0.03 : 0.015;
+    const double near = components.are_several() ? 0.03 : 0.015;
     constexpr int angles = 24;
     std::vector<Turn> turns;
     const PrincipalAxes principal = principal_axes(surface);
@@ -58,9 +58,11 @@ std::vector<Turn> turns_onto_itself(const Surface& surface, const ClosestPoint& 
 /// A map and its inverse, composed with turns of its surfaces.
 class TurnedMaps {
   public:
-    TurnedMaps(const MapPair& maps, const PairContext& context)
+    TurnedMaps(const MapPair& maps, const PairContext& context, const Appraisal& appraisal)
         : A_(context.A().surface),
           B_(context.B().surface),
+          components_A_(appraisal.components_A()),
+          components_B_(appraisal.components_B()),
           A_on_B_(positions(B_.mesh, maps.A_to_B)),
           B_on_A_(positions(A_.mesh, maps.B_to_A)),
           on_A_(A_.mesh),
@@ -68,8 +70,10 @@ class TurnedMaps {
 
     std::vector<MapPair> all() const {
         std::vector<MapPair> result;
-        for (const Turn& turn : turns_onto_itself(A_, on_A_)) result.push_back(after_turn_of_A(turn));
-        for (const Turn& turn : turns_onto_itself(B_, on_B_)) result.push_back(before_turn_of_B(turn));
+        for (const Turn& turn : turns_onto_itself(components_A_, A_, on_A_))
+            result.push_back(after_turn_of_A(turn));
+        for (const Turn& turn : turns_onto_itself(components_B_, B_, on_B_))
+            result.push_back(before_turn_of_B(turn));
         return result;
     }
 
@@ -99,6 +103,7 @@ class TurnedMaps {
     }
 
     const Surface &A_, &B_;
+    const SurfaceComponents &components_A_, &components_B_;
     Points A_on_B_, B_on_A_;  ///< images of the vertices
     ClosestPoint on_A_, on_B_;
 };
@@ -131,7 +136,8 @@ std::vector<PooledMap> turned_by_halves(const Appraised& map, const PairContext&
     constexpr std::size_t most = 2;
     const Timer timer("turns by halves");
     std::vector<PooledMap> pool;
-    for (const auto& [score, maps] : scored(TurnedMaps(map.map.maps, context).by_halves(), appraisal)) {
+    for (const auto& [score, maps] :
+         scored(TurnedMaps(map.map.maps, context, appraisal).by_halves(), appraisal)) {
         if (pool.size() == most) break;
         log("turned by a half: score {:.2f}", score);
         pool.push_back({vertex_images(maps, context), map.candidate});
@@ -145,7 +151,7 @@ std::vector<PooledMap> turned_about_axes(const Appraised& map, const PairContext
     constexpr double another = 0.04;  // mean distance of images, units of sqrt(area)
     constexpr int most = 3;
     const Timer timer("turns about axes");
-    const auto turned = scored(TurnedMaps(map.map.maps, context).all(), appraisal);
+    const auto turned = scored(TurnedMaps(map.map.maps, context, appraisal).all(), appraisal);
     if (turned.empty()) return {};
     const double as_it_was = rough_score(appraisal.cues(map.map.maps));
     std::vector<const MapPair*> kept{&map.map.maps};

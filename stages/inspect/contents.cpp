@@ -6,6 +6,7 @@
 
 #include "varimap/core/error.h"
 #include "varimap/results/candidates.h"
+#include "varimap/results/choice.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/plan.h"
 #include "varimap/results/quality_numbers.h"

@@ -96,7 +96,7 @@ MeasuredDirection measure_direction(const PointMap& map, const Surface& from, co
             twist};
 }
 
-InTheEnd of_both(const MeasuredDirection& there, const MeasuredDirection& back) {
+FinishedQuality of_both(const MeasuredDirection& there, const MeasuredDirection& back) {
     return {std::sqrt(there.distortion.dirichlet_energy * back.distortion.dirichlet_energy),
             std::min(there.reached().share, back.reached().share),
             std::max(there.twist.degrees, back.twist.degrees)};
@@ -132,7 +132,7 @@ LandmarkQuality measure_landmarks(const PointMap& A_to_B, const PointMap& B_to_A
     return found;
 }
 
-ChoiceQuality measure_choice(const PairRecord& record, const InTheEnd& in_the_end) {
+ChoiceQuality measure_choice(const PairRecord& record, const FinishedQuality& in_the_end) {
     // The finished map says nothing of the first candidate where another was continued.
     const auto of_first = record.candidate == 1 ? std::optional(in_the_end) : std::nullopt;
     return {confidence_of(record.candidates), confidence_of(record.candidates, of_first),

@@ -8,7 +8,7 @@
 #include "varimap/quality/components.h"
 #include "varimap/quality/quality.h"
 #include "varimap/quality/twist.h"
-#include "varimap/results/candidate.h"
+#include "varimap/results/choice.h"
 #include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/surface/surface.h"
@@ -55,7 +55,7 @@ struct ChoiceQuality {
 /// How good a map between two surfaces is.
 struct MapQuality {
     MeasuredDirection A_to_B, B_to_A;
-    InTheEnd in_the_end;                  ///< of both directions together
+    FinishedQuality in_the_end;           ///< of both directions together
     RoundTrip round_trip;                 ///< A to B to A
     ComponentImages components;           ///< their vertices by the numbers in the files
     LandmarkQuality landmarks;            ///< empty without landmarks

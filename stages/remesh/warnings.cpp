@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "varimap/core/log.h"
+#include "varimap/results/choice.h"
 #include "varimap/results/landmark_words.h"
 
 namespace varimap {

@@ -27,6 +27,7 @@
 #include "varimap/core/warnings.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
+#include "varimap/results/choice.h"
 
 namespace varimap {
 namespace {
@@ -838,7 +839,8 @@ PointMap nearest_points(const TriangleMesh& mesh, const Eigen::Matrix3d& moved) 
 TEST(ShapeAgreement, SeesWhichPlacesAreAlike) {
     const SurfaceData data = bar();
     const PairContext context(data, data, {});
-    const ShapeAgreement agreement(context);
+    const Appraisal appraisal(context);
+    const ShapeAgreement& agreement = appraisal.agreement();
     const auto turned = [&](double degrees) -> MapPair {
         const Eigen::Matrix3d turn =
             Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitX()).toRotationMatrix();
@@ -855,7 +857,8 @@ TEST(ShapeAgreement, SeesWhichPlacesAreAlike) {
 TEST(ShapeAgreement, KnowsSurfacesOfOppositeHandedness) {
     const PairContext context(bar(), bar(Eigen::DiagonalMatrix<double, 3>(-1, 1, 1)), {});
     const PointMap same = points_at_vertices(context.A().surface.mesh);
-    const ShapeAgreement agreement(context);
+    const Appraisal appraisal(context);
+    const ShapeAgreement& agreement = appraisal.agreement();
     EXPECT_NEAR(agreement.alignment({same, same}), 1, 1e-9);
     EXPECT_NEAR(agreement.relief({same, same}), 1, 1e-9);
 }
@@ -866,7 +869,8 @@ TEST(ShapeAgreement, LearnsNothingFromReliefWhereThereIsNone) {
     const PointMap same = points_at_vertices(flat.surface.mesh);
     PointMap other = same;
     std::reverse(other.begin(), other.end());
-    const ShapeAgreement agreement(context);
+    const Appraisal appraisal(context);
+    const ShapeAgreement& agreement = appraisal.agreement();
     EXPECT_EQ(agreement.relief({same, same}), agreement.relief({other, other}));
     EXPECT_GT(plausibility({.relief = agreement.relief({same, same})}), .95);
 }
@@ -876,37 +880,39 @@ TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {
     const double found = confidence_of(candidates).probability;
     double last = found;
     for (const double dirichlet : {1.05, 1.15, 1.25, 1.35, 2.}) {
-        const double probability = confidence_of(candidates, InTheEnd{dirichlet, 1}).probability;
+        const double probability = confidence_of(candidates, FinishedQuality{dirichlet, 1}).probability;
         EXPECT_LT(probability, last);
         last = probability;
     }
-    EXPECT_TRUE(confidence_of(candidates, InTheEnd{1.15, 1}).confident);
-    EXPECT_EQ(doubt(candidates, InTheEnd{1.15, .94}), "");
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1.35, 1}).confident);
-    EXPECT_THAT(doubt(candidates, InTheEnd{1.35, 1}), testing::HasSubstr("a Dirichlet energy of 1.35"));
-    EXPECT_NEAR(confidence_of(candidates, InTheEnd{.99, 1}).probability, found, 1e-3);
-    const InTheEnd of_a_skull{.dirichlet = 2.5, .many_handles = true};
+    EXPECT_TRUE(confidence_of(candidates, FinishedQuality{1.15, 1}).confident);
+    EXPECT_EQ(doubt(candidates, FinishedQuality{1.15, .94}), "");
+    EXPECT_FALSE(confidence_of(candidates, FinishedQuality{1.35, 1}).confident);
+    EXPECT_THAT(doubt(candidates, FinishedQuality{1.35, 1}),
+                testing::HasSubstr("a Dirichlet energy of 1.35"));
+    EXPECT_NEAR(confidence_of(candidates, FinishedQuality{.99, 1}).probability, found, 1e-3);
+    const FinishedQuality of_a_skull{.dirichlet = 2.5, .many_handles = true};
     EXPECT_NEAR(confidence_of(candidates, of_a_skull).probability, found, 1e-3);
     EXPECT_EQ(doubt(candidates, of_a_skull), "");
 }
 
 TEST(Confidence, FallsWithATwistOfTheFinishedMap) {
     const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
-    EXPECT_TRUE(confidence_of(candidates, InTheEnd{.twist = 87}).confident);
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{.twist = 309}).confident);
-    EXPECT_EQ(doubt(candidates, InTheEnd{.twist = 309}), "finished, it twists a part by 309 degrees");
+    EXPECT_TRUE(confidence_of(candidates, FinishedQuality{.twist = 87}).confident);
+    EXPECT_FALSE(confidence_of(candidates, FinishedQuality{.twist = 309}).confident);
+    EXPECT_EQ(doubt(candidates, FinishedQuality{.twist = 309}), "finished, it twists a part by 309 degrees");
 }
 
 TEST(Confidence, FallsWithWhatTheFinishedMapLeavesOut) {
     const std::vector<Candidate> candidates{{.dirichlet = 1, .relief = .9, .score = -30}};
-    const Confidence whole = confidence_of(candidates, InTheEnd{1, 1});
-    const InTheEnd inside_out{.inside_out = true};
+    const Confidence whole = confidence_of(candidates, FinishedQuality{1, 1});
+    const FinishedQuality inside_out{.inside_out = true};
     EXPECT_NEAR(confidence_of(candidates, inside_out).probability, whole.probability / 2, 1e-9);
     EXPECT_THAT(doubt(candidates, inside_out), testing::HasSubstr("inside out"));
-    EXPECT_NEAR(confidence_of(candidates, InTheEnd{1, .96}).probability, whole.probability, .01);
-    EXPECT_FALSE(confidence_of(candidates, InTheEnd{1, .89}).confident);
-    EXPECT_LT(confidence_of(candidates, InTheEnd{1, .81}).probability, .1);
-    EXPECT_THAT(doubt(candidates, InTheEnd{1, .81}), testing::HasSubstr("leaves out 19% of a surface"));
+    EXPECT_NEAR(confidence_of(candidates, FinishedQuality{1, .96}).probability, whole.probability, .01);
+    EXPECT_FALSE(confidence_of(candidates, FinishedQuality{1, .89}).confident);
+    EXPECT_LT(confidence_of(candidates, FinishedQuality{1, .81}).probability, .1);
+    EXPECT_THAT(doubt(candidates, FinishedQuality{1, .81}),
+                testing::HasSubstr("leaves out 19% of a surface"));
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ bool is_sheet(const TriangleMesh& mesh) {
     return std::accumulate(lengths.begin(), lengths.end(), 0.0) >= least * std::sqrt(surface_area(mesh));
 }
 
-int side_of_faces(const TriangleMesh& mesh) {
+int orientation_sign(const TriangleMesh& mesh) {
     if (is_closed(mesh)) return signed_volume(mesh) < 0 ? -1 : 1;
     // Of a ball's of the same area: people have .3, chairs .05.
     constexpr double least = 0.03;

@@ -44,6 +44,6 @@ bool is_sheet(const TriangleMesh& mesh);
 
 /// Which way the faces of a surface look: 1 outward, -1 inward; 0 where it has no inside, because it is a
 /// sheet, or open and encloses next to nothing (signed_volume_when_closed).
-int side_of_faces(const TriangleMesh& mesh);
+int orientation_sign(const TriangleMesh& mesh);
 
 }  // namespace varimap

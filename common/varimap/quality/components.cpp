@@ -57,7 +57,7 @@ std::vector<ComponentImage> images(const TriangleMesh& mesh, const ComponentFace
             one.on_that = std::min(1.0, *most / one.area);
         }
         for (const std::vector<double>& shares : back) one.taken += shares[c] / one.area;
-        one.side = side_of_faces({mesh.vertices, mesh.faces(components.faces[c], Eigen::all)});
+        one.side = orientation_sign({mesh.vertices, mesh.faces(components.faces[c], Eigen::all)});
     }
     return found;
 }

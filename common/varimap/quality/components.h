@@ -15,7 +15,7 @@ struct ComponentImage {
     int onto = -1;       ///< the other's component that more of it lies on than on any other; -1: on none
     double on_that = 0;  ///< the share of its area that does
     double taken = 0;    ///< area of the other surface, as a share of that, which lies on it, by its own
-    int side = 0;        ///< side_of_faces (boundary.h)
+    int side = 0;        ///< orientation_sign (boundary.h)
 
     /// Whether some of the other surface, half as large as it is, has its place there. A component may lie on
     /// another without: on what has a partner already.

@@ -8,7 +8,7 @@ namespace varimap {
 
 namespace {
 
-// Chosen by hand on people and animals, with doubtful_twist (results/candidate.h).
+// Chosen by hand on people and animals, with doubtful_twist (results/choice.h).
 constexpr double least_area = 0.15, least_explained = 0.25;
 
 Twist twist_of(const Tube& tube, const Rings& rings) {

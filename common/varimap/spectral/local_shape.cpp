@@ -54,17 +54,24 @@ double depth(const RayMesh& rays, const TriangleMesh& mesh, const Vec3& origin, 
     return sum / 4;
 }
 
-}  // namespace
-
-bool looks_inward(const Domain& surface) {
-    const int side = side_of_faces(surface.mesh);
-    return side == 0 ? surface.mirrored : side < 0;
+bool is_inward(int sign, const Domain& surface) {
+    return sign == 0 ? surface.mirrored : sign < 0;
 }
 
-bool looks_inward(const Domain& surface, const Domain& other) {
-    const bool as_other = surface.mirrored == other.mirrored && side_of_faces(surface.mesh) == 0 &&
-                          side_of_faces(other.mesh) != 0;
-    return looks_inward(as_other ? other : surface);
+}  // namespace
+
+PairOrientation::PairOrientation(const Domain& A, const Domain& B) {
+    int sign_A = orientation_sign(A.mesh), sign_B = orientation_sign(B.mesh);
+    if (A.mirrored == B.mirrored) {
+        if (sign_A == 0) sign_A = sign_B;
+        if (sign_B == 0) sign_B = sign_A;
+    }
+    A_inward = is_inward(sign_A, A);
+    B_inward = is_inward(sign_B, B);
+}
+
+bool is_inward(const Domain& surface) {
+    return is_inward(orientation_sign(surface.mesh), surface);
 }
 
 Points outward_normals(const TriangleMesh& mesh, bool inward) {
@@ -98,7 +105,7 @@ LocalShape local_shape(const Domain& surface, const Basis& basis) {
         return {RowMatrix::Zero(surface.mass.size(), 3), Eigen::VectorXd::Zero(surface.mass.size())};
     const double t0 = coarsest_time(basis);
     const Eigen::VectorXd& mass = surface.mass;
-    const Points normals = outward_normals(surface.mesh, looks_inward(surface));
+    const Points normals = outward_normals(surface.mesh, is_inward(surface));
     LocalShape shape{RowMatrix(mass.size(), 3), bending(surface, normals, basis, tenth)};
     shape.descriptors.col(0) = standardised(compressed(bending(surface, normals, basis, t0 / 8)), mass);
     shape.descriptors.col(1) = standardised(compressed(bending(surface, normals, basis, t0 / 32)), mass);

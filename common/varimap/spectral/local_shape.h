@@ -8,17 +8,18 @@
 
 namespace varimap {
 
-/// Whether faces look inward (side_of_faces, boundary.h); of a surface without an inside, whether it is
-/// mirrored.
-bool looks_inward(const Domain& surface);
-/// The same of one of two surfaces that are mapped onto each other. The faces of one without an inside do not
-/// tell: they are taken to look as those of the other do, if that has one and is not the mirrored one of the
-/// two.
-bool looks_inward(const Domain& surface, const Domain& other);
-/// Whether the faces of one of two surfaces look inward, those of the other outward.
-inline bool are_opposed(const Domain& A, const Domain& B) {
-    return looks_inward(A, B) != looks_inward(B, A);
-}
+/// Whether the faces of two surfaces that are mapped onto each other look inward (orientation_sign,
+/// boundary.h). Those of one without an inside do not tell: they are taken to look as those of the other do,
+/// if that has one and is not the mirrored one of the two; else, as is_inward says.
+struct PairOrientation {
+    bool A_inward = false, B_inward = false;
+
+    PairOrientation(const Domain& A, const Domain& B);
+    /// Whether a map that goes with the faces mirrors the shape.
+    bool are_opposite() const { return A_inward != B_inward; }
+};
+/// Whether faces look inward; of a surface without an inside, whether it is mirrored.
+bool is_inward(const Domain& surface);
 /// Unit normals at vertices (vertex_normals), turned where faces look inward.
 Points outward_normals(const TriangleMesh& mesh, bool inward);
 

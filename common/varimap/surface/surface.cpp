@@ -85,7 +85,7 @@ bool is_cut_out(const Surface& surface) {
 
 bool one_is_inside_out(const Surface& A, const Surface& B) {
     if (!A.is_surface() || !B.is_surface() || A.mirrored || B.mirrored) return false;
-    return side_of_faces(A.mesh) * side_of_faces(B.mesh) < 0;
+    return orientation_sign(A.mesh) * orientation_sign(B.mesh) < 0;
 }
 
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {

@@ -55,7 +55,7 @@ const TriangleMesh& file_of(const Surface& surface);
 bool is_cut_out(const Surface& surface);
 
 /// Whether of two surfaces one is inside out, its faces looking inward, and neither was mirrored: all maps
-/// that keep the orientation are then those of a mirror image. Not where one has no inside (side_of_faces,
+/// that keep the orientation are then those of a mirror image. Not where one has no inside (orientation_sign,
 /// boundary.h).
 bool one_is_inside_out(const Surface& A, const Surface& B);
 

@@ -10,7 +10,7 @@
 #include "varimap/core/log.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/quality/quality.h"
-#include "varimap/results/candidate.h"
+#include "varimap/results/choice.h"
 #include "varimap/sliding/inverse_map.h"
 
 namespace varimap {

@@ -19,7 +19,7 @@ SurfaceData figure() {
 }
 
 Points outward_normals(const Surface& surface) {
-    return varimap::outward_normals(surface.mesh, looks_inward(surface));
+    return varimap::outward_normals(surface.mesh, is_inward(surface));
 }
 
 Eigen::VectorXd bending(const SurfaceData& data) {
@@ -41,7 +41,11 @@ Surface inside_out(const TriangleMesh& mesh) {
     return surface;
 }
 
-TEST(LooksInward, IsAskedOfBothSurfacesOfAPair) {
+bool are_opposed(const Surface& A, const Surface& B) {
+    return PairOrientation(A, B).are_opposite();
+}
+
+TEST(PairOrientation, IsAskedOfBothSurfaces) {
     const Surface closed = shapes::unit_surface(shapes::tube(12, 8, true)),
                   open = shapes::unit_surface(shapes::tube(12, 8, false));
     const Surface closed_inside = inside_out(closed.mesh), open_inside = inside_out(open.mesh);
@@ -51,7 +55,7 @@ TEST(LooksInward, IsAskedOfBothSurfacesOfAPair) {
     EXPECT_FALSE(are_opposed(closed, open));
     EXPECT_FALSE(are_opposed(closed_inside, open_inside)) << "of the same scanner";
     EXPECT_FALSE(are_opposed(open_inside, closed_inside));
-    EXPECT_TRUE(looks_inward(open_inside, closed_inside));
+    EXPECT_TRUE(PairOrientation(open_inside, closed_inside).A_inward);
     const Surface closed_image = with_reversed_orientation(closed),
                   open_image = with_reversed_orientation(open);
     for (const Surface& other : {closed, open}) {
@@ -59,7 +63,7 @@ TEST(LooksInward, IsAskedOfBothSurfacesOfAPair) {
         EXPECT_TRUE(are_opposed(other, open_image));
     }
     EXPECT_FALSE(are_opposed(with_reversed_orientation(closed_inside), open)) << "set right by --mirror";
-    ASSERT_NE(side_of_faces(open.mesh), 0);
+    ASSERT_NE(orientation_sign(open.mesh), 0);
     EXPECT_TRUE(are_opposed(open, open_inside));
     EXPECT_FALSE(are_opposed(with_reversed_orientation(open), open_inside)) << "the same";
 }
