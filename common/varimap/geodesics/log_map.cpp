@@ -58,8 +58,7 @@ TriangleStrip reversed(TriangleStrip strip) {
 
 }  // namespace
 
-LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3& to,
-                                      double length) const {
+Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3& to, double length) const {
     // The path leaves the star through the face from which on its edges are others.
     std::ptrdiff_t skipped = 0;
     while (skipped < std::ptrdiff_t(strip.edges.size()) &&
@@ -86,7 +85,7 @@ LogMap::Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, co
     return {length * std::cos(at), length * std::sin(at)};
 }
 
-LogMap::Vec2 LogMap::in_plane_of(int face, const Vec3& away) const {
+Vec2 LogMap::in_plane_of(int face, const Vec3& away) const {
     const Vec3 p = mesh_.vertex(mesh_.faces(face, 0));
     const Vec3 edge = mesh_.vertex(mesh_.faces(face, 1)) - p;
     const Vec3 normal = edge.cross(mesh_.vertex(mesh_.faces(face, 2)) - p);
@@ -101,8 +100,7 @@ Vec3 LogMap::in_space(int face, const Vec2& seen) const {
     return seen[0] * edge + seen[1] * normal.cross(edge);
 }
 
-std::pair<LogMap::Vec2, LogMap::Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b,
-                                                         int farthest) const {
+std::pair<Vec2, Vec2> LogMap::operator()(const SurfacePoint& a, const SurfacePoint& b, int farthest) const {
     TriangleStrip strip = straight_strip(mesh_, *edges_, a, b);
     if (strip.faces.empty()) strip = find_strip(mesh_, *edges_, a.face, b.face, farthest, detour);
     if (strip.faces.empty()) return {Vec2::Zero(), Vec2::Zero()};

@@ -13,7 +13,6 @@ namespace varimap {
 /// are). Keeps a reference to the mesh. Thread-safe.
 class LogMap {
   public:
-    using Vec2 = Eigen::Vector2d;
     /// Faces that the search for a path looks at, unless told otherwise.
     static constexpr int usual_farthest = 20'000;
     explicit LogMap(const TriangleMesh& mesh) : LogMap(mesh, find_shared_edges(mesh)) {}

@@ -15,8 +15,6 @@ namespace varimap {
 
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-
 /// A strip in the plane.
 struct Unfolded {
     Vec2 start, goal;

@@ -13,8 +13,6 @@ namespace varimap {
 
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
     return cross(b - a, c - a) * cross(b - a, d - a) <= 0 && cross(d - c, a - c) * cross(d - c, b - c) <= 0;
 }

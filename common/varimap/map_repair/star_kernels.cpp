@@ -12,8 +12,6 @@ namespace varimap {
 
 namespace {
 
-using Vec2 = LogMap::Vec2;
-
 constexpr int most_rounds = 5;
 /// With one, 11 of 18 maps (odd rows of a list) end without a reversed face, with six 12 or 13.
 constexpr int most_turns = 6;

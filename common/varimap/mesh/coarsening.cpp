@@ -16,8 +16,6 @@ namespace {
 
 using OpenMesh::SmartHalfedgeHandle;
 using OpenMesh::VertexHandle;
-using Vec2 = Eigen::Vector2d;
-
 /// Share of the squared way times the area in a collapse's cost. Without it, flat places keep hardly a
 /// vertex.
 constexpr double evenness = 0.05;

@@ -13,7 +13,6 @@ namespace varimap {
 
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 using Polygon = std::vector<Vec2>;
 
 constexpr double outside = 1e-9;  ///< of the polygon, whose size is about 1

@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "varimap/core/linear_algebra.h"
+
 namespace varimap {
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< one point per row
 using Faces = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;      ///< one triangle per row
-using Vec3 = Eigen::Vector3d;
 
 /// The axes that medical programs mean by x, y and z: towards the patient's Left, Posterior, Superior, or
 /// Right, Anterior, Superior. The one is the other with x and y negated.

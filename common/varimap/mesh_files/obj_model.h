@@ -10,8 +10,6 @@
 
 namespace varimap {
 
-using Vec2 = Eigen::Vector2d;
-
 /// What an OBJ file says of its faces beyond the mesh that read_mesh makes of it.
 struct ObjModel {
     std::vector<Vec2> uv;       ///< texture coordinates; v runs upwards

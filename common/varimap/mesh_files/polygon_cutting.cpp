@@ -10,7 +10,6 @@
 namespace varimap {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
 using CornerTriangle = std::array<std::size_t, 3>;
 
 /// Finding ears takes the square of the corners, at worst the cube.

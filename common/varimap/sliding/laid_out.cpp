@@ -9,7 +9,6 @@
 namespace varimap {
 
 Lie laid_out(const std::array<SeenSide, 3>& sides) {
-    using Vec2 = LogMap::Vec2;
     Lie lie;
     double sum = 0, size = 0, longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {

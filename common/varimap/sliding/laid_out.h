@@ -18,7 +18,7 @@ struct Lie {
 };
 
 /// The other end of a side as seen from the one along the surface, and the one from the other (log_map.h).
-using SeenSide = std::pair<LogMap::Vec2, LogMap::Vec2>;
+using SeenSide = std::pair<Vec2, Vec2>;
 
 /// A triangle of surface points as it lies along the surface, whatever a straight triangle between them would
 /// cut through: its sides, from each corner to the next, are shortest paths.

@@ -64,7 +64,6 @@ class Judge {
     Verification result() const;
 
   private:
-    using Vec2 = LogMap::Vec2;
     std::vector<std::pair<Vec2, Vec2>> look_around() const;
     Vec2 seen(int f, int from, int to) const;
     double turn(int f, int k) const;
@@ -94,7 +93,7 @@ bool Judge::has_images(int f) const {
     return true;
 }
 
-std::vector<std::pair<LogMap::Vec2, LogMap::Vec2>> Judge::look_around() const {
+std::vector<std::pair<Vec2, Vec2>> Judge::look_around() const {
     const LogMap log_map(target_);
     std::vector<std::pair<Vec2, Vec2>> seen(edges_.vertices.size(), {Vec2::Zero(), Vec2::Zero()});
     parallel_for_each_index(edges_.size(), 64, [&](int e) {
@@ -106,13 +105,13 @@ std::vector<std::pair<LogMap::Vec2, LogMap::Vec2>> Judge::look_around() const {
 }
 
 /// The image of a face's corner as seen from that of another.
-LogMap::Vec2 Judge::seen(int f, int from, int to) const {
+Vec2 Judge::seen(int f, int from, int to) const {
     const int side = 3 * f + ((from + 1) % 3 == to ? from : to);
     const auto& [of_higher, of_lower] = seen_[std::size_t(edges_.of_side[std::size_t(side)])];
     return source_.faces(f, from) < source_.faces(f, to) ? of_higher : of_lower;
 }
 
-double cross(const LogMap::Vec2& a, const LogMap::Vec2& b) {
+double cross(const Vec2& a, const Vec2& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
