@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct DomainFile {
     std::vector<DomainEdge> edges;  ///< with their lengths, or with weights in the place of lengths
     bool measured = false;          ///< these are lengths
 };
+
+constexpr int least_points = 4;
+
+inline DomainEdge edge_between(int a, int b, double length = 0) {
+    return {std::min(a, b), std::max(a, b), length, 0};
+}
 
 /// Reads points (rows of two or three coordinates, parted by blanks or commas), a polyline (the same, in
 /// order; closed where the last is the first; or the v and l lines of an OBJ), or a graph (rows of two point
