@@ -24,10 +24,10 @@ double rough_score(const Cues& cues) {
 
 Appraisal::Appraisal(const PairContext& context)
     : context_(context),
-      orientation_(context.A().surface, context.B().surface),
+      handedness_(context.A().surface, context.B().surface),
       components_A_(context.A().surface),
       components_B_(context.B().surface),
-      agreement_(context, orientation_, components_A_, components_B_) {}
+      agreement_(context, handedness_, components_A_, components_B_) {}
 
 Cues Appraisal::cues(const MapPair& maps) const {
     return {agreement_.relief(maps), agreement_.alignment(maps), agreement_.stretch(maps)};

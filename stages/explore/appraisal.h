@@ -41,14 +41,14 @@ class Appraisal {
     /// nothing as long as it has folds.
     Cues cues(const MapPair& maps) const;
 
-    const PairOrientation& orientation() const { return orientation_; }
+    const PairHandedness& handedness() const { return handedness_; }
     const SurfaceComponents& components_A() const { return components_A_; }
     const SurfaceComponents& components_B() const { return components_B_; }
     const ShapeAgreement& agreement() const { return agreement_; }
 
   private:
     const PairContext& context_;
-    const PairOrientation orientation_;
+    const PairHandedness handedness_;
     const SurfaceComponents components_A_, components_B_;
     const ShapeAgreement agreement_;  ///< refers to these
 };

@@ -239,7 +239,7 @@ std::vector<FinishedMap> finish(const PairContext& context, const Appraisal& app
     }
     log("finished {} of {} maps", finished.size(), starts.size());
     UntanglingOptions untangling = options.untangling;
-    untangling.opposed = appraisal.orientation().are_opposite();
+    untangling.opposed = appraisal.handedness().are_opposite();
     parallel_for_each_index(finished.size(), std::size_t(1), [&](std::size_t n) {
         untangle(finished[n].maps, context.A().surface.mesh, context.B().surface.mesh, pinned(context),
                  untangling);

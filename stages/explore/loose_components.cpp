@@ -128,7 +128,7 @@ int LooseComponents::turn(MapPair& maps, Rest& rest) const {
 int LooseComponents::lay_as_the_rest(MapPair& maps) const {
     const int largest = A_.largest();
     if (A_.count() < 2 || B_.count() < 2 || !counterpart(largest, maps)) return 0;
-    const bool opposed = appraisal_.orientation().are_opposite();
+    const bool opposed = appraisal_.handedness().are_opposite();
     const Points images = positions(B_.mesh(), maps.A_to_B);
     Rest rest{ComponentLaying(A_, B_, opposed), ComponentLaying(B_, A_, opposed), opposed,
               A_.turn(largest, images, opposed), rough_score(appraisal_.cues(maps))};

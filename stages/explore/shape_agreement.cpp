@@ -62,11 +62,11 @@ ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, 
     for (const double radius : patch_radii) patches.add_patches(to_all, radius, sample_mass);
 }
 
-ShapeAgreement::ShapeAgreement(const PairContext& context, const PairOrientation& orientation,
+ShapeAgreement::ShapeAgreement(const PairContext& context, const PairHandedness& handedness,
                                const SurfaceComponents& components_A, const SurfaceComponents& components_B)
-    : A_(context.A(), context.graph_A(), orientation.A_inward, components_A),
-      B_(context.B(), context.graph_B(), orientation.B_inward, components_B),
-      opposed_(orientation.are_opposite()),
+    : A_(context.A(), context.graph_A(), handedness.A_inward, components_A),
+      B_(context.B(), context.graph_B(), handedness.B_inward, components_B),
+      opposed_(handedness.are_opposite()),
       sheets_(is_sheet(A_.mesh) && is_sheet(B_.mesh)) {}
 
 double ShapeAgreement::relief(const MapPair& maps) const {

@@ -15,7 +15,7 @@ namespace varimap {
 /// handedness. Keeps references.
 class ShapeAgreement {
   public:
-    ShapeAgreement(const PairContext& context, const PairOrientation& orientation,
+    ShapeAgreement(const PairContext& context, const PairHandedness& handedness,
                    const SurfaceComponents& components_A, const SurfaceComponents& components_B);
 
     /// Of relief (relief_agreement.h): a correlation, 1 at best, mean of two scales. 0.75 at a scale at which

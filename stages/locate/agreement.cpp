@@ -19,9 +19,9 @@ constexpr std::size_t patch_count = 60;
 
 PlacementAgreement::PlacementAgreement(const Sketches& sketches, const Sides& sides, double share)
     : whole_(sides.whole.mesh),
-      whole_normals_(outward_normals(whole_, sides.orientation.B_inward)),
-      opposed_(sides.orientation.are_opposite()),
-      patches_(sides.part.mesh.vertices, outward_normals(sides.part.mesh, sides.orientation.A_inward),
+      whole_normals_(outward_normals(whole_, sides.handedness.B_inward)),
+      opposed_(sides.handedness.are_opposite()),
+      patches_(sides.part.mesh.vertices, outward_normals(sides.part.mesh, sides.handedness.A_inward),
                sides.part.mass) {
     const std::vector<int> centres = spread_vertices(sketches.part.data.hierarchy, patch_count);
     patches_.add_patches(distances_from_each(sketches.part.graph, centres), patch_radius / std::sqrt(share),

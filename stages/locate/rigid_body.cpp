@@ -7,7 +7,7 @@
 namespace varimap {
 
 RigidBody::RigidBody(const Sides& sides, double share)
-    : handedness_(sides.orientation.are_opposite() ? -1 : 1),
+    : handedness_(sides.handedness.are_opposite() ? -1 : 1),
       points_(std::sqrt(share) * sides.part.mesh.vertices),
       normals_(vertex_normals(sides.part.mesh)),
       closest_(sides.whole.mesh) {}

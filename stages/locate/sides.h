@@ -22,13 +22,13 @@ struct EnumNames<PartSide> {
 /// A part and its whole, whichever of them is the source, with vertices that are landmarks.
 struct Sides {
     const Surface &part, &whole;
-    PairOrientation orientation;  ///< of the part, A, and the whole, B
+    PairHandedness handedness;  ///< of the part, A, and the whole, B
     std::vector<int> landmarks_part, landmarks_whole;
 
     Sides(const Surface& A, const Surface& B, const VertexPairs<MeshVertex>& landmarks, PartSide which)
         : part(which == PartSide::source ? A : B),
           whole(which == PartSide::source ? B : A),
-          orientation(part, whole) {
+          handedness(part, whole) {
         for (const auto& [a, b] : landmarks) {
             landmarks_part.push_back(which == PartSide::source ? a.index : b.index);
             landmarks_whole.push_back(which == PartSide::source ? b.index : a.index);
@@ -44,7 +44,7 @@ struct Sides {
     }
     /// What the placements between these sides have in common.
     std::vector<ReliefPair> reliefs() const {
-        return relief_pairs(unit_area(part.mesh), unit_area(whole.mesh), orientation.are_opposite());
+        return relief_pairs(unit_area(part.mesh), unit_area(whole.mesh), handedness.are_opposite());
     }
 };
 

@@ -144,7 +144,7 @@ void warn_of_mirrored_parts(const SurfaceMap& map) {
 SurfaceMap relax(const Surface& A, const Surface& B, const PairRecord& record, MapPair maps,
                  double area_bound, const RelaxParams& params) {
     UntanglingOptions options = params.untangling;
-    options.opposed = PairOrientation(A, B).are_opposite();
+    options.opposed = PairHandedness(A, B).are_opposite();
     if (params.keep_area_bound) options.area_bound = area_bound;
     const PinnedPair landmarks = pinned_on_meshes(record, A, B);
     std::optional<UntanglingReports> on_meshes;

@@ -60,7 +60,7 @@ bool is_inward(int sign, const Domain& surface) {
 
 }  // namespace
 
-PairOrientation::PairOrientation(const Domain& A, const Domain& B) {
+PairHandedness::PairHandedness(const Domain& A, const Domain& B) {
     int sign_A = orientation_sign(A.mesh), sign_B = orientation_sign(B.mesh);
     if (A.mirrored == B.mirrored) {
         if (sign_A == 0) sign_A = sign_B;

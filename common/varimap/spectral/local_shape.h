@@ -11,10 +11,10 @@ namespace varimap {
 /// Whether the faces of two surfaces that are mapped onto each other look inward (orientation_sign,
 /// boundary.h). Those of one without an inside do not tell: they are taken to look as those of the other do,
 /// if that has one and is not the mirrored one of the two; else, as is_inward says.
-struct PairOrientation {
+struct PairHandedness {
     bool A_inward = false, B_inward = false;
 
-    PairOrientation(const Domain& A, const Domain& B);
+    PairHandedness(const Domain& A, const Domain& B);
     /// Whether a map that goes with the faces mirrors the shape.
     bool are_opposite() const { return A_inward != B_inward; }
 };

@@ -42,10 +42,10 @@ Surface inside_out(const TriangleMesh& mesh) {
 }
 
 bool are_opposed(const Surface& A, const Surface& B) {
-    return PairOrientation(A, B).are_opposite();
+    return PairHandedness(A, B).are_opposite();
 }
 
-TEST(PairOrientation, IsAskedOfBothSurfaces) {
+TEST(PairHandedness, IsAskedOfBothSurfaces) {
     const Surface closed = shapes::unit_surface(shapes::tube(12, 8, true)),
                   open = shapes::unit_surface(shapes::tube(12, 8, false));
     const Surface closed_inside = inside_out(closed.mesh), open_inside = inside_out(open.mesh);
@@ -55,7 +55,7 @@ TEST(PairOrientation, IsAskedOfBothSurfaces) {
     EXPECT_FALSE(are_opposed(closed, open));
     EXPECT_FALSE(are_opposed(closed_inside, open_inside)) << "of the same scanner";
     EXPECT_FALSE(are_opposed(open_inside, closed_inside));
-    EXPECT_TRUE(PairOrientation(open_inside, closed_inside).A_inward);
+    EXPECT_TRUE(PairHandedness(open_inside, closed_inside).A_inward);
     const Surface closed_image = with_reversed_orientation(closed),
                   open_image = with_reversed_orientation(open);
     for (const Surface& other : {closed, open}) {
