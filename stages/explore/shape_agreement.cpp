@@ -42,12 +42,12 @@ double stretch_between(double here, double there) {
 }  // namespace
 
 ShapeAgreement::Side::Side(const SurfaceData& data, const GeodesicGraph& graph, bool inward,
-                           const SurfaceComponents& components)
+                           const SurfaceComponents& of_surface)
     : mesh(data.surface.mesh),
       mass(data.surface.mass),
       normals(outward_normals(mesh, inward)),
       samples(spread_vertices(data.hierarchy, sample_count)),
-      components(components),
+      components(of_surface),
       patches(mesh.vertices, normals, mass) {
     const double outward = inward ? -1 : 1;
     for (const Eigen::VectorXd& heights : reliefs(mesh, relief_scales)) relief.push_back(outward * heights);
