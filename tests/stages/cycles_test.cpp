@@ -7,6 +7,7 @@
 #include "fixtures/shapes.h"
 #include "stages/cycles/choice.h"
 #include "stages/cycles/collection.h"
+#include "varimap/results/choice.h"
 
 namespace varimap {
 namespace {
