@@ -777,6 +777,11 @@ TEST(Confidence, NeedsAMarginAndAMapThatIsGood) {
     EXPECT_LT(confidence_of({best, turned}).probability, sure.probability - .01);
     turned.score = -27;  // scores say half as much
     EXPECT_THAT(doubt({best, turned}), testing::HasSubstr("another is 22% as probable"));
+    Candidate farther = rival;
+    farther.score = -27.6;
+    EXPECT_TRUE(confidence_of({best, farther}).confident);
+    EXPECT_FALSE(confidence_of({best, farther, farther}).confident);
+    EXPECT_THAT(doubt({best, farther, farther}), testing::HasSubstr("others together are 18% as probable"));
     close.moved_mass = .03;  // the same map, but for an ear
     EXPECT_EQ(confidence_of({best, close}).margin, 10);
     close.moved_mass = .8;
