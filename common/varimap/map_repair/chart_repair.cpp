@@ -8,7 +8,6 @@
 #include "varimap/core/timing.h"
 #include "varimap/geodesics/triangle_strip.h"
 #include "varimap/mesh/boundary.h"
-#include "varimap/parts/strained_parts.h"
 #include "varimap/relaxation/global_relaxation.h"
 #include "varimap/relaxation/local_relaxation.h"
 #include "varimap/sliding/face_energy.h"

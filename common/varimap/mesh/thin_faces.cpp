@@ -146,12 +146,6 @@ double thinness(const TriangleMesh& mesh, int f) {
                     mesh.vertex(mesh.faces(f, 2)));
 }
 
-double price_of_face(const Vec3& a, const Vec3& b, const Vec3& c, double price) {
-    constexpr double thin = 0.02;
-    const double t = thinness(a, b, c);
-    return (b - a).cross(c - b).norm() / 2 + (t < thin ? price * (2 - t) : 0);
-}
-
 ThinFaceRemoval remove_thin_faces(const TriangleMesh& mesh, double thinnest) {
     int thin = 0;
     for (int f = 0; f < mesh.face_count(); ++f) thin += thinness(mesh, f) < thinnest;

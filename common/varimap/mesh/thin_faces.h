@@ -19,10 +19,6 @@ struct ThinFaceRemoval {
 double thinness(const Vec3& a, const Vec3& b, const Vec3& c);
 double thinness(const TriangleMesh& mesh, int f);
 
-/// What it costs to close a mesh by a face: its area, and about twice `price` more where its thinness is
-/// below .02.
-double price_of_face(const Vec3& a, const Vec3& b, const Vec3& c, double price);
-
 /// Removes the faces of thinness below `thinnest`, on which neither the Laplacian nor areas can be trusted:
 /// of a needle the short side is collapsed into its lower vertex; of a cap the long side is turned, so that
 /// it joins the two corners that face it. Nothing moves farther than ten times thinnest times a face's

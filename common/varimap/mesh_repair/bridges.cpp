@@ -6,8 +6,8 @@
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/mass.h"
-#include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/private/face_price.h"
 
 namespace varimap {
 namespace {

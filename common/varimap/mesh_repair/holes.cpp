@@ -9,8 +9,8 @@
 
 #include "varimap/core/error.h"
 #include "varimap/core/parse_number.h"
-#include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/private/face_price.h"
 
 namespace varimap {
 namespace {

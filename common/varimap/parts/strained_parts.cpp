@@ -1,7 +1,6 @@
 #include "varimap/parts/strained_parts.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "varimap/core/statistics.h"
 #include "varimap/sliding/face_energy.h"
@@ -72,18 +71,6 @@ void add_cut_off(const SlidingMap& map, const Edges& edges, FaceData<bool>& insi
 }
 
 }  // namespace
-
-double area_of(const SlidingMap& map, const std::vector<int>& faces) {
-    return std::accumulate(faces.begin(), faces.end(), 0.0,
-                           [&](double sum, int f) { return sum + map.rest(f).area; });
-}
-
-double area_of(const SlidingMap& map, const FaceData<bool>& marked) {
-    double sum = 0;
-    for (int f = 0; f < marked.size(); ++f)
-        if (marked[f]) sum += map.rest(f).area;
-    return sum;
-}
 
 std::vector<std::vector<int>> strained_parts(const SlidingMap& map, const Edges& edges,
                                              const FaceData<bool>& rejected, const StrainLimits& limits) {

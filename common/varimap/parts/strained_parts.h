@@ -7,9 +7,6 @@
 
 namespace varimap {
 
-/// By which strained parts are found, and alternatives for them compared.
-inline constexpr FoldEnergy judged_energy{1, 0.1};
-
 /// Which parts of a map are suspected.
 struct StrainLimits {
     double excess = 0.25;  ///< mean excess energy (fold_energy.h) around a face of a strained part, at least
@@ -25,9 +22,5 @@ std::vector<std::vector<int>> strained_parts(const SlidingMap& map, const Edges&
 
 /// The part grown ring by ring to `area`, then with all it cuts off from the largest rest.
 FaceData<bool> widened(const SlidingMap& map, const Edges& edges, const std::vector<int>& part, double area);
-
-/// Areas on the source.
-double area_of(const SlidingMap& map, const std::vector<int>& faces);
-double area_of(const SlidingMap& map, const FaceData<bool>& marked);
 
 }  // namespace varimap

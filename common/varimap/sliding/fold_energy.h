@@ -34,6 +34,9 @@ struct FoldEnergy {
     FoldEnergy with(double area_weight) const { return {weight + area_weight, regularisation}; }
 };
 
+/// By which strained parts are found, and alternatives for parts of a map compared.
+inline constexpr FoldEnergy judged_energy{1, 0.1};
+
 /// The excess x of a fold energy (per area) over an isometry's, and its robust function r log(1 + x / r), by
 /// which faces that cannot be isometric count less; r = 0: x itself.
 struct RobustEnergy {

@@ -61,4 +61,17 @@ std::vector<int> SlidingMap::faces_around(const std::vector<int>& vertices) cons
     return faces;
 }
 
+double area_of(const SlidingMap& map, const std::vector<int>& faces) {
+    double sum = 0;
+    for (const int f : faces) sum += map.rest(f).area;
+    return sum;
+}
+
+double area_of(const SlidingMap& map, const FaceData<bool>& marked) {
+    double sum = 0;
+    for (int f = 0; f < marked.size(); ++f)
+        if (marked[f]) sum += map.rest(f).area;
+    return sum;
+}
+
 }  // namespace varimap

@@ -100,6 +100,10 @@ class SlidingMap {
     VertexData<Vec3> image_, normal_;
 };
 
+/// Areas on the source.
+double area_of(const SlidingMap& map, const std::vector<int>& faces);
+double area_of(const SlidingMap& map, const FaceData<bool>& marked);
+
 /// How many corners of a face are marked.
 inline int marked_corners(const TriangleMesh& mesh, int f, const VertexData<bool>& marks) {
     int count = 0;
