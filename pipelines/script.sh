@@ -102,6 +102,17 @@ artifact_stem() {
     echo "${stem:-mesh}"
 }
 
+# free_name STEM IS_FREE ARGUMENT...: the first of STEM, STEM-2, STEM-3 ... of which `IS_FREE NAME ARGUMENT...` says that it can be had.
+free_name() {
+    local tried=$1 number=1
+    until "$2" "$tried" "${@:3}"; do tried=$1-$((++number)); done
+    echo "$tried"
+}
+
+# make that heeds no other make around it, as where a script runs in a recipe.
+# shellcheck disable=SC2034  # for those that source this
+make_alone=(env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL -u GNUMAKEFLAGS -u MAKEFILES make -r -s --no-print-directory)
+
 # quoted TEXT: as a field of a CSV file.
 quoted() { printf '"%s"' "${1//\"/\"\"}"; }
 

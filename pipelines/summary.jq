@@ -1,11 +1,6 @@
 # What quality.json says of a map that was just made, in lines for people.
-#   jq -r --arg out OUT -f summary.jq quality.json
-def fixed(d): . * pow(10; d) | round / pow(10; d);
-# Rounded down, so that what is not sure does not look as if it were.
-def in_hundredths: . * 100 + 1e-9 | floor / 100;
-def counted(one; several): "\(.) \(if . == 1 then one else several end)";
-# What a surface's own holes lack no map reaches.
-def reached: .when_closed // .;
+#   jq -r -L pipelines --arg out OUT -f summary.jq quality.json
+include "quality_words";
 def direction(name; d): "  \(name): \(d.verification.reversed_count | counted("triangle"; "triangles")) reversed "
     + "(\(d.verification.reversed_area_percent | fixed(2)) % of the area), \(d.verification.branch_points | counted("branch point"; "branch points")), "
     + "coverage \(d | reached.coverage * 100 | fixed(1)) %\(if d.when_closed then " (holes closed)" else "" end), conformal distortion \(d.conformal_distortion.p50 | fixed(2))"
@@ -20,7 +15,7 @@ uncovered("target"; .source_to_target), uncovered("source"; .target_to_source),
 "  round trip: \(.round_trip.mean | fixed(4)) (mean), \(.round_trip.p95 | fixed(4)) (95 %), in units of sqrt(area)",
 (.exploration | select(. != null) | "  explored: candidate \(.continued) of \(.candidates | length), "
     + (if .continued == 1 then "" else "as asked; the first, as it was found, is " end) + "right with a probability "
-    + (.probability | if . < 0.01 then "below 0.01" elif . >= 0.995 then "above 0.99" else "of \(in_hundredths)" end)
+    + (.probability | probability_in_words("of \(rounded_down(2))"))
     + (if .confident or .continued != 1 then "" else ", not sure: look at \($out)/\(if .confident_when_found then "picture" else "candidates" end).png" + (if .candidates | length > 1 then ", try another by --candidate" else "" end) end)),
 (.landmarks | select(length > 0) | "  landmarks: off by at most \(max | fixed(4)), the same units"),
 "  stages: \([.stages[].cpu_seconds] | add | fixed(1)) CPU seconds, \([.stages[].peak_megabytes] | max | round) MB at most"

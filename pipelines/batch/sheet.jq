@@ -1,5 +1,6 @@
 # The contact sheet: a card for each pair, the worst first, a thousand at most.
-#   jq -r -n -f sheet.jq results.jsonl
+#   jq -r -n -L pipelines -f sheet.jq results.jsonl
+include "quality_words";
 def rank: if .status == "done" then [1, -.badness, .name] elif .status == "failed" then [0, 0, .name] else [2, 0, .name] end;
 def shown: if .sure_when_found then "picture.png" else "candidates.png" end;
 def card: (.name | @uri) as $folder
@@ -8,7 +9,7 @@ def card: (.name | @uri) as $folder
         "<a href=\"pairs/\($folder)/picture.png\"><img loading=\"lazy\" alt=\"the map, from both sides\" src=\"pairs/\($folder)/picture.png\"></a>"
         + "<p><b>\(.verdict | @html)</b> · reversed \(.reversed_percent) % · covered \(.coverage_percent) % · angles \(.conformal_p95) · there and back \(.round_trip)"
         + (if .landmarks_off then " · landmarks off \(.landmarks_off)" else "" end)
-        + (if .probability then " · \(if .sure then "sure" else "<a href=\"pairs/\($folder)/\(shown)\">not sure</a>" end) (\(.probability | if . < 0.01 then "below 0.01" elif . >= 0.995 then "above 0.99" else . end))" else "" end) + "</p>"
+        + (if .probability then " · \(if .sure then "sure" else "<a href=\"pairs/\($folder)/\(shown)\">not sure</a>" end) (\(.probability | probability_in_words(.)))" else "" end) + "</p>"
         + ([.warnings[] | "<p class=\"warning\">\(.[:240] | @html)</p>"] | join(""))
       elif .status == "failed" then "<p class=\"warning\">failed (\(.code)): \(.message | @html)</p>"
       else "<p>waiting</p>" end) + "</article>";

@@ -11,8 +11,8 @@ install(TARGETS ${libraries} EXPORT varimapTargets)
 install(DIRECTORY common/varimap pipelines/in_memory/varimap TYPE INCLUDE FILES_MATCHING PATTERN "*.h" PATTERN private EXCLUDE)
 install(PROGRAMS pipelines/varimap TYPE BIN)
 set(share ${CMAKE_INSTALL_DATADIR}/varimap)
-install(FILES pipelines/Makefile pipelines/quality.jq pipelines/report.jq pipelines/summary.jq pipelines/script.sh pipelines/plain_text.awk
-  pipelines/progress.sh DESTINATION ${share})
+install(FILES pipelines/Makefile pipelines/quality.jq pipelines/quality_words.jq pipelines/report.jq pipelines/summary.jq pipelines/script.sh
+  pipelines/plain_text.awk pipelines/progress.sh DESTINATION ${share})
 install(PROGRAMS pipelines/bench pipelines/bench-list pipelines/debian-meshes pipelines/gallery pipelines/plot pipelines/register pipelines/scaling
   pipelines/selftest pipelines/survey pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/experiments DESTINATION ${share} USE_SOURCE_PERMISSIONS)

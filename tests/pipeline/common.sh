@@ -140,6 +140,9 @@ expect_exit() {
     ((errors == 1)) || fail "$errors error lines, not one: $*"
 }
 
+# report_on <FILE: what is said of that quality.json, for programs.
+report_on() { jq -L "$VARIMAP_SOURCE/pipelines" 'include "report"; report'; }
+
 same() {  # FILE FILE
     cmp -s "$1" "$2" || fail "$1 and $2 differ"
 }

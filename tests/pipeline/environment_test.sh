@@ -16,7 +16,7 @@ hostile=(MAKEFLAGS=-n MAKEFILES=/dev/null MAKELEVEL=7 CDPATH=/:/tmp BASH_ENV=/de
 while read -r variable; do
     hostile+=("$variable=9")
 done < <(grep -ohE '^[A-Za-z_]+ *[:?+]?=' "$VARIMAP_SOURCE/pipelines/Makefile" | grep -oE '^[A-Za-z_]+')
-[[ " ${hostile[*]} " == *" AREA_BOUND=9 "* && " ${hostile[*]} " == *" DIFFUSE_FLAGS=9 "* ]] || fail "the Makefile's names were not found"
+[[ " ${hostile[*]} " == *" PART=9 "* && " ${hostile[*]} " == *" DIFFUSE_FLAGS=9 "* ]] || fail "the Makefile's names were not found"
 hostile+=(VARIMAP_SOURCE=/absent VARIMAP_TARGET=/absent VARIMAP_LANDMARKS_1=/absent "VARIMAP_BIN=$VARIMAP_BIN")
 env "${hostile[@]}" "$varimap" map -v "${small_picture[@]}" "${options[@]}" -o hostile >out.txt 2>log || fail "a hostile environment"
 same_results plain hostile

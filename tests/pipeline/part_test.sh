@@ -33,10 +33,10 @@ expect_exit 2 "$varimap" report out --jsn
 grep -q 'unknown option --jsn' log || fail "an unknown option of report: $(<log)"
 expect_exit 2 "$varimap" transfer --values values.csv out
 grep -q 'the folder of the map comes first' log || fail "options before the folder: $(<log)"
-jq '.part.strain = .13' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/report.jq" |
+jq '.part.strain = .13' out/quality.json | report_on |
     jq -e '.verdict == "look here" and any(.checks[]; .what == "part placed" and .grade == "look here")' >/dev/null ||
     fail "a strained part does not make one look"
-jq '.round_trip.p95 = .12' out/quality.json | jq -f "$VARIMAP_SOURCE/pipelines/report.jq" |
+jq '.round_trip.p95 = .12' out/quality.json | report_on |
     jq -e '.verdict == "look here" and any(.checks[]; .what == "there and back, 95 %" and .grade == "look here")' >/dev/null ||
     fail "directions that disagree do not make one look"
 "$varimap" map part.off whole.off -o out --landmarks tips.txt --part source "${small_picture[@]}" -v >again.txt 2>log || fail "again"

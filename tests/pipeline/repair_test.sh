@@ -155,7 +155,7 @@ map two.off b.off -o spelt --landmarks tips.txt "${coarse[@]}"
 verdict() {  # RECORD OF PREPROCESS: the verdict and the alarms of a good map with that, and how many warnings are told
     jq --argjson record "$1" '{source_to_target: {flipped_area_percent: 0, coverage: 1, conformal_distortion: {p50: 1, p95: 1}},
         stages: {"preprocess a": $record}, warnings: [{stage: "preprocess a", message: "repaired: this; varimap help meshes says how"}]}' <<<null |
-        jq -rf "$VARIMAP_SOURCE/pipelines/report.jq" | jq -r '"\(.verdict): \(.alarms | join(", ")) of \(.warnings | length)"'
+        report_on | jq -r '"\(.verdict): \(.alarms | join(", ")) of \(.warnings | length)"'
 }
 while read -r record says; do
     [[ $(verdict "$record") == "$says" ]] || fail "$record: $(verdict "$record"), not $says"

@@ -10,18 +10,30 @@ grep -q '^verdict ' out.txt || fail "no verdict"
 diff <(grep '^verdict  look here' out.txt) <(grep '^verdict' summary.txt) || fail "map and report disagree"
 grep -q 'area covered, source to target' out.txt || fail "no numbers"
 jq '.warnings = [{stage: "diffuse a--b", message: "all is\nlost"}]' good/quality.json >warned.json
-[[ $(jq -r -f "$VARIMAP_SOURCE/pipelines/report.jq" warned.json | jq -r .verdict) == "look here" ]] || fail "a warning is not heeded"
+[[ $(report_on <warned.json | jq -r .verdict) == "look here" ]] || fail "a warning is not heeded"
 expect_exit 6 "$varimap" report absent
 
 # Of many parts that are not reached the largest are named; nothing is called impossible, or certain.
+summary_of() { jq -r -L "$VARIMAP_SOURCE/pipelines" --arg out good -f "$VARIMAP_SOURCE/pipelines/summary.jq" "$@"; }
 jq '.source_to_target.uncovered = [range(7) | {area_percent: (9 - .), vertex: .}] | .target_to_source.uncovered = .source_to_target.uncovered[:3]
     | .exploration = {continued: 1, candidates: [{}], probability: .004, confident: false}' good/quality.json >doubtful.json
-jq -r --arg out good -f "$VARIMAP_SOURCE/pipelines/summary.jq" doubtful.json >summary.txt
+summary_of doubtful.json >summary.txt
 grep -q 'not reached on the target: 9 % .* vertex 0, 8 % .* vertex 1, 7 % of the area around vertex 2 and 4 more$' summary.txt || fail "the largest of many parts"
 grep -q 'not reached on the source: .* vertex 2$' summary.txt || fail "three parts"
 grep -q 'candidate 1 of 1, right with a probability below 0.01, not sure' summary.txt || fail "a small probability"
-jq '.exploration |= (.probability = .996 | .confident = true)' doubtful.json | jq -r --arg out good -f "$VARIMAP_SOURCE/pipelines/summary.jq" >summary.txt
+jq '.exploration |= (.probability = .996 | .confident = true)' doubtful.json | summary_of >summary.txt
 grep -q 'candidate 1 of 1, right with a probability above 0.99$' summary.txt || fail "a large probability"
+
+# What the source's holes lack counts against no map: the report goes by what is reached with these closed, and so does the table of a batch.
+jq '.source_to_target += {coverage: .8, when_closed: {coverage: .995, uncovered: []}} | .target_to_source.coverage = .99' good/quality.json >holes.json
+report_on <holes.json | jq -e 'any(.checks[]; .what == "area covered, source to target, holes closed" and .value == "99.5 %" and .grade == "good")' >/dev/null ||
+    fail "coverage with holes closed in the report"
+jq -L "$VARIMAP_SOURCE/pipelines" --arg name p --arg source a --arg target b --arg key k --arg candidate 1 \
+    -f "$VARIMAP_SOURCE/pipelines/batch/result.jq" holes.json | jq -e '.coverage_percent == 99' >/dev/null ||
+    fail "coverage with holes closed in the table of a batch"
+# Of another candidate the first one's probability is not rounded up either.
+jq '.exploration = {continued: 2, candidates: [{}, {}], probability: .996}' good/quality.json |
+    report_on | jq -e 'any(.checks[]; .value == "candidate 2, as asked (the first: above 0.99)")' >/dev/null || fail "the first one's probability"
 expect_exit 6 "$varimap" view absent
 expect_exit 2 "$varimap" view good more
 
@@ -66,7 +78,7 @@ jq -c .provenance.options told/quality.json >options.txt
 grep -qxF "[[\"--set\",\"render.width=64\"],[\"--set\",\"render.samples=1\"],$(printf '["--set","%s"],' "${coarse[1]}" "${coarse[3]}")[\"--part\",\"source\"],[\"--fill-holes\",\"30\"],[\"--config\",\"$PWD/my file.toml\"]]" options.txt ||
     fail "options that are recorded: $(<options.txt)"
 if command -v node >/dev/null; then
-    jq -f "$VARIMAP_SOURCE/pipelines/report.jq" told/quality.json >report.json
+    report_on <told/quality.json >report.json
     node --input-type=module - "$VARIMAP_SOURCE" <<'TEXT' >next.sh || fail "the page's landmarks"
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
