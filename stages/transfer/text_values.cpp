@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "stages/transfer/text_rows.h"
 #include "stages/transfer/values.h"
@@ -70,6 +71,20 @@ void require_certain_names(const TextRows& text, const std::string& path) {
         counted(text.passed_over, "line without a row is passed", "lines without a row are passed")));
 }
 
+/// Labels stand for parts, on many rows each: a first row that holds one no other row holds looks as if it
+/// named the column, and a row were missing.
+void warn_of_lonely_label(const TextRows& text, const std::string& path) {
+    constexpr std::size_t rows_of_a_label = 2;  // in the mean, at least
+    std::set<std::vector<std::string>> others;
+    for (std::size_t i = 1; i < text.rows.size(); ++i) others.insert(text.rows[i].words);
+    const std::vector<std::string>& first = text.rows[0].words;
+    if (others.contains(first) || text.rows.size() - 1 < rows_of_a_label * others.size()) return;
+    warn(
+        "{}: '{}', which no other row holds, is taken for the first row; if it names the column, a row is "
+        "missing",
+        path, excerpt(join(first, text.separator)));
+}
+
 /// A first line that may name the columns does so where the rows without it are those of the mesh. Where
 /// their number does not tell, it does above numbers, and in front of rows that it says are numbered.
 bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh, const std::string& path) {
@@ -81,7 +96,10 @@ bool has_names(const TextRows& text, ValueKind kind, const TriangleMesh& mesh, c
     if (names_rows && (kind != ValueKind::label || seem_numbered(rows))) return true;
     const bool all_fit = place_of(rows.size(), mesh).has_value();
     const bool others_fit = place_of(rows.size() - 1, mesh).has_value();
-    if (all_fit && !others_fit) require_certain_names(text, path);
+    if (all_fit && !others_fit) {
+        require_certain_names(text, path);
+        if (kind == ValueKind::label) warn_of_lonely_label(text, path);
+    }
     if (all_fit != others_fit) return others_fit;
     return names_rows || kind != ValueKind::label || any_number(rows[1]);
 }

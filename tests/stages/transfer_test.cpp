@@ -703,6 +703,19 @@ TEST_F(Transfer, RefusesLabelsOfWhichALineWasPassedOver) {
     EXPECT_EQ(refusal(request, identity_onto(ball_)), "none");
 }
 
+TEST_F(Transfer, WarnsOfLabelsWhoseFirstLooksLikeAHeading) {
+    std::string rows;
+    for (int v = 1; v < ball_.vertex_count(); ++v) rows += v % 5 == 0 ? "leg\n" : "body\n";
+    TransferRequest request;
+    request.labels = {write("a.csv", "part\n" + rows)};
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
+                HasSubstr("'part', which no other row holds, is taken for the first row"));
+    for (const std::string& right : {"leg\n" + rows, "part\nleg\n" + rows}) {
+        request.labels = {write("a.csv", right)};
+        EXPECT_EQ(warnings_of(request, identity_onto(ball_)), "");
+    }
+}
+
 TEST_F(Transfer, WeightsOfIntegersBecomeFractions) {
     const Correspondence map = onto_middle(ball_, {.25, .25, .5});
     std::vector<std::uint8_t> weights;
