@@ -244,6 +244,21 @@ void warn_of(const BetterExchange& better, const Candidate& best, const PairCont
             exchanged_in_words(better.exchange), mirror_advice(context));
 }
 
+/// The score of the map between mirror images that the landmarks lead to, where they look mirrored and it is
+/// much better than the one that they lead to as they are: probably one of the surfaces is a left and the
+/// other a right one. Infinity else.
+double score_of_mirror_images(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
+                              const ExploreParams& params) {
+    constexpr double much = 2, none = std::numeric_limits<double>::infinity();
+    if (!landmarks_look_mirrored(context, appraisal.handedness().are_opposite())) return none;
+    const Timer timer("mirror images");
+    const PairContext mirror = with_mirror_image(context);
+    const double score = best_led(mirror, Appraisal(mirror), params).score;
+    log("the landmarks look mirrored: as mirror images score {:.2f}, as they are {:.2f}", score,
+        led.candidate.score);
+    return score + much < led.candidate.score ? score : none;
+}
+
 /// Whether nothing else need be looked for than the map that landmarks lead to: it is plausible, not
 /// strained, and they decide it. Chosen by hand on half of the known pairs.
 bool landmarks_suffice(const Appraised& led, const PairContext& context) {
@@ -265,18 +280,27 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
     const bool if_needed = params.only_if_needed && !context.landmarks().empty();
     if (if_needed && int(context.landmarks().size()) > params.few_landmarks) {
         log("{} landmarks: nothing else is looked for", context.landmarks().size());
+        if (landmarks_look_mirrored(context,
+                                    PairHandedness(context.A().surface, context.B().surface).are_opposite()))
+            warn(
+                "the landmarks fit mirror images of the surfaces: if one is a left and the other a right "
+                "one, {}",
+                mirror_advice(context));
         return {};
     }
     const std::vector<PooledMap> led_there = led_by_landmarks(context, params);
     const Appraisal appraisal(context);
     FinishedPool finished(context, quick_finishing(params), appraisal);
     std::optional<BetterExchange> exchange;
+    double mirrored_score = std::numeric_limits<double>::infinity();
     if (if_needed) {
         finished.add_new_of(led_there);
         std::vector<Appraised> alone = finished.appraised();
         const bool of_sheets = is_isometry_of_sheets(alone.front().candidate, context);
-        if (!of_sheets) exchange = better_exchange(alone.front(), context, appraisal, params);
-        if (of_sheets || (!exchange && landmarks_suffice(alone.front(), context)))
+        mirrored_score = score_of_mirror_images(alone.front(), context, appraisal, params);
+        const bool mirrored = std::isfinite(mirrored_score);
+        if (!of_sheets && !mirrored) exchange = better_exchange(alone.front(), context, appraisal, params);
+        if (!mirrored && (of_sheets || (!exchange && landmarks_suffice(alone.front(), context))))
             return led(std::move(alone), context);
     }
     LazySelfMaps self_maps(context, ask.self_maps);
@@ -287,6 +311,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         mirrored = found_by_mirror_images(context, coarse, params, ratings(list));
         finished.add(mirrored.maps);
         list = with_turns(finished, context, appraisal);
+        mirrored_score = std::min(mirrored_score, mirrored.score);
     }
     const bool good = is_good(list.front().candidate, if_needed);
     if (!good) {
@@ -298,12 +323,13 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         list = thoroughly_found(context, params, known, appraisal, self_maps);
     }
     if (exchange) warn_of(*exchange, list.front().candidate, context);
-    if (good && if_needed && list.front().candidate.explored == 0 && !is_disputed(list)) {
+    if (good && if_needed && list.front().candidate.explored == 0 && !is_disputed(list) &&
+        !std::isfinite(mirrored_score)) {
         log("none of {} maps is better than where the landmarks lead", list.size());
         return led(std::move(list), context);
     }
     for (Appraised& one : list)
-        one.candidate.mirror_gain = std::max(0.0, one.candidate.score - mirrored.score);
+        one.candidate.mirror_gain = std::max(0.0, one.candidate.score - mirrored_score);
     if (ask.surfaces)
         list = compared_on_surfaces(std::move(list), context, quick_finishing(params), ask.surfaces);
     return with_previews(list, context);

@@ -14,4 +14,9 @@ int landmarks_apart(const PairContext& context);
 /// them leave it to turn or twist.
 bool landmarks_span(const PairContext& context);
 
+/// Whether a similarity that mirrors takes four or more of them to their partners in space, and one that does
+/// not hardly does: of bodies in other postures neither does. `opposed`: the surfaces are of opposite
+/// handedness (PairHandedness), so that the one is the other.
+bool landmarks_look_mirrored(const PairContext& context, bool opposed);
+
 }  // namespace varimap

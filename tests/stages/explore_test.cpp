@@ -303,6 +303,27 @@ TEST(MirrorImages, TellALeftOneFromARightOne) {
     EXPECT_THAT(doubt({opposite}), testing::HasSubstr("fit better as mirror images"));
 }
 
+/// Landmarks that decide, and keep all from being looked for, know a left one, too.
+TEST(MirrorImages, AreToldFromByLandmarks) {
+    const KnownPair same = shapes::figure_pair(.2, true, 1000), other = reflected(same);
+    ExploreParams params;
+    params.only_if_needed = true;
+    const PairContext right = same.context(), left = other.context();
+    ASSERT_GE(right.landmarks().size(), 4u);
+    EXPECT_FALSE(landmarks_look_mirrored(right, false));
+    EXPECT_TRUE(landmarks_look_mirrored(left, false));
+    EXPECT_FALSE(landmarks_look_mirrored(left, true)) << "with --mirror";
+    EXPECT_FALSE(fits_mirrored(explore(right, params).list.front()));
+    EXPECT_TRUE(fits_mirrored(explore(left, params).list.front()));
+    params.few_landmarks = 3;
+    const std::size_t before = logged_warnings().size();
+    EXPECT_TRUE(explore(right, params).list.empty());
+    EXPECT_EQ(logged_warnings().size(), before);
+    EXPECT_TRUE(explore(left, params).list.empty());
+    ASSERT_EQ(logged_warnings().size(), before + 1);
+    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("--mirror"));
+}
+
 TEST(MirrorImages, AreTheSameOnCoarseLevels) {
     const KnownPair pair = shapes::figure_pair(.5, false, 1000);
     const PairContext context(pair.A, pair.B, {});
