@@ -131,11 +131,12 @@ find_landmarks() {
     local stem ending file
     stem=${2##*/} stem=${stem%.*}
     [[ -n $1 ]] || return 0
-    for ending in mrk.json fcsv pp txt csv vts; do
+    for ending in "${landmark_endings[@]}"; do
         file=$1/$stem.$ending
         [[ ! -f $file ]] || { realpath -s -- "$file"; return; }
     done
 }
+landmark_endings=(mrk.json fcsv pp txt csv vts)  # which go before those behind them
 
 # wait_for_group: waits for the process group `group`, started in the background under `set -m`, and returns its exit code.
 # So an interrupt reaches all that it started and is waited for; then the script ends, after close_log where that is defined.

@@ -20,6 +20,16 @@ handful() {
     echo "$text"
 }
 
+# tell_other_landmarks FOLDER MESH: warns of files in FOLDER that have the name of that mesh, too, and are not read.
+tell_other_landmarks() {
+    local stem ending files=()
+    stem=${2##*/} stem=${stem%.*}
+    [[ -n $1 ]] || return 0
+    for ending in "${landmark_endings[@]}"; do [[ ! -f $1/$stem.$ending ]] || files+=("$stem.$ending"); done
+    ((${#files[@]} < 2)) ||
+        printable "$name: warning: $1: landmarks are read from ${files[0]}, not from $(handful "${files[@]:1}")" >&2
+}
+
 # files_named_in MESH: the files beside it without which it is not whole, as it names them: those of a .gltf.
 files_named_in() {
     [[ ${1,,} == *.gltf ]] || return 0

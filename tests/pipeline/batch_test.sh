@@ -139,6 +139,16 @@ rm moved/pairs/a--b
 batch --all-pairs moving -o moved -j 1
 same moved/pairs/a--b/source_to_target.csv all/pairs/a--c/source_to_target.csv
 
+# A folder of meshes and maps may be moved as a whole.
+mkdir project
+mv moving moved project
+batch --all-pairs project/moving -o project/moved -j 1
+mv project elsewhere
+"$varimap" report elsewhere/moved/pairs/a--b >out.txt 2>log || fail "a report of a batch that was moved"
+! grep -q 'not there' out.txt || fail "meshes that were moved with a batch: $(grep 'not there' out.txt)"
+echo 0 >zero.txt
+"$varimap" transfer elsewhere/moved/pairs/a--b --points zero.txt -o zero >out.txt 2>log || fail "transfer of a batch that was moved: $(cat log)"
+
 # gltf OFF NAME: the mesh as scenes/NAME.gltf, with its numbers in scenes/parts/NAME.bin.
 gltf() {
     local vertices faces
@@ -261,6 +271,15 @@ mkdir points
 cut -d ' ' -f 1 tips.txt | tee points/a.txt >points/c.txt
 batch --star meshes/b.off meshes -o star --landmarks-from points -j 2
 [[ $(column star/status.csv name | xargs) == "b--a b--c" ]] || fail "pairs of a template"
+cp points/a.txt points/a.vts
+batch --star meshes/b.off meshes -o star --landmarks-from points -j 2
+grep -q '^batch: warning: points: landmarks are read from a.txt, not from a.vts$' log || fail "two files of landmarks for one mesh"
+rm points/a.vts
+mkdir same
+cp meshes/c.off same/a.off
+printf 'source,target\nmeshes/b.off,meshes/a.off\nmeshes/b.off,same/a.off\n' >same.csv
+expect_exit 3 "$varimap" batch same.csv -o none --landmarks-from points
+grep -q 'same/a.off: .*meshes/a.off has the same landmarks by its name, a.txt; rename one' log || fail "two meshes with one file of landmarks"
 head -c 100 all/artifacts/b.basis >short
 cp short all/artifacts/b.basis
 batch --all-pairs meshes -o all --check -j 2
