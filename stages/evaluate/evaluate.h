@@ -19,6 +19,16 @@ struct EvaluateRequest {
     RepairOptions repair = {};     ///< of the target, as varimap-preprocess did it
     IndexBase map_base = IndexBase::automatic;
     LandmarkReading reading = {};  ///< of the points
+
+    template <class List>
+    void describe(List& list) {
+        repair.describe(list);
+        list.add("index_base", reading.base,
+                 "number of a list's first vertex; auto: coordinates in the list decide, else 0");
+        list.add("landmark_space", reading.space,
+                 "axes of points: stated by their file, as-is (those of the mesh), lps or ras");
+        list.add("map_base", map_base, "number of the first vertex in a map of vertices to vertices");
+    }
 };
 
 /// Geodesic errors of a map (evaluation.h), where `points` say each point of the source belongs. What a
