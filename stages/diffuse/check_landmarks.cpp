@@ -103,4 +103,22 @@ std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const Alt
     return checks;
 }
 
+void report(const std::vector<LandmarkCheck>& checks) {
+    constexpr double decides = .1;  // sqrt(area): no detail any more
+    const int worst = contradicted_landmark(checks);
+    for (size_t i = 0; i < checks.size(); ++i) {
+        const LandmarkCheck& check = checks[i];
+        log("landmark {}: the others alone would have its place {:.3f} sqrt(area) away, and the energy "
+            "{:.1f}% "
+            "lower{}",
+            i + 1, check.distance, 100 * check.energy_fall,
+            int(i) == worst            ? ""
+            : check.distance < decides ? "; it agrees with them"
+                                       : "; it does not contradict them, and decides what they leave open");
+    }
+    if (worst >= 0)
+        warn("landmark {} is contradicted by the others: is it in the right place, on the right side?",
+             worst + 1);
+}
+
 }  // namespace varimap

@@ -14,4 +14,7 @@ namespace varimap {
 /// which is said: the time is linear in their number.
 std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const AlternationOptions& options);
 
+/// Logs what becomes of each landmark, and warns of the one that the others contradict, if any.
+void report(const std::vector<LandmarkCheck>& checks);
+
 }  // namespace varimap

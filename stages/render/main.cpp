@@ -5,9 +5,9 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/landmarks/vertex_list.h"
+#include "varimap/map_stage/map_inputs.h"
 #include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/candidates.h"
-#include "varimap/results/correspondence.h"
 #include "varimap/results/map_table.h"
 #include "varimap/stage/stage_main.h"
 
@@ -61,10 +61,7 @@ int main(int argc, char** argv) {
     RenderParams params;
     Stage stage("render", "Picture of a map: the source's colours carried to the target, from two sides");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
-    const auto& source = stage.input("source-mesh", "mesh the map starts from");
-    const auto& target = stage.input("target-mesh", "mesh the map leads to");
-    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
-    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    const MapInputs inputs(stage);
     const auto& masses =
         stage.input_list_option("distortion",
                                 "source_masses.csv and target_masses.csv of varimap-remesh: shows changes "
@@ -80,6 +77,7 @@ int main(int argc, char** argv) {
     return stage.main(argc, argv, [&] {
         if (!masses.empty() && (params.flips || !landmarks.empty()))
             throw UsageError("--distortion shows changes of mass, area and angle: no flips and no landmarks");
+        const auto& [source, target, there, back] = inputs.files();
         const RepairedMesh A = repaired(read_mesh(source), params.repair, source),
                            B = repaired(read_mesh(target), params.repair, target);
         PointMap A_to_B = read_csv_map(there), B_to_A = read_csv_map(back);

@@ -5,6 +5,7 @@
 #include "stages/transfer/transfer.h"
 #include "varimap/artifact/file_status.h"
 #include "varimap/core/error.h"
+#include "varimap/map_stage/map_inputs.h"
 #include "varimap/stage/stage_main.h"
 
 namespace {
@@ -63,10 +64,7 @@ int main(int argc, char** argv) {
     TransferParams params;
     Stage stage("transfer", "Carries points, values, textures and shapes through a map");
     stage.parameters([&](ParameterList& list) { params.describe(list); });
-    const auto& source = stage.input("source-mesh", "mesh the map starts from");
-    const auto& target = stage.input("target-mesh", "mesh the map leads to");
-    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
-    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    MapInputs inputs(stage);
     const auto& out = stage.option("out", "folder for the results, which keep the names of what is carried");
     const auto& reverse = stage.flag("reverse", "carry from the target to the source");
     const auto& points = stage.input_list_option(
@@ -84,8 +82,7 @@ int main(int argc, char** argv) {
         stage.input_option("onto", "baking: OBJ of the target with texture coordinates (default: its mesh)");
     const auto& mesh =
         stage.input_option("mesh", "OBJ of the source whose polygons are to stand in the target's shape");
-    const auto& source_hash = stage.option("source-hash", "content hash that the source's mesh must have");
-    const auto& target_hash = stage.option("target-hash", "content hash that the target's mesh must have");
+    inputs.declare_hashes(stage);
     return stage.main(argc, argv, [&] {
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
         const TransferRequest request{points,
@@ -105,9 +102,8 @@ int main(int argc, char** argv) {
             throw UsageError(
                 "nothing to carry: give --points, --values, --labels, --weights, --regions, --shape, "
                 "--texture or --mesh");
-        require_unchanged(source, source_hash);
-        require_unchanged(target, target_hash);
-        const MapFiles files{source, target, there, back};
+        inputs.require_unchanged();
+        const MapFiles files = inputs.files();
         const Correspondence map = read_correspondence(files, reverse);
         write_results(stage, out, transfer(request, map, reverse), inputs_of(request, files));
     });

@@ -6,6 +6,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/map_stage/map_inputs.h"
 #include "varimap/results/candidates.h"
 #include "varimap/stage/stage_main.h"
 
@@ -82,10 +83,7 @@ int main(int argc, char** argv) {
     LandmarkReading landmark_reading;
     Stage stage("view", "A page that shows a map, for any browser, without network");
     stage.parameters([&](ParameterList& list) { landmark_reading.describe(list); });
-    const auto& source = stage.input("source-mesh", "mesh the map starts from");
-    const auto& target = stage.input("target-mesh", "mesh the map leads to");
-    const auto& there = stage.input("source-to-target", "CSV of varimap-remesh");
-    const auto& back = stage.input("target-to-source", "CSV of varimap-remesh");
+    MapInputs inputs(stage);
     const auto& frame = stage.input("frame", "page without data, made by pipelines/view/build");
     const auto& page = stage.output("page", 0, "HTML to write");
     const auto& report = stage.input_option("report", "what pipelines/report.jq makes of quality.json");
@@ -96,13 +94,10 @@ int main(int argc, char** argv) {
     const auto& candidates_in = stage.input_option(
         "candidates", "of varimap-explore: where its choice was not sure, the page shows the first three");
     const auto& mirror = stage.flag("mirror", "the map reverses orientation on purpose");
-    const auto& source_hash = stage.option("source-hash", "content hash that the source's mesh must have");
-    const auto& target_hash = stage.option("target-hash", "content hash that the target's mesh must have");
+    inputs.declare_hashes(stage);
     return stage.main(argc, argv, [&] {
-        require_unchanged(source, source_hash);
-        require_unchanged(target, target_hash);
-        const MapFiles files{source, target, there, back};
-        const Correspondence map = read_correspondence(files, false);
+        inputs.require_unchanged();
+        const Correspondence map = read_correspondence(inputs.files(), false);
         PageContent content{map, landmarks_of(landmarks, map, landmark_reading), read_report(report), mirror};
         content.texture = texture_of(texture, map);
         if (content.texture && is_thinned(map))

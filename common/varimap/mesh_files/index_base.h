@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "varimap/core/enum_names.h"
 
@@ -17,7 +16,5 @@ struct EnumNames<IndexBase> {
 inline int number_of_first(IndexBase base) {
     return base == IndexBase::one ? 1 : 0;
 }
-/// From "0", "1" or "auto"; empty: automatic. Throws UsageError.
-IndexBase index_base_from(const std::string& text);
 
 }  // namespace varimap

@@ -215,12 +215,6 @@ TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
     EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
 }
 
-TEST(IndexBaseText, IsReadOrRefused) {
-    EXPECT_EQ(index_base_from("auto"), IndexBase::automatic);
-    EXPECT_EQ(index_base_from("1"), IndexBase::one);
-    EXPECT_THROW(index_base_from("2"), UsageError);
-}
-
 TEST_F(VertexList, SnapsRowsOfCoordinatesToTheSurface) {
     // Vertices 4 and 7 of the strip, lifted off it a little, and a point nearest to vertex 2.
     const auto pairs = write("pairs.txt", "2 0 .41 3 1 .7\n1.1 0.05 .2 0 0 0\n");
