@@ -174,6 +174,12 @@ std::string carry_points(const std::string& path, const LandmarkReading& reading
 std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back) {
     std::vector<bool> inside(std::size_t(map.from.face_count()), false);
     const TextRows rows = split_rows(read_file(path), path, Content::numbers);
+    if (has_name(rows) && lower_case(rows.rows[0].words[0]).starts_with("vert"))
+        fail_at(path, rows.rows[0].line,
+                fmt::format(
+                    "'{}' names vertices, and a region is a list of triangles; give a label for each vertex "
+                    "as --labels",
+                    excerpt(rows.rows[0].words[0])));
     for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
         const TextRow& row = rows.rows[i];
         if (row.words.size() != 1)

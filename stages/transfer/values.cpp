@@ -133,7 +133,8 @@ Place require_place(const ValueTable& table, const TriangleMesh& mesh, const std
     const Eigen::Index rows = table.values.rows();
     if (const auto place = place_of(std::size_t(rows), mesh, table.place)) return *place;
     throw InputError(
-        fmt::format("{}: {} rows, but {} has {} vertices and {} triangles: these are values of another mesh",
+        fmt::format("{}: {} rows, but {} has {} vertices and {} triangles: these are values of another mesh, "
+                    "or of polygons; give one for each vertex or triangle",
                     path, rows, mesh_file, mesh.vertex_count(), mesh.face_count()));
 }
 

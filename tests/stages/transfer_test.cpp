@@ -894,6 +894,8 @@ TEST_F(Transfer, CarriesRegions) {
     request.regions = {write("r.txt", "320\n")};
     EXPECT_THAT(refusal(request, identity_onto(ball_)),
                 HasSubstr("r.txt:1: '320' is not one of the mesh's 320 faces"));
+    request.regions = {write("r.txt", "vertex\n3\n17\n")};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("r.txt:1: 'vertex' names vertices"));
 }
 
 /// The texture coordinates under points of a cut mesh, as the source has them there.
