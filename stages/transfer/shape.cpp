@@ -221,23 +221,52 @@ Points follow_known(const WeldedMesh& welded, const std::vector<char>& known, bo
     return images;
 }
 
+/// How another shape of a mesh lies to it, by the vertices that faces use.
+class ShapeToMesh {
+  public:
+    ShapeToMesh(const TriangleMesh& mesh, const Points& shape)
+        : mesh_(mesh), shape_(shape), used_(used_vertices(mesh.faces, mesh.vertex_count()).vertex) {}
+
+    /// Whether the vertices lie about elsewhere.
+    bool is_away() const {
+        constexpr double much = 0.1;  // of the mesh's size; chosen by hand, as the others
+        const Vec3 centre = mean_of(mesh_.vertices, used_);
+        return apart() > much * apart(centre.transpose().replicate(shape_.rows(), 1));
+    }
+    /// The shape laid onto the mesh by the best similarity, or the best that mirrors.
+    Points laid(bool mirrored) const {
+        const Motion motion = best_motion(shape_, mesh_.vertices, used_, mirrored);
+        Points laid(shape_.rows(), 3);
+        for (Eigen::Index v = 0; v < shape_.rows(); ++v)
+            laid.row(v) = motion(shape_.row(v).transpose()).transpose();
+        return laid;
+    }
+    double apart() const { return apart(shape_); }
+    double apart(const Points& other) const {
+        return (other(used_, Eigen::all) - mesh_.vertices(used_, Eigen::all)).norm();
+    }
+
+  private:
+    const TriangleMesh& mesh_;
+    const Points& shape_;
+    std::vector<int> used_;
+};
+
+/// Of the displacements: what may be left of them where they are those of a motion.
+constexpr double most_left = 0.5;
+
 }  // namespace
 
 std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape) {
-    constexpr double much = 0.1;       // of the mesh's size; chosen by hand, as the other
-    constexpr double most_left = 0.5;  // of the displacements
-    const std::vector<int> used = used_vertices(mesh.faces, mesh.vertex_count()).vertex;
-    const auto apart = [&](const Points& other) {
-        return (other(used, Eigen::all) - mesh.vertices(used, Eigen::all)).norm();
-    };
-    const Vec3 centre = mean_of(mesh.vertices, used);
-    const double before = apart(shape), size = apart(centre.transpose().replicate(shape.rows(), 1));
-    if (!(before > much * size)) return std::nullopt;
-    const Motion motion = best_motion(shape, mesh.vertices, used, false);
-    Points laid(shape.rows(), 3);
-    for (Eigen::Index v = 0; v < shape.rows(); ++v)
-        laid.row(v) = motion(shape.row(v).transpose()).transpose();
-    return apart(laid) < most_left * before ? std::optional(laid) : std::nullopt;
+    const ShapeToMesh lie(mesh, shape);
+    if (!lie.is_away()) return std::nullopt;
+    Points laid = lie.laid(false);
+    return lie.apart(laid) < most_left * lie.apart() ? std::optional(std::move(laid)) : std::nullopt;
+}
+
+bool is_mirror_image(const TriangleMesh& mesh, const Points& shape) {
+    const ShapeToMesh lie(mesh, shape);
+    return lie.is_away() && lie.apart(lie.laid(true)) < most_left * lie.apart(lie.laid(false));
 }
 
 Points carry_shape(const Correspondence& map, const Points& shape) {

@@ -17,6 +17,10 @@ Points carry_shape(const Correspondence& map, const Points& shape);
 /// axes, units or place, which would be carried as a displacement of every vertex. Otherwise nothing.
 std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape);
 
+/// Whether a mesh in another shape is rather its mirror image in another shape, as where two axes were
+/// exchanged.
+bool is_mirror_image(const TriangleMesh& mesh, const Points& shape);
+
 /// The vertices of `map.from` at their images on `map.to`. Those without an image follow the vertices nearest
 /// to them that have one: by the best similarity from these to their images, one for all vertices that hang
 /// together, so that a small part that was left out of the map keeps its form.

@@ -1518,6 +1518,13 @@ TEST_F(Transfer, AShapeMayLieElsewhere) {
     TransferRequest request;
     request.shapes = {write("away.ply", to_ply({away, ball_.faces}))};
     EXPECT_THAT(warnings_of(request, map), HasSubstr("lies elsewhere than a.obj"));
+    for (const Points& other : {bulging.vertices, away, bent.vertices})
+        EXPECT_FALSE(is_mirror_image(ball_, other));
+    TriangleMesh exchanged = bulging;
+    exchanged.vertices.col(1).swap(exchanged.vertices.col(2));
+    EXPECT_TRUE(is_mirror_image(ball_, exchanged.vertices));
+    request.shapes = {write("exchanged.ply", to_ply(exchanged))};
+    EXPECT_THAT(refusal(request, map), HasSubstr("is a mirror image of a.obj, or has two axes exchanged"));
 }
 
 TEST_F(Transfer, CarriesColumnsOfParaView) {
