@@ -6,21 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <set>
 
+#include "fixtures/explored.h"
 #include "fixtures/known_pair.h"
 #include "fixtures/surface_data.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/explore/appraisal.h"
 #include "stages/explore/finishing.h"
 #include "stages/explore/landmark_spread.h"
-#include "stages/explore/mirror_images.h"
 #include "stages/explore/pool.h"
-#include "stages/explore/self_maps.h"
-#include "stages/explore/starts.h"
 #include "stages/explore/surface_comparison.h"
-#include "stages/explore/tips.h"
 #include "stages/explore/turns.h"
 #include "stages/generate/level_set.h"
 #include "varimap/core/rotation.h"
@@ -32,35 +27,12 @@
 namespace varimap {
 namespace {
 
+using shapes::explored;
+using shapes::figures;
+using shapes::finish_from;
 using shapes::KnownPair;
-
-/// The figure and its pose, as coarse as exploration gets surfaces.
-const KnownPair& figures() {
-    static const KnownPair pair = shapes::figure_pair(1, false, 1000);
-    return pair;
-}
-
-Candidates explored(const PairContext& context) {
-    return explore(context, ExploreParams());
-}
-
-std::vector<FinishedMap> finish_from(const PairContext& context, const std::vector<VertexImages>& images,
-                                     const FinishingOptions& options) {
-    std::vector<MapStart> starts;
-    for (const VertexImages& one : images)
-        starts.push_back([&one](const LevelPair& level) { return matching_of(one, level); });
-    return finish(context, Appraisal(context), starts, options);
-}
-
-/// The pair with its target reflected in space, which makes it of the other handedness.
-KnownPair reflected(KnownPair pair) {
-    Surface& B = pair.B.surface;
-    B.mesh.vertices.col(1) *= -1;
-    B.input.vertices.col(1) *= -1;
-    B = with_reversed_orientation(std::move(B));
-    pair.A_on_B.col(1) *= -1;
-    return pair;
-}
+using shapes::person;
+using shapes::reflected;
 
 TEST(Explore, FindsTheMapOfAFigureOntoItsPose) {
     const PairContext context = figures().context();
@@ -98,11 +70,6 @@ TEST(Explore, IsTheSameToTheLastBitForAnyThreads) {
         return encode(explored(context));
     };
     EXPECT_EQ(bytes(1), bytes(2));
-}
-
-/// A person without face or feet, whose front is its back: turning it about is nearly a self-map.
-TriangleMesh turnable() {
-    return shapes::ellipsoid(3, {.6, 1, 2});
 }
 
 TEST(Explore, HandsOnWhereGoodLandmarksLead) {
@@ -183,180 +150,6 @@ TEST(Explore, HandsOnAnIsometryOfSheetsThatTwoLandmarksGive) {
     EXPECT_EQ(found.list[0].explored, 0);
     EXPECT_LT(found.list[0].dirichlet, 1.05);
     EXPECT_LT(plausibility(found.list[0]), .95);  // relief alone would have it looked for further
-}
-
-TEST(SelfMaps, AreTheTurnsOfAnEllipsoid) {
-    const TriangleMesh mesh = turnable();
-    const KnownPair pair = shapes::known_pair(mesh, mesh, {}, 60, {});
-    const PairContext context(pair.A, pair.A, {});
-    const Candidates found = find_self_maps(context, ExploreParams());
-    ASSERT_GE(found.list.size(), 1u);
-    for (std::size_t k = 0; k < found.list.size(); ++k) {
-        EXPECT_FALSE(is_mirrored(found.list[k]));
-        EXPECT_GT(found.list[k].turn, 140);  // twisted a little: they are rough
-        EXPECT_LT(found.list[k].score, .2);  // log of the energy, less the identity's
-        EXPECT_EQ(int(found.maps[k].from_A.size()), pair.A.surface.mesh.vertex_count());
-    }
-}
-
-TEST(SelfMaps, BringTheRightMapToAWrongOne) {
-    const TriangleMesh mesh = turnable();
-    const KnownPair pair = shapes::known_pair(mesh, mesh, {}, 60, {});
-    const PairContext context(pair.A, pair.A, {});
-    const Surface& surface = context.A().surface;
-    const std::vector<VertexImages> turns = images_of(find_self_maps(context, ExploreParams()), surface);
-    ASSERT_FALSE(turns.empty());
-    std::vector<PooledMap> pool{{turns[0], {.explored = 1}}};
-    compose(pool, 1, turns, {}, context);
-    std::vector<VertexImages> starts;
-    for (const PooledMap& map : pool) starts.push_back(map.images);
-    FinishingOptions options;
-    options.gap = options.gap_at_first = 1000;
-    double least = 1;
-    const Points& truth = surface.mesh.vertices;
-    for (const FinishedMap& map : finish_from(context, starts, options))
-        least = std::min(least, shapes::mean_error(map.maps.A_to_B, surface.mesh, truth));
-    EXPECT_LT(least, .05);  // one of them is a half turn done twice: the identity
-    starts.resize(1);
-    EXPECT_GT(shapes::mean_error(finish_from(context, starts, options)[0].maps.A_to_B, surface.mesh, truth),
-              .2);
-}
-
-/// A person with a front and a back, left and right alike, and landmarks at both hands and both feet.
-KnownPair person() {
-    struct Limb {
-        Vec3 from, to;
-        double radius;
-    };
-    std::vector<Limb> limbs{
-        {{0, 0, 0}, {0, 0, 1}, .22}, {{0, 0, 1.3}, {0, .05, 1.4}, .17}, {{0, .25, .15}, {0, .25, .3}, .22}};
-    std::vector<Vec3> tips;
-    for (const double side : {-1., 1.}) {
-        limbs.push_back({{side * .2, 0, .9}, {side * .8, .15, .6}, .09});
-        limbs.push_back({{side * .13, 0, -.1}, {side * .2, 0, -1}, .11});
-        limbs.push_back({{side * .2, 0, -1}, {side * .2, .35, -1.05}, .08});
-        tips.push_back({side * .9, .15, .6});
-        tips.push_back({side * .2, .45, -1.05});
-    }
-    const auto f = [&](const Vec3& p) {
-        double sum = 0;  // of exponentials: a smooth union
-        for (const Limb& limb : limbs) {
-            const Vec3 along = limb.to - limb.from;
-            const double t = std::clamp((p - limb.from).dot(along) / along.squaredNorm(), 0., 1.);
-            sum += std::exp(-30 * ((p - limb.from - t * along).norm() - limb.radius));
-        }
-        return -std::log(sum) / 30;
-    };
-    const TriangleMesh mesh = shapes::level_set(f, {-1.2, -.6, -1.4}, {1.2, .8, 1.8}, .09),
-                       other = shapes::level_set(f, {-1.25, -.63, -1.42}, {1.2, .8, 1.8}, .09);
-    return shapes::known_pair(mesh, other, {}, 60, tips, 1000);
-}
-
-/// Counts how often self-maps of either surface are asked for.
-struct AskedFor {
-    int A = 0, B = 0;
-    SelfMapsOnDemand ask{[this] { return ++A, Candidates(); }, [this] { return ++B, Candidates(); }};
-};
-
-TEST(SelfMaps, AreThoseOfOneSurfaceWhereShapesAreAlike) {
-    const KnownPair alike = shapes::figure_pair(.5, false, 1000);
-    AskedFor asked;
-    OnDemand ask;
-    ask.self_maps = asked.ask;
-    ExploreParams params;
-    params.exploration.candidates = 1;  // no rival that is turned about
-    params.exploration.coarse = 1;
-    explore({alike.A, alike.B, {}}, params, ask);
-    EXPECT_EQ(asked.A, 0);
-    EXPECT_EQ(asked.B, 1);
-}
-
-TEST(SelfMaps, AreAskedForOnceAndWhereTheyAreNeeded) {
-    const PairContext context = figures().context();
-    AskedFor asked;
-    LazySelfMaps self_maps(context, asked.ask);
-    std::vector<PooledMap> pool;
-    self_maps.add_compositions_with_B(pool, 2);
-    EXPECT_EQ(asked.A, 0);
-    EXPECT_EQ(asked.B, 1);
-    self_maps.add_compositions(pool, 2);
-    self_maps.add_compositions(pool, 2);
-    EXPECT_EQ(asked.A, 1);
-    EXPECT_EQ(asked.B, 1);
-}
-
-/// Explored without landmarks, as a pair of files is.
-Candidate best_of(const KnownPair& pair) {
-    const PairContext context = pair.context();
-    const ExploreParams params;
-    OnDemand ask;
-    ask.self_maps = find_when_asked(context, params);
-    return explore(context, params, ask).list.front();
-}
-
-TEST(MirrorImages, TellALeftOneFromARightOne) {
-    const KnownPair same = shapes::figure_pair(.5, false, 1000);
-    EXPECT_FALSE(fits_mirrored(best_of(same)));
-    const Candidate opposite = best_of(reflected(same));
-    EXPECT_TRUE(fits_mirrored(opposite));
-    EXPECT_FALSE(confidence_of({opposite}).confident);
-    EXPECT_THAT(doubt({opposite}), testing::HasSubstr("fit better as mirror images"));
-}
-
-/// Landmarks that decide, and keep all from being looked for, know a left one, too.
-TEST(MirrorImages, AreToldFromByLandmarks) {
-    const KnownPair same = shapes::figure_pair(.2, true, 1000), other = reflected(same);
-    ExploreParams params;
-    params.only_if_needed = true;
-    const PairContext right = same.context(), left = other.context();
-    ASSERT_GE(right.landmarks().size(), 4u);
-    EXPECT_FALSE(landmarks_look_mirrored(right, false));
-    EXPECT_TRUE(landmarks_look_mirrored(left, false));
-    EXPECT_FALSE(landmarks_look_mirrored(left, true)) << "with --mirror";
-    EXPECT_FALSE(fits_mirrored(explore(right, params).list.front()));
-    EXPECT_TRUE(fits_mirrored(explore(left, params).list.front()));
-    params.few_landmarks = 3;
-    const std::size_t before = logged_warnings().size();
-    EXPECT_TRUE(explore(right, params).list.empty());
-    EXPECT_EQ(logged_warnings().size(), before);
-    EXPECT_TRUE(explore(left, params).list.empty());
-    ASSERT_EQ(logged_warnings().size(), before + 1);
-    EXPECT_THAT(logged_warnings().back(), testing::HasSubstr("--mirror"));
-}
-
-TEST(MirrorImages, AreTheSameOnCoarseLevels) {
-    const KnownPair pair = shapes::figure_pair(.5, false, 1000);
-    const PairContext context(pair.A, pair.B, {});
-    const ExploreParams params;
-    const ExplorationProgress coarse = coarsely_explored(context, params.exploration, params),
-                              mirror =
-                                  coarsely_explored(with_mirror_image(context), params.exploration, params);
-    EXPECT_GT(coarse.levels, 3);
-    EXPECT_LT(coarse.levels, context.diffusion_levels());
-    ASSERT_EQ(coarse.levels, mirror.levels);
-    ASSERT_EQ(coarse.pool.size(), mirror.pool.size());
-    for (std::size_t n = 0; n < coarse.pool.size(); ++n)
-        EXPECT_EQ(coarse.pool[n].energy(), mirror.pool[n].energy());
-}
-
-TEST(MirrorImages, OfBodiesThatAreTheirOwnLeadToMapsAsTheyAre) {
-    const KnownPair pair = person();
-    const PairContext context(pair.A, pair.B, {});
-    FinishingOptions options;
-    options.gap = options.gap_at_first = 1000;
-    const ExploreParams params;
-    const MirrorImages mirror(context, coarsely_explored(context, params.exploration, params), params,
-                              options, 10);
-    EXPECT_LT(mirror.best().score, -30);
-    std::vector<VertexImages> starts;
-    for (const PooledMap& map : mirror.mirrored_back()) {
-        EXPECT_TRUE(map.origin.mirrored_back);
-        starts.push_back(map.images);
-    }
-    double least = 1;
-    for (const FinishedMap& map : finish_from(context, starts, options))
-        least = std::min(least, shapes::mean_error(map.maps, pair));
-    EXPECT_LT(least, .05);
 }
 
 /// Warnings of exploring where landmarks may decide.
@@ -669,106 +462,6 @@ TEST(Explore, LeavesTheSurfacesAloneWhereSketchesDecide) {
     OnDemand ask;
     ask.surfaces = []() -> PairContext { throw std::logic_error("asked for"); };
     EXPECT_FALSE(explore(figures().context(), ExploreParams(), ask).list.empty());
-}
-
-TEST(Starts, SpectralMatchingsHoldTheTrueOne) {
-    // A surface onto itself: among the signs there is the identity.
-    KnownPair pair = figures();
-    pair.B = pair.A;
-    const PairContext context = pair.context();
-    const LevelPair level = context.diffusion_level(2);
-    const auto matchings = spectral_matchings(context, level);
-    EXPECT_EQ(matchings.size(), 16u);
-    const auto is_identity = [](const Matching& m) {
-        return std::all_of(m.begin(), m.end(), [](auto p) { return p.first == p.second; });
-    };
-    EXPECT_EQ(std::count_if(matchings.begin(), matchings.end(), is_identity), 1);
-}
-
-Tips tips_of(const PairContext& context, bool of_A) {
-    const LevelPair level = context.diffusion_level(context.diffusion_levels() - 1);
-    return find_tips(of_A ? context.graph_A() : context.graph_B(),
-                     of_A ? level.A.level.samples : level.B.level.samples, 8);
-}
-
-TEST(Tips, AreTheEndsOfAnEllipsoid) {
-    const TriangleMesh mesh = shapes::ellipsoid(3, {.5, .6, 2});
-    const GeodesicGraph graph(mesh);
-    std::vector<int> all(std::size_t(mesh.vertex_count()));
-    std::iota(all.begin(), all.end(), 0);
-    const Tips tips = find_tips(graph, all, 8);
-    ASSERT_EQ(tips.vertices.size(), 2u);
-    double product = 1;
-    for (const int tip : tips.vertices) {
-        EXPECT_GT(std::abs(mesh.vertex(tip)[2]), 1.8);
-        product *= mesh.vertex(tip)[2];
-    }
-    EXPECT_LT(product, 0);
-    EXPECT_EQ(tips.distance(tips.vertices[1], 1), 0);
-    EXPECT_TRUE(match_tips(tips, tips, 5).empty());  // two are too few to tell anything
-}
-
-TEST(Tips, OfAFigureAndItsPoseAreMatchedRightAmongTheBest) {
-    const KnownPair& pair = figures();
-    const PairContext context = pair.context();
-    const Tips A = tips_of(context, true), B = tips_of(context, false);
-    ASSERT_GE(A.vertices.size(), 4u);
-    const std::vector<TipMatching> matchings = match_tips(A, B, 32);
-    ASSERT_FALSE(matchings.empty());
-    ASSERT_LE(matchings.size(), 32u);
-    const auto is_right = [&](const TipMatching& tips) {
-        return std::all_of(tips.begin(), tips.end(), [&](const auto& match) {
-            const Vec3 truth = pair.A_on_B.row(A.vertices[std::size_t(match.first)]).transpose();
-            return (pair.B.surface.mesh.vertex(B.vertices[std::size_t(match.second)]) - truth).norm() < .15;
-        });
-    };
-    EXPECT_TRUE(std::any_of(matchings.begin(), matchings.end(), is_right));
-    EXPECT_FALSE(std::all_of(matchings.begin(), matchings.end(), is_right));
-    EXPECT_TRUE(match_tips(A, B, 0).empty());
-}
-
-TEST(Starts, AxesMatchingsHoldTheTrueOneWhateverTheProportions) {
-    // A figure turned in space, twice as stout and half as tall: the places of samples tell which is which.
-    KnownPair pair = figures();
-    pair.B = pair.A;
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-    pair.B.surface.mesh.vertices =
-        pair.A.surface.mesh.vertices * Vec3(2, 2, .5).asDiagonal() * turn.transpose();
-    const PairContext context = pair.context();
-    const LevelPair level = context.diffusion_level(context.diffusion_levels() - 1);
-    const auto matchings = axes_matchings(context, level);
-    EXPECT_EQ(matchings.size(), 24u);
-    const std::vector<int>& samples = level.A.level.samples;
-    const TriangleMesh& mesh = pair.A.surface.mesh;
-    std::vector<double> errors;
-    for (const Matching& m : matchings) {
-        double sum = 0;
-        for (const auto& [i, j] : m)
-            sum += (mesh.vertex(samples[std::size_t(i)]) - mesh.vertex(samples[std::size_t(j)])).norm();
-        errors.push_back(sum / double(m.size()));
-    }
-    std::sort(errors.begin(), errors.end());
-    EXPECT_LT(errors[0], .1);
-    EXPECT_GT(errors[1], .15);
-}
-
-TEST(Starts, RandomMatchingsUseEverySampleAndRepeatForASeed) {
-    std::mt19937 random(3), again(3);
-    const auto matchings = random_matchings(5, 8, 4, random);
-    EXPECT_EQ(matchings, random_matchings(5, 8, 4, again));
-    EXPECT_NE(matchings[0], matchings[1]);
-    std::set<int> rows, columns;
-    for (const auto& [i, j] : matchings[0]) rows.insert(i), columns.insert(j);
-    EXPECT_EQ(rows.size(), 5u);
-    EXPECT_EQ(columns.size(), 8u);
-}
-
-TEST(Starts, SwapsExchangeRowsPairwise) {
-    const Coupling plan{Support::dense(3, 2), Eigen::VectorXd::LinSpaced(6, 0, 5), Eigen::VectorXd::Zero(3),
-                        Eigen::VectorXd::Zero(2)};
-    const auto swapped = with_swapped_rows(plan, 8);
-    ASSERT_EQ(swapped.size(), 3u);
-    EXPECT_EQ(swapped[1].value, (Eigen::VectorXd(6) << 4, 5, 2, 3, 0, 1).finished());
 }
 
 TEST(Confidence, NeverCallsAMapImpossibleOrCertain) {

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -25,8 +24,8 @@ FileState state_of(const struct stat& status) {
                         status.st_mtim.tv_nsec, status.st_ctim.tv_sec, status.st_ctim.tv_nsec)};
 }
 
-bool is_at_rest(const struct stat& status) {
-    return std::max(status.st_mtim.tv_sec, status.st_ctim.tv_sec) + seconds_at_rest <= std::time(nullptr);
+bool is_at_rest(const struct stat& status, std::time_t now) {
+    return std::max(status.st_mtim.tv_sec, status.st_ctim.tv_sec) + seconds_at_rest <= now;
 }
 
 bool is_artifact(const std::string& path) {
@@ -104,7 +103,8 @@ InputRecord KnownHashes::identify(const std::string& role, const std::string& pa
             record = *known;
         } else {
             record = read_and_hash(path);
-            if (is_at_rest(status) && file_state(path) == state) remember(file, memory_line(state, record));
+            if (is_at_rest(status, now_()) && file_state(path) == state)
+                remember(file, memory_line(state, record));
         }
     }
     record.role = role;

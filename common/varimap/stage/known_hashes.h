@@ -1,6 +1,9 @@
 #pragma once
 
+#include <ctime>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "varimap/artifact/artifact.h"
 
@@ -19,8 +22,11 @@ FileState file_state(const std::string& path);
 /// clock: one that changes while it is read, or whose times lie in the future, is read every time.
 class KnownHashes {
   public:
-    /// Remembers nothing where `folder` is empty.
-    explicit KnownHashes(std::string folder) : folder_(std::move(folder)) {}
+    using Clock = std::function<std::time_t()>;
+    /// Remembers nothing where `folder` is empty. `now`: this machine's clock, in seconds as of std::time.
+    explicit KnownHashes(
+        std::string folder, Clock now = [] { return std::time(nullptr); })
+        : folder_(std::move(folder)), now_(std::move(now)) {}
     /// Kind and content hash: of an artifact its own kind and the hash of its payload, read whole and
     /// checked; of any other file "file", or its ending, which tells readers its format. Throws ArtifactError
     /// (a damaged artifact), IoError.
@@ -28,6 +34,7 @@ class KnownHashes {
 
   private:
     std::string folder_;
+    Clock now_;
 };
 
 /// "off" for x.OFF; "file" where there is no such ending.

@@ -43,18 +43,12 @@ TriangleMesh globe(int rings, int sectors) {
 TriangleMesh flat_grid(int n, double stretch) {
     std::mt19937 random(7);
     const auto jitter = [&] { return .6 * (double(random()) / double(std::mt19937::max()) - .5); };
-    TriangleMesh mesh{Points(n * n, 3), Faces(2 * (n - 1) * (n - 1), 3)};
+    TriangleMesh mesh{Points(n * n, 3), shapes::grid_faces(n)};
     for (int i = 0; i < n * n; ++i) {
         const int x = i % n, y = i / n;
         const bool inner = x > 0 && y > 0 && x < n - 1 && y < n - 1;
         mesh.vertices.row(i) << stretch * (x + (inner ? jitter() : 0)), y + (inner ? jitter() : 0), 0;
     }
-    for (int y = 0, f = 0; y + 1 < n; ++y)
-        for (int x = 0; x + 1 < n; ++x) {
-            const int v = y * n + x;
-            mesh.faces.row(f++) << v, v + 1, v + n + 1;
-            mesh.faces.row(f++) << v, v + n + 1, v + n;
-        }
     return mesh;
 }
 

@@ -11,6 +11,7 @@ namespace varimap {
 namespace {
 
 using shapes::at_vertices;
+using shapes::map_by;
 
 TriangleMesh rectangle(int n, double width, double height) {
     TriangleMesh mesh = shapes::square(n);
@@ -21,15 +22,6 @@ TriangleMesh rectangle(int n, double width, double height) {
 
 void expect_all(const Quantiles& q, double value) {
     for (const double quantile : {q.p01, q.p05, q.p50, q.p95, q.p99}) EXPECT_NEAR(quantile, value, 1e-9);
-}
-
-/// Closest points of each vertex of a mesh moved by `move`.
-template <class Move>
-PointMap map_by(const TriangleMesh& source, const TriangleMesh& target, const Move& move) {
-    const ClosestPoint closest(target);
-    PointMap map;
-    for (int v = 0; v < source.vertex_count(); ++v) map.push_back(closest(move(source.vertex(v))).point);
-    return map;
 }
 
 /// A sphere with a long limb upwards.

@@ -6,11 +6,13 @@
 
 #include "fixtures/map_shapes.h"
 #include "fixtures/shapes.h"
+#include "fixtures/sphere_pair.h"
 #include "varimap/core/error.h"
 
 namespace varimap {
 namespace {
 
+using shapes::identity_plan;
 using shapes::plain_surface;
 
 /// A sphere pressed to a thin sheet with an upper and a lower side.
@@ -18,19 +20,6 @@ Surface sheet(double thickness) {
     TriangleMesh mesh = shapes::ellipsoid(2);
     mesh.vertices.col(2) *= thickness / 2;
     return plain_surface(mesh);
-}
-
-Plan identity_plan(const Surface& surface) {
-    Plan identity;
-    SamplePlan& plan = identity.plan;
-    const int n = surface.mesh.vertex_count();
-    for (int v = 0; v < n; ++v) plan.samples_A.push_back(v);
-    plan.samples_B = plan.samples_A;
-    plan.mass_A = plan.mass_B = plan.transported_A = plan.transported_B = surface.mass;
-    plan.entries.resize(n, n);
-    plan.entries.setIdentity();
-    identity.centre_A = identity.centre_B = surface.mesh.vertices;
-    return identity;
 }
 
 /// The vertex nearest to the middle of one side of a sheet.

@@ -31,6 +31,16 @@ Centres zero_centres(const LevelPair& pair) {
     return centres;
 }
 
+/// What half-steps on a dense support begin from, and change.
+struct HalfSteps {
+    const LevelPair pair = tube_level();
+    const Side &X = pair.A.side, &Y = pair.B.side;
+    const Support support = Support::dense(int(X.mass.size()), int(Y.mass.size()));
+    Centres centres = zero_centres(pair);
+    Coupling plan{support, {}, {}, {}};
+    Potentials potentials = Potentials::zero(support.rows(), support.columns());
+};
+
 /// gamma sum pi (log(pi / (m n)) - 1).
 double entropy(const Side& X, const Side& Y, const Coupling& plan, double gamma) {
     const RowMatrix pi = dense(plan), product = X.mass * Y.mass.transpose();
@@ -38,13 +48,8 @@ double entropy(const Side& X, const Side& Y, const Coupling& plan, double gamma)
 }
 
 TEST(AlternatingMinimization, EachHalfStepLowersWhatItMinimises) {
-    const LevelPair pair = tube_level();
-    const Side &X = pair.A.side, &Y = pair.B.side;
-    const Support support = Support::dense(int(X.mass.size()), int(Y.mass.size()));
-    Centres centres = zero_centres(pair);
-    Coupling plan;
-    plan.support = support;
-    Potentials potentials = Potentials::zero(support.rows(), support.columns());
+    HalfSteps state;
+    auto& [pair, X, Y, support, centres, plan, potentials] = state;
     double previous = INFINITY, first = 0, gamma = 0;
     for (int round = 0; round < 8; ++round) {
         const Eigen::VectorXd cost = CostFactors(X, Y, centres).on(support);
@@ -65,13 +70,8 @@ TEST(AlternatingMinimization, EachHalfStepLowersWhatItMinimises) {
 
 /// The default energy within bounds: what the bounds allow lowers it, and each half-step what it minimises.
 TEST(AlternatingMinimization, EachHalfStepWithinBoundsLowersWhatItMinimises) {
-    const LevelPair pair = tube_level();
-    const Side &X = pair.A.side, &Y = pair.B.side;
-    const Support support = Support::dense(int(X.mass.size()), int(Y.mass.size()));
-    Centres centres = zero_centres(pair);
-    Coupling plan;
-    plan.support = support;
-    Potentials potentials = Potentials::zero(support.rows(), support.columns());
+    HalfSteps state;
+    auto& [pair, X, Y, support, centres, plan, potentials] = state;
     double previous = INFINITY, gamma = 0;
     for (int round = 0; round < 8; ++round) {
         const Eigen::VectorXd cost = CostFactors(X, Y, centres).on(support);
@@ -92,15 +92,10 @@ TEST(AlternatingMinimization, EachHalfStepWithinBoundsLowersWhatItMinimises) {
 /// C' of Sec. 3.4: three half-steps, each lowers C' (the plan's: with its entropy) and keeps Eq. (10).
 TEST(AlternatingMinimization, EachHalfStepOfThePaperLowersItsEnergy) {
     constexpr double D = 1.5, slack = 1.1;
-    const LevelPair pair = tube_level();
-    const Side &X = pair.A.side, &Y = pair.B.side;
+    HalfSteps state;
+    auto& [pair, X, Y, support, centres, plan, potentials] = state;
     const MassBounds area_X = MassBounds::around(X.mass, D), area_Y = MassBounds::around(Y.mass, D);
-    const Support support = Support::dense(int(X.mass.size()), int(Y.mass.size()));
     RelaxedMasses relaxed{X.mass, Y.mass};
-    Centres centres = zero_centres(pair);
-    Coupling plan;
-    plan.support = support;
-    Potentials potentials = Potentials::zero(support.rows(), support.columns());
     double previous = INFINITY, gamma = 0;
     for (int round = 0; round < 8; ++round) {
         const Eigen::VectorXd cost = CostFactors(X, Y, centres, relaxed).on(support);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fixtures/shapes.h"
 #include "varimap/core/error.h"
 
 namespace varimap {
@@ -12,14 +13,8 @@ namespace {
 
 /// A flat square of side n - 1 with n x n vertices; vertex y n + x lies at (x, y).
 TriangleMesh square(int n) {
-    TriangleMesh mesh{Points(n * n, 3), Faces(2 * (n - 1) * (n - 1), 3)};
+    TriangleMesh mesh{Points(n * n, 3), shapes::grid_faces(n)};
     for (int i = 0; i < n * n; ++i) mesh.vertices.row(i) << i % n, i / n, 0;
-    for (int y = 0, f = 0; y + 1 < n; ++y)
-        for (int x = 0; x + 1 < n; ++x) {
-            const int v = y * n + x;
-            mesh.faces.row(f++) << v, v + 1, v + n + 1;
-            mesh.faces.row(f++) << v, v + n + 1, v + n;
-        }
     return mesh;
 }
 

@@ -16,18 +16,10 @@ namespace varimap {
 namespace {
 
 using shapes::at_vertices;
+using shapes::map_by;
 using std::numbers::pi;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-/// Closest points to where `move` sends the vertices.
-template <class Move>
-PointMap map_by(const TriangleMesh& source, const TriangleMesh& target, const Move& move) {
-    const ClosestPoint closest(target);
-    PointMap map;
-    for (int v = 0; v < source.vertex_count(); ++v) map.push_back(closest(move(source.vertex(v))).point);
-    return map;
-}
 
 /// p turned about the z axis until its longitude is `factor` times as large.
 Vec3 wind(const Vec3& p, double factor) {
