@@ -21,7 +21,7 @@ handful() {
 }
 
 # tell_other_landmarks FOLDER MESH: warns of files in FOLDER that have the name of that mesh, too, and are not read.
-# shellcheck disable=SC2154  # name and landmark_endings are script.sh's
+# shellcheck disable=SC2154  # name is the script's, landmark_endings script.sh's
 tell_other_landmarks() {
     local stem ending files=()
     stem=${2##*/} stem=${stem%.*}
