@@ -1,4 +1,5 @@
-# What is said of the numbers of quality.json, in the same words by all that tell of a map. A module: jq -L pipelines 'include "quality_words"; ...'
+# What is said of the numbers of quality.json, in the same words by all that tell of a map. Definitions, of
+# words_of_quality (script.sh).
 def fixed($digits): . * pow(10; $digits) | round / pow(10; $digits);
 # Of probabilities: what is not sure must not look as if it were.
 def rounded_down($digits): . * pow(10; $digits) + 1e-9 | floor / pow(10; $digits);

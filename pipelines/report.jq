@@ -1,8 +1,7 @@
 # What quality.json says, for people: a verdict, every check with its grade, warnings, the stages of those that make one look
 # (alarms), both as what to look at before the map is used (look), times.
-#   jq -L pipelines [--arg changed TEXT] 'include "report"; report' quality.json
+# Definitions, of words_of_quality (script.sh): jq [--arg changed TEXT] "$(words_of_quality)report" quality.json
 # TEXT: what has changed since the map was made, to be looked at as well.
-include "quality_words";
 def grade($good; $usable): if . <= $good then "good" elif . <= $usable then "usable" else "look here" end;
 # badness: 1 at the end of what is usable.
 def check($what; $value; $number; $good; $usable):

@@ -126,6 +126,10 @@ shell_words() {
     printf '%s' "${text# }"
 }
 
+# What a jq program that tells of maps begins with: definitions, and no modules, which jq 1.6 does not find below a folder whose name
+# is not UTF-8.
+words_of_quality() { cat -- "$share/quality_words.jq" "$share/report.jq" && echo; }
+
 # find_landmarks FOLDER MESH: the file of landmarks in FOLDER that has the name of that mesh; nothing where there is none.
 find_landmarks() {
     local stem ending file

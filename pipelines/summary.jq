@@ -1,6 +1,5 @@
 # What quality.json says of a map that was just made, in lines for people.
-#   jq -r -L pipelines --arg out OUT -f summary.jq quality.json
-include "quality_words";
+# A program behind words_of_quality (script.sh): jq -r --arg out OUT PROGRAM quality.json
 def direction(name; d): "  \(name): \(d.verification.reversed_count | counted("triangle"; "triangles")) reversed "
     + "(\(d.verification.reversed_area_percent | fixed(2)) % of the area), \(d.verification.branch_points | counted("branch point"; "branch points")), "
     + "coverage \(d | reached.coverage * 100 | fixed(1)) %\(if d.when_closed then " (holes closed)" else "" end), conformal distortion \(d.conformal_distortion.p50 | fixed(2))"

@@ -1,7 +1,6 @@
 # The result of a pair, one line of JSON, of its quality.json and what report.jq says of it.
-#   jq -c --arg name .. --arg source .. --arg target .. --arg key .. --arg candidate .. -L pipelines -f result.jq quality.json
-include "quality_words";
-include "report";
+# A program behind words_of_quality (script.sh):
+#   jq -c --arg name .. --arg source .. --arg target .. --arg key .. --arg candidate .. PROGRAM quality.json
 def digits($n): if . == null then null else fixed($n) end;
 # What exploration says is about the first candidate.
 . as $q | report as $r | (if $q.exploration.continued == 1 then $q.exploration else null end) as $first | [$q.source_to_target, $q.target_to_source | select(. != null)] as $both

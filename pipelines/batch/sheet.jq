@@ -1,6 +1,5 @@
 # The contact sheet: a card for each pair, the worst first, a thousand at most.
-#   jq -r -n -L pipelines -f sheet.jq results.jsonl
-include "quality_words";
+# A program behind words_of_quality (script.sh): jq -r -n PROGRAM results.jsonl
 def rank: if .status == "done" then [1, -.badness, .name] elif .status == "failed" then [0, 0, .name] else [2, 0, .name] end;
 def shown: if .sure_when_found then "picture.png" else "candidates.png" end;
 def card: (.name | @uri) as $folder

@@ -141,7 +141,8 @@ expect_exit() {
 }
 
 # report_on <FILE: what is said of that quality.json, for programs.
-report_on() { jq -L "$VARIMAP_SOURCE/pipelines" 'include "report"; report'; }
+words_of_quality() { cat -- "$VARIMAP_SOURCE"/pipelines/{quality_words,report}.jq && echo; }  # as script.sh has it
+report_on() { jq "$(words_of_quality)report"; }
 
 same() {  # FILE FILE
     cmp -s "$1" "$2" || fail "$1 and $2 differ"

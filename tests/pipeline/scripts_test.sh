@@ -117,6 +117,12 @@ ln -s ../prefix/bin/varimap elsewhere/varimap
 )
 check_front_end elsewhere/varimap
 
+# From a folder whose name is not UTF-8, below which jq finds no modules.
+odd=$'o\xffdd'
+cp -r prefix "$odd"
+"$odd/bin/varimap" report installed >out.txt 2>log || fail "from a folder whose name is not UTF-8: $(cat log)"
+grep -q '^verdict  ' out.txt || fail "a report from a folder whose name is not UTF-8"
+
 # Markdown as plain text.
 cat >prefix/share/varimap/help/page.md <<'TEXT'
 # A page

@@ -14,7 +14,7 @@ jq '.warnings = [{stage: "diffuse a--b", message: "all is\nlost"}]' good/quality
 expect_exit 6 "$varimap" report absent
 
 # Of many parts that are not reached the largest are named; nothing is called impossible, or certain.
-summary_of() { jq -r -L "$VARIMAP_SOURCE/pipelines" --arg out good -f "$VARIMAP_SOURCE/pipelines/summary.jq" "$@"; }
+summary_of() { jq -r --arg out good "$(words_of_quality)$(<"$VARIMAP_SOURCE/pipelines/summary.jq")" "$@"; }
 jq '.source_to_target.uncovered = [range(7) | {area_percent: (9 - .), vertex: .}] | .target_to_source.uncovered = .source_to_target.uncovered[:3]
     | .exploration = {continued: 1, candidates: [{}], probability: .004, confident: false}' good/quality.json >doubtful.json
 summary_of doubtful.json >summary.txt
@@ -28,8 +28,8 @@ grep -q 'candidate 1 of 1, right with a probability above 0.99$' summary.txt || 
 jq '.source_to_target += {coverage: .8, when_closed: {coverage: .995, uncovered: []}} | .target_to_source.coverage = .99' good/quality.json >holes.json
 report_on <holes.json | jq -e 'any(.checks[]; .what == "area covered, source to target, holes closed" and .value == "99.5 %" and .grade == "good")' >/dev/null ||
     fail "coverage with holes closed in the report"
-jq -L "$VARIMAP_SOURCE/pipelines" --arg name p --arg source a --arg target b --arg key k --arg candidate 1 \
-    -f "$VARIMAP_SOURCE/pipelines/batch/result.jq" holes.json | jq -e '.coverage_percent == 99' >/dev/null ||
+jq --arg name p --arg source a --arg target b --arg key k --arg candidate 1 \
+    "$(words_of_quality)$(<"$VARIMAP_SOURCE/pipelines/batch/result.jq")" holes.json | jq -e '.coverage_percent == 99' >/dev/null ||
     fail "coverage with holes closed in the table of a batch"
 # Of another candidate the first one's probability is not rounded up either.
 jq '.exploration = {continued: 2, candidates: [{}, {}], probability: .996}' good/quality.json |
