@@ -130,17 +130,22 @@ shell_words() {
 # is not UTF-8.
 words_of_quality() { cat -- "$share/quality_words.jq" "$share/report.jq" && echo; }
 
-# find_landmarks FOLDER MESH: the file of landmarks in FOLDER that has the name of that mesh; nothing where there is none.
-find_landmarks() {
-    local stem ending file
-    stem=${2##*/} stem=${stem%.*}
+# list_landmarks FOLDER MESH: sets landmark_files to those in FOLDER that have the name of that mesh, the one that is read first.
+list_landmarks() {
+    local ending stem=${2##*/}
+    landmark_files=()
     [[ -n $1 ]] || return 0
-    for ending in "${landmark_endings[@]}"; do
-        file=$1/$stem.$ending
-        [[ ! -f $file ]] || { realpath -s -- "$file"; return; }
+    for ending in mrk.json fcsv pp txt csv vts; do
+        [[ ! -f $1/${stem%.*}.$ending ]] || landmark_files+=("$1/${stem%.*}.$ending")
     done
 }
-landmark_endings=(mrk.json fcsv pp txt csv vts)  # which go before those behind them
+
+# find_landmarks FOLDER MESH: the first of these; nothing where there is none.
+find_landmarks() {
+    local landmark_files
+    list_landmarks "$@"
+    ((${#landmark_files[@]} == 0)) || realpath -s -- "${landmark_files[0]}"
+}
 
 # wait_for_group: waits for the process group `group`, started in the background under `set -m`, and returns its exit code.
 # So an interrupt reaches all that it started and is waited for; then the script ends, after close_log where that is defined.

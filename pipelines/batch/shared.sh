@@ -20,15 +20,22 @@ handful() {
     echo "$text"
 }
 
-# tell_other_landmarks FOLDER MESH: warns of files in FOLDER that have the name of that mesh, too, and are not read.
-# shellcheck disable=SC2154  # name is the script's, landmark_endings script.sh's
-tell_other_landmarks() {
-    local stem ending files=()
-    stem=${2##*/} stem=${stem%.*}
-    [[ -n $1 ]] || return 0
-    for ending in "${landmark_endings[@]}"; do [[ ! -f $1/$stem.$ending ]] || files+=("$stem.$ending"); done
-    ((${#files[@]} < 2)) ||
-        printable "$name: warning: $1: landmarks are read from ${files[0]}, not from $(handful "${files[@]:1}")" >&2
+# claim_landmarks FOLDER MESH: of a mesh that is new. Landmarks by names are of one mesh alone; other files by its name, which are not
+# read, are told.
+declare -A mesh_with_landmarks=()
+# shellcheck disable=SC2154  # name is the script's
+claim_landmarks() {
+    local landmark_files other others
+    list_landmarks "$1" "$2"
+    ((${#landmark_files[@]})) || return 0
+    other=${mesh_with_landmarks[${landmark_files[0]}]:-}
+    [[ -z $other || $other == "$2" ]] ||
+        fail 3 "$2: another mesh is called $(artifact_stem "$other"): $other has the same landmarks by its name, ${landmark_files[0]##*/}; rename one"
+    [[ -z $other ]] || return 0
+    mesh_with_landmarks[${landmark_files[0]}]=$2
+    others=("${landmark_files[@]:1}")
+    ((${#others[@]} == 0)) ||
+        printable "$name: warning: $1: landmarks are read from ${landmark_files[0]##*/}, not from $(handful "${others[@]##*/}")" >&2
 }
 
 # files_named_in MESH: the files beside it without which it is not whole, as it names them: those of a .gltf.

@@ -188,6 +188,26 @@ Candidate best_led(const PairContext& context, const Appraisal& appraisal, const
     return finished.appraised().front().candidate;
 }
 
+/// The score of the best of the maps between mirror images of the surfaces that the landmarks lead to.
+double score_between_mirror_images(const PairContext& context, const ExploreParams& params) {
+    const PairContext mirror = with_mirror_image(context);
+    const double score = best_led(mirror, Appraisal(mirror), params).score;
+    log("as mirror images, by the landmarks: score {:.2f}", score);
+    return score;
+}
+
+/// The same where the landmarks look mirrored and it is much better than that of the map that they lead to as
+/// they are: probably one of the surfaces is a left and the other a right one. Infinity else.
+double score_if_mirrored(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
+                         const ExploreParams& params) {
+    constexpr double much = 2, none = std::numeric_limits<double>::infinity();
+    if (!landmarks_look_mirrored(context, appraisal.handedness().are_opposite())) return none;
+    const Timer timer("mirror images");
+    const double score = score_between_mirror_images(context, params);
+    log("the landmarks look mirrored; as they are: score {:.2f}", led.candidate.score);
+    return score + much < led.candidate.score ? score : none;
+}
+
 /// An exchange of landmarks by which the map that they lead to becomes far more probable.
 struct BetterExchange {
     Exchange exchange;
@@ -219,10 +239,8 @@ std::optional<BetterExchange> better_exchange(const Appraised& led, const PairCo
         led.candidate.score);
     if (is_mirrored(found) || plausibility(found) < plausible || found.score + much > led.candidate.score)
         return {};
-    const PairContext mirror = with_mirror_image(context);
-    const double mirrored = best_led(mirror, Appraisal(mirror), params).score;
-    log("as mirror images: score {:.2f}", mirrored);
-    return BetterExchange{exchange, found.score, mirrored < found.score - clear};
+    return BetterExchange{exchange, found.score,
+                          score_between_mirror_images(context, params) < found.score - clear};
 }
 
 /// Unless a map was found that meets the landmarks as they are, and fits about as well: of a body with many
@@ -242,21 +260,6 @@ void warn_of(const BetterExchange& better, const Candidate& best, const PairCont
             "they left and right? If they are right, one of the surfaces may be a mirror image of what it "
             "should be: {}",
             exchanged_in_words(better.exchange), mirror_advice(context));
-}
-
-/// The score of the map between mirror images that the landmarks lead to, where they look mirrored and it is
-/// much better than the one that they lead to as they are: probably one of the surfaces is a left and the
-/// other a right one. Infinity else.
-double score_of_mirror_images(const Appraised& led, const PairContext& context, const Appraisal& appraisal,
-                              const ExploreParams& params) {
-    constexpr double much = 2, none = std::numeric_limits<double>::infinity();
-    if (!landmarks_look_mirrored(context, appraisal.handedness().are_opposite())) return none;
-    const Timer timer("mirror images");
-    const PairContext mirror = with_mirror_image(context);
-    const double score = best_led(mirror, Appraisal(mirror), params).score;
-    log("the landmarks look mirrored: as mirror images score {:.2f}, as they are {:.2f}", score,
-        led.candidate.score);
-    return score + much < led.candidate.score ? score : none;
 }
 
 /// Whether nothing else need be looked for than the map that landmarks lead to: it is plausible, not
@@ -297,7 +300,7 @@ Candidates explore(const PairContext& context, const ExploreParams& params, cons
         finished.add_new_of(led_there);
         std::vector<Appraised> alone = finished.appraised();
         const bool of_sheets = is_isometry_of_sheets(alone.front().candidate, context);
-        mirrored_score = score_of_mirror_images(alone.front(), context, appraisal, params);
+        mirrored_score = score_if_mirrored(alone.front(), context, appraisal, params);
         const bool mirrored = std::isfinite(mirrored_score);
         if (!of_sheets && !mirrored) exchange = better_exchange(alone.front(), context, appraisal, params);
         if (!mirrored && (of_sheets || (!exchange && landmarks_suffice(alone.front(), context))))

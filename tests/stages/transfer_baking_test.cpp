@@ -32,9 +32,8 @@ TEST_F(Transfer, BakesWhatTheIdentityShows) {
     const TriangleMesh square = shapes::square(8);
     const ObjModel model = in_its_own_plane(square);
     write("skin.png", to_png(gradient(64)));
-    write("skin.mtl", "newmtl skin\nmap_Kd -s 1 1 1 skin.png\n");
     Correspondence map = identity_onto(square);
-    map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
+    map.to_file = write_skinned("square.obj", square, model, "map_Kd -s 1 1 1 skin.png");
     TransferRequest request;
     request.texture = map.to_file;
     request.bake = {64, 2};
@@ -99,23 +98,20 @@ TEST_F(Transfer, SaysThatColouredMaterialsAreBakedWithoutTheirColour) {
 }
 
 TEST_F(Transfer, NamesTheFileThatCannotBeBakedOnto) {
-    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
     ObjModel outside = unwrapped(ball_);
     outside.uv[0] = {1.5, .5};
     TransferRequest request;
-    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    request.texture = write_skinned("a.obj", ball_, unwrapped(ball_));
     request.bake = {16, 1};
     request.onto = write("outside.obj", obj_of(ball_, outside));
     EXPECT_THAT(refusal(request, identity_onto(ball_)),
                 HasSubstr("outside.obj: texture coordinates (1.5, 0.5)"));
 }
 
-/// A square whose second half lies where its first does, and in one point: what is said of baking onto these.
 TEST_F(Transfer, SaysWhereMemoryDoesNotSufficeToBake) {
     const TriangleMesh square = shapes::square(8);
-    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
     Correspondence map = identity_onto(square);
-    map.to_file = write("a.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
+    map.to_file = write_skinned("a.obj", square, in_its_own_plane(square));
     TransferRequest request;
     request.texture = map.to_file;
     request.bake = {10'000'000, 0};
@@ -128,12 +124,12 @@ TEST_F(Transfer, SaysWhereMemoryDoesNotSufficeToBake) {
     }
 }
 
+/// A square whose second half lies where its first does, and in one point: what is said of baking onto these.
 TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
     const TriangleMesh square = shapes::square(8);
     ObjModel model = in_its_own_plane(square);
-    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
     TransferRequest request;
-    request.texture = write("a.obj", obj_of(square, model, "skin.mtl"));
+    request.texture = write_skinned("a.obj", square, model);
     request.bake = {61, 2};  // whose pixels lie on no side of a face
     request.onto = request.texture;
     EXPECT_EQ(warnings_of(request, identity_onto(square)), "");
@@ -155,9 +151,8 @@ TEST_F(Transfer, SaysWhereFacesOverlapInTextureCoordinates) {
 
 TEST_F(Transfer, BakesFacesThatAreFarSmallerThanPixels) {
     const TriangleMesh fine = shapes::square(100);
-    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
     TransferRequest request;
-    request.texture = write("fine.obj", obj_of(fine, in_its_own_plane(fine), "skin.mtl"));
+    request.texture = write_skinned("fine.obj", fine, in_its_own_plane(fine));
     request.onto = request.texture;
     request.bake = {4, 0};
     EXPECT_EQ(warnings_of(request, identity_onto(fine)), "");
@@ -165,9 +160,9 @@ TEST_F(Transfer, BakesFacesThatAreFarSmallerThanPixels) {
 
 TEST_F(Transfer, AGlbIsBakedToo) {
     const TriangleMesh square = shapes::square(2);
-    write("skin.mtl", "newmtl skin\nmap_Kd skin.png\nnewmtl unused\nmap_Kd glass.png\n");
     Correspondence map = identity_onto(square);
-    map.to_file = write("square.obj", obj_of(square, in_its_own_plane(square), "skin.mtl"));
+    map.to_file = write_skinned("square.obj", square, in_its_own_plane(square),
+                                "map_Kd skin.png\nnewmtl unused\nmap_Kd glass.png");
     TransferRequest request;
     request.texture = map.to_file;
     request.bake = {8, 0};

@@ -189,9 +189,8 @@ TEST_F(Transfer, TexturesLieWhereTheirMaterialPutsThem) {
     const TriangleMesh square = shapes::square(2);
     const ObjModel model = in_its_own_plane(square);
     write("skin.png", to_png(gradient(64)));
-    write("skin.mtl", "newmtl skin\nmap_Kd -s .5 .5 1 -o .25 .125 0 skin.png\n");
     Correspondence map = identity_onto(square);
-    map.to_file = write("square.obj", obj_of(square, model, "skin.mtl"));
+    map.to_file = write_skinned("square.obj", square, model, "map_Kd -s .5 .5 1 -o .25 .125 0 skin.png");
     TransferRequest request;
     request.texture = map.to_file;
     const auto glb = description_of(carry(request, map).at("square_textured.glb"));
@@ -206,9 +205,8 @@ TEST_F(Transfer, TexturesLieWhereTheirMaterialPutsThem) {
 
 TEST_F(Transfer, ImagesThatGltfDoesNotTakeAreCopied) {
     write("skin.tga", "no picture that glTF takes");
-    write("skin.mtl", "newmtl skin\nKd 1 .5 0\nmap_Kd skin.tga\n");
     TransferRequest request;
-    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    request.texture = write_skinned("a.obj", ball_, unwrapped(ball_), "Kd 1 .5 0\nmap_Kd skin.tga");
     EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
                 HasSubstr("skin.tga: glTF takes PNG and JPEG images only"));
     const auto files = carry(request, identity_onto(ball_));
@@ -250,20 +248,18 @@ TEST_F(Transfer, ImagesTakeNoOtherImagesPlace) {
 }
 
 TEST_F(Transfer, SaysWhichMaterialsAreNotDescribed) {
-    write("skin.mtl", "newmtl skin\nKd 1 1 1\n");
     ObjModel model = unwrapped(ball_);
     model.materials = {"fur"};
     TransferRequest request;
-    request.texture = write("a.obj", obj_of(ball_, model, "skin.mtl"));
+    request.texture = write_skinned("a.obj", ball_, model);
     EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
                 HasSubstr("a.obj: no library (mtllib) describes the materials fur"));
 }
 
 TEST_F(Transfer, WritesTexturesAndGlb) {
     write("skin.png", to_png(gradient(8)));
-    write("skin.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd skin.png\n");
     TransferRequest request;
-    request.texture = write("a.obj", obj_of(ball_, unwrapped(ball_), "skin.mtl"));
+    request.texture = write_skinned("a.obj", ball_, unwrapped(ball_), "Kd 1 1 1\nmap_Kd skin.png");
     const auto files = carry(request, identity_onto(ball_));
     EXPECT_EQ(files.at("skin.png"), read_file(folder_ / "skin.png"));
     EXPECT_THAT(files.at("b_textured.mtl"), HasSubstr("map_Kd skin.png"));

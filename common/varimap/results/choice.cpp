@@ -84,7 +84,7 @@ struct Cause {
 };
 
 /// How probable it is that one of the rivals is the right map rather than the best one: as much as not where
-/// one is as good, three quarters with a few; less by one that differs on a limb alone. Of a lump with eight
+/// one is as good, three quarters with a few; less by one that differs on a limb alone. Of a lump with five
 /// bumps four rivals, none of them close, hid the right map.
 Cause rivals(const std::vector<Candidate>& candidates) {
     constexpr double even = 0.75, whole = 0.25, close = 0.135;
@@ -172,6 +172,14 @@ std::vector<Cause> causes_of_doubt(const std::vector<Candidate>& candidates,
     return causes;
 }
 
+double probability_of(const std::vector<Cause>& causes) {
+    double probability = 1;
+    for (const Cause& cause : causes) probability *= cause.factor;
+    return probability;
+}
+
+constexpr double sure = 0.9;
+
 /// Score of the best rival, less the first's.
 double margin(const std::vector<Candidate>& candidates) {
     double margin = 10;
@@ -184,10 +192,8 @@ double margin(const std::vector<Candidate>& candidates) {
 }  // namespace
 
 Confidence confidence_of(const std::vector<Candidate>& candidates, std::optional<FinishedQuality> finished) {
-    constexpr double sure = 0.9;
     if (candidates.empty()) return {};
-    double probability = 1;
-    for (const Cause& cause : causes_of_doubt(candidates, finished)) probability *= cause.factor;
+    const double probability = probability_of(causes_of_doubt(candidates, finished));
     return {margin(candidates), probability, probability >= sure};
 }
 
@@ -200,9 +206,11 @@ std::string probability_in_words(const Confidence& confidence) {
 }
 
 std::string doubt(const std::vector<Candidate>& candidates, std::optional<FinishedQuality> finished) {
-    if (candidates.empty() || confidence_of(candidates, finished).confident) return "";
+    if (candidates.empty()) return "";
+    const std::vector<Cause> causes = causes_of_doubt(candidates, finished);
+    if (probability_of(causes) >= sure) return "";
     std::string why;
-    for (const Cause& cause : causes_of_doubt(candidates, finished))
+    for (const Cause& cause : causes)
         if (!cause.words.empty()) why += (why.empty() ? "" : "; ") + cause.words;
     if (!why.empty()) return why;
     const Candidate& best = candidates.front();
