@@ -80,10 +80,23 @@ export class Browser {
     return Buffer.from((await this.send('Page.captureScreenshot', { format: 'png' })).data, 'base64');
   }
   async downloadTo(folder) {
+    const names = new Map();
+    this.downloaded = new Set();
+    this.listeners.push(({ method, params }) => {
+      if (method === 'Browser.downloadWillBegin') names.set(params.guid, params.suggestedFilename);
+      if (method === 'Browser.downloadProgress' && params.state === 'completed') this.downloaded.add(names.get(params.guid));
+    });
     const session = this.session;
     this.session = undefined;
-    await this.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder, eventsEnabled: false });
+    await this.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder, eventsEnabled: true });
     this.session = session;
+  }
+  // A file exists before all of it is written: done is what the browser says is done.
+  async download(name, seconds) {
+    for (const end = Date.now() + 1000 * seconds; !this.downloaded.has(name);) {
+      if (Date.now() > end) throw new Error(`not downloaded within ${seconds} s: ${name}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
   }
   close() { this.process.kill(); }
 }

@@ -1,7 +1,7 @@
 // Uses the page of varimap-view as a person would: node view_test.mjs CHROMIUM PAGE FOLDER [PICTURES]
 // Landmarks are picked, dragged, named and saved into FOLDER; PICTURES: folder for screenshots. Prints times.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 import { Browser } from './browser.mjs';
 
@@ -28,7 +28,7 @@ const count = () => browser.evaluate('varimap.landmarks.items.length');
 const item = (i) => browser.evaluate(`JSON.parse(JSON.stringify(varimap.landmarks.items[${i}]))`);
 const distance = (a, b) => Math.hypot(...a.map((x, axis) => x - b[axis]));
 async function saved(name) {
-  for (let i = 0; i < 100 && !existsSync(`${folder}/${name}`); i++) await new Promise((done) => setTimeout(done, 50));
+  await browser.download(name, 20);
   return readFileSync(`${folder}/${name}`, 'utf8');
 }
 async function picture(name) {
