@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fixtures/map_shapes.h"
+#include "fixtures/mesh_vertex.h"
 #include "fixtures/shapes.h"
 #include "fuzz/forgery.h"
 #include "fuzz/scratch_file.h"
@@ -84,7 +85,7 @@ Artifacts made() {
     all.A = surface_data(pear);
     pear.vertices.row(20) *= 1.3;
     all.B = surface_data(shapes::shuffled(pear, 1));
-    const VertexPairs<MeshVertex> landmarks{{{3}, mesh_vertex_at(all.B.surface, {7})}};
+    const VertexPairs<MeshVertex> landmarks{{{3}, shapes::mesh_vertex_at(all.B.surface, {7})}};
     const PairContext context(all.A, all.B, landmarks);
     all.candidates = explored(context);
     all.candidates.previews = previews(all.A.surface, all.B.surface);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fixtures/mesh_vertex.h"
 #include "fixtures/shapes.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
@@ -51,7 +52,7 @@ TEST(CoarsenStage, KnowsTheWayBothWays) {
     for (int v = 0; v < surface.mesh.vertex_count(); ++v) {
         const int input_vertex = vertex_of(surface.input, surface.on_input[std::size_t(v)]);
         if (input_vertex < 0) continue;  // in the middle of an edge that was bisected
-        EXPECT_EQ(mesh_vertex_at(surface, {input_vertex}).index, v);
+        EXPECT_EQ(shapes::mesh_vertex_at(surface, {input_vertex}).index, v);
         ++known;
     }
     EXPECT_GT(known, 500);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fixtures/mesh_vertex.h"
 #include "fixtures/shapes.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/manifold.h"
@@ -55,8 +56,8 @@ TEST(Preprocess, LeavesOutUnusedVerticesAndKeepsTheOrderOfTheOthers) {
     EXPECT_EQ(a.mesh.vertices, b.mesh.vertices);
     EXPECT_EQ(a.mesh.faces, b.mesh.faces);
     for (int v = 0; v < full.vertex_count(); ++v) {
-        EXPECT_EQ(mesh_vertex_at(b, {2 * v}).index, -1);
-        EXPECT_EQ(mesh_vertex_at(b, {2 * v + 1}).index, v);
+        EXPECT_EQ(shapes::mesh_vertex_at(b, {2 * v}).index, -1);
+        EXPECT_EQ(shapes::mesh_vertex_at(b, {2 * v + 1}).index, v);
     }
     EXPECT_EQ(b.input.vertices, sparse.vertices);
 }
@@ -115,7 +116,7 @@ TEST(Preprocess, RemovesNeedlesWithoutAreaAndKeepsTheWayBack) {
     const int other = vertex_neighbours(mesh)[40][0];
     mesh.vertices.row(40) = mesh.vertices.row(other).eval();
     const Surface surface = preprocess(mesh, {});
-    EXPECT_EQ(mesh_vertex_at(surface, {40}), mesh_vertex_at(surface, {other}));
+    EXPECT_EQ(shapes::mesh_vertex_at(surface, {40}), shapes::mesh_vertex_at(surface, {other}));
     EXPECT_EQ(surface.input.faces, mesh.faces);
     EXPECT_NO_THROW(require_manifold(surface.mesh, "mesh"));
     EXPECT_LT(error_of_way_back(surface), 1e-12);

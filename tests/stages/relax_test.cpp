@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/bad_maps.h"
+#include "fixtures/mesh_vertex.h"
 #include "fixtures/shapes.h"
 #include "fixtures/sphere_pair.h"
 #include "stages/coarsen/coarsen.h"
@@ -126,7 +127,7 @@ TEST(Relax, CarriesAMapOfCoarseMeshesOverToTheInputs) {
     const Surface surface = coarsened(preprocess(shapes::figure(.12), {}), coarse);
     ASSERT_GT(surface.input.vertex_count(), 4000);
     PairRecord record;
-    record.landmarks = {{mesh_vertex_at(surface, {77}), mesh_vertex_at(surface, {77})}};
+    record.landmarks = {{shapes::mesh_vertex_at(surface, {77}), shapes::mesh_vertex_at(surface, {77})}};
     record.landmark_points = {{point_at_vertex(surface.input, 77), point_at_vertex(surface.input, 77)}};
     const PointMap identity = points_at_vertices(surface.mesh);
     const SurfaceMap map = relax(surface, surface, record, {identity, identity}, 2);

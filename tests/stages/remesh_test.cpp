@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "fixtures/mesh_vertex.h"
 #include "fixtures/sphere_pair.h"
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/warnings.h"
@@ -195,8 +196,8 @@ TEST_F(Remesh, TellsTransportedMassesOfInputVertices) {
     int count = 0;
     while (std::getline(lines, line)) {
         const int vertex = std::stoi(line);
-        EXPECT_EQ(line,
-                  std::to_string(vertex) + (mesh_vertex_at(pair_.A, {vertex}).index == 3 ? ",1.25" : ",1"));
+        EXPECT_EQ(line, std::to_string(vertex) +
+                            (shapes::mesh_vertex_at(pair_.A, {vertex}).index == 3 ? ",1.25" : ",1"));
         ++count;
     }
     EXPECT_EQ(count, pair_.A.mesh.vertex_count());  // not the spare vertex

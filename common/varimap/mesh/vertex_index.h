@@ -13,7 +13,7 @@ struct InputVertex {
     friend auto operator<=>(const InputVertex&, const InputVertex&) = default;
 };
 
-/// A vertex of a preprocessed surface: a row of Surface::mesh. mesh_vertex_at (surface.h) leads to it.
+/// A vertex of a preprocessed surface: a row of Surface::mesh.
 struct MeshVertex {
     int index = -1;
     friend auto operator<=>(const MeshVertex&, const MeshVertex&) = default;

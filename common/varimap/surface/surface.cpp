@@ -113,11 +113,6 @@ SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {
     return result;
 }
 
-MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex) {
-    const SurfacePoint& point = surface.on_mesh[std::size_t(vertex.index)];
-    return {nearest_vertex(surface.mesh, point)};
-}
-
 bool has_added_faces(const Surface& surface) {
     return std::ranges::any_of(surface.link.face, [](int in_file) { return in_file < 0; });
 }

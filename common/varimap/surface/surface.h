@@ -5,7 +5,6 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/mesh/triangle_mesh.h"
-#include "varimap/mesh/vertex_index.h"
 #include "varimap/mesh_repair/file_link.h"
 #include "varimap/surface/domain.h"
 
@@ -66,10 +65,6 @@ Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& poin
 /// The same point, from a face of `surface.mesh` to the input face that holds it. Coordinates clamped to [0,
 /// 1]. For surfaces that were not coarsened; input_locator.h serves all.
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh);
-
-/// The vertex of `surface.mesh` at an input vertex, or the nearest corner of the face it lies on; -1 where no
-/// face uses the input vertex.
-MeshVertex mesh_vertex_at(const Surface& surface, InputVertex vertex);
 
 /// Whether a repair added faces to those of the file: lids on holes, tubes between components.
 bool has_added_faces(const Surface& surface);
