@@ -19,7 +19,7 @@ std::vector<int> component_of_each_vertex(const Surface& surface) {
     std::vector<int> of(std::size_t(surface.mesh.vertex_count()), 0);
     const std::vector<int>& file_face = surface.link.face;
     if (!has_added_faces(surface) || is_cut_out(surface)) return of;
-    const std::vector<int> of_input = vertex_components(without_added_faces(surface));
+    const std::vector<int> of_input = connected_components(without_added_faces(surface)).of_vertex;
     for (std::size_t v = 0; v < of.size(); ++v) {
         const SurfacePoint& at = surface.on_input[v];
         const bool is_added = file_face[std::size_t(at.face)] < 0 && at.barycentric.maxCoeff() < 1;

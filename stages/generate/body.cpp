@@ -43,9 +43,7 @@ double thinnest(const Body& body) {
 }
 
 bool is_sphere(const TriangleMesh& mesh) {
-    const std::vector<int> component = vertex_components(mesh);
-    return is_closed(mesh) && *std::max_element(component.begin(), component.end()) == 0 &&
-           summarise_topology(mesh).genus == 0;
+    return is_closed(mesh) && connected_components(mesh).count == 1 && summarise_topology(mesh).genus == 0;
 }
 
 }  // namespace

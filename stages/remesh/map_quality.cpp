@@ -34,8 +34,7 @@ std::optional<Coverage> coverage_when_closed(const PointMap& map, const Surface&
     const bool has_lids = has_added_faces(source);
     const bool has_holes = has_holes_alone(source.input);
     if (!has_lids && !has_holes) return {};
-    const std::vector<int> components = vertex_components(own_faces);
-    if (*std::max_element(components.begin(), components.end()) > 0) return {};
+    if (connected_components(own_faces).count > 1) return {};
     RepairedMesh closed{source.input, link_to_itself(source.input), {}};
     if (has_holes) closed = holes_filled(std::move(closed), std::numeric_limits<int>::max());
     return measure_coverage(map, std::move(closed.mesh), without_added_faces(target));

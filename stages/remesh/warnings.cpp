@@ -243,7 +243,7 @@ void warn_of_opposed_components(const ComponentImages& components) {
         const ComponentImage& one = components.of_source[std::size_t(c)];
         pairs.push_back(fmt::format(
             "that of vertex {} of the source ({}) and that of vertex {} of the target", one.vertex,
-            one.side < 0 ? "inward" : "outward", components.of_target[std::size_t(one.onto)].vertex));
+            one.orientation < 0 ? "inward" : "outward", components.of_target[std::size_t(one.onto)].vertex));
     }
     if (!pairs.empty())
         warn(

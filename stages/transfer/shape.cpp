@@ -140,7 +140,7 @@ std::vector<std::vector<int>> unknown_parts(const WeldedMesh& welded, const std:
             !known[std::size_t(mesh.faces(f, 2))])
             unknown_faces.push_back(f);
     const std::vector<int> component =
-        vertex_components({mesh.vertices, mesh.faces(unknown_faces, Eigen::all)});
+        connected_components({mesh.vertices, mesh.faces(unknown_faces, Eigen::all)}).of_vertex;
     std::map<int, std::vector<int>> joined;  // by component; where faces join none, by vertex behind these
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         if (known[std::size_t(v)]) continue;

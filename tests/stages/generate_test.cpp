@@ -43,7 +43,7 @@ void expect_sphere(const TriangleMesh& mesh) {
     EXPECT_TRUE(is_closed(mesh));
     EXPECT_EQ(summarise_topology(mesh).genus, 0);
     EXPECT_EQ(summarise_topology(mesh).used_vertices, mesh.vertex_count());
-    EXPECT_THAT(vertex_components(mesh), ::testing::Each(0));
+    EXPECT_THAT(connected_components(mesh).of_vertex, ::testing::Each(0));
     EXPECT_GT(signed_volume(mesh), 0);
     EXPECT_EQ(mesh.vertex_count(), 1000);
 }
@@ -118,8 +118,8 @@ TEST(Generate, AssembliesAreOfPartsThatArePartners) {
         const GeneratedPair pair = generate("assembly", seed, small_meshes());
         SCOPED_TRACE(pair.kind);
         expect_truth(pair);
-        const std::vector<int> source = vertex_components(pair.source),
-                               target = vertex_components(pair.target);
+        const std::vector<int> source = connected_components(pair.source).of_vertex,
+                               target = connected_components(pair.target).of_vertex;
         for (const TriangleMesh* mesh : {&pair.source, &pair.target}) {
             EXPECT_NO_THROW(require_sheets(*mesh, "generated"));
             EXPECT_TRUE(is_closed(*mesh));

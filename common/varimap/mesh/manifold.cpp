@@ -95,12 +95,13 @@ void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const
 }  // namespace
 
 void require_connected(const TriangleMesh& mesh, const std::string& path) {
-    const std::vector<int> component = vertex_components(mesh);
-    const int count = 1 + *std::max_element(component.begin(), component.end());
-    if (count < 2) return;
-    const auto second = std::find(component.begin(), component.end(), 1) - component.begin();
-    throw InputError(fmt::format(
-        "{}: the surface has {} components, the second starts at vertex {}; keep one", path, count, second));
+    const ConnectedComponents components = connected_components(mesh);
+    if (components.count < 2) return;
+    const std::vector<int>& of_vertex = components.of_vertex;
+    const auto second = std::find(of_vertex.begin(), of_vertex.end(), 1) - of_vertex.begin();
+    throw InputError(
+        fmt::format("{}: the surface has {} components, the second starts at vertex {}; keep one", path,
+                    components.count, second));
 }
 
 /// Within these sizes no product of lengths that the method needs leaves the range of double precision.

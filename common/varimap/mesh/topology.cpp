@@ -183,30 +183,44 @@ VertexData<int> count_fans(const TriangleMesh& mesh, const Edges& edges, const F
     return count;
 }
 
-std::vector<int> vertex_components(const TriangleMesh& mesh) {
+ConnectedComponents connected_components(const TriangleMesh& mesh) {
     const int n = mesh.vertex_count();
-    std::vector<int> component(n, -1);
+    ConnectedComponents components{0, std::vector<int>(std::size_t(n), -1), {}};
     DisjointSets sets(n);
     for (int f = 0; f < mesh.face_count(); ++f)
         for (int c = 1; c < 3; ++c) sets.join(mesh.faces(f, 0), mesh.faces(f, c));
-    std::vector<char> used(n, 0);
-    for (int s = 0; s < 3 * mesh.face_count(); ++s) used[mesh.faces.data()[s]] = 1;
-    int count = 0;
+    std::vector<char> used(std::size_t(n), 0);
+    for (const int v : mesh.faces.reshaped()) used[std::size_t(v)] = 1;
     for (int v = 0; v < n; ++v) {
-        if (!used[v]) continue;
+        if (!used[std::size_t(v)]) continue;
         const int root = sets.lowest(v);
-        component[v] = root == v ? count++ : component[root];
+        components.of_vertex[std::size_t(v)] =
+            root == v ? components.count++ : components.of_vertex[std::size_t(root)];
     }
-    return component;
+    components.of_face.reserve(std::size_t(mesh.face_count()));
+    for (int f = 0; f < mesh.face_count(); ++f)
+        components.of_face.push_back(components.of_vertex[std::size_t(mesh.faces(f, 0))]);
+    return components;
+}
+
+std::vector<std::vector<int>> ConnectedComponents::faces() const {
+    std::vector<std::vector<int>> faces(static_cast<std::size_t>(count));
+    for (int f = 0; f < int(of_face.size()); ++f) faces[std::size_t(of_face[std::size_t(f)])].push_back(f);
+    return faces;
+}
+
+std::vector<double> ConnectedComponents::areas(const TriangleMesh& mesh) const {
+    std::vector<double> areas(std::size_t(count), 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        areas[std::size_t(of_face[std::size_t(f)])] += face_normal(mesh, f).norm() / 2;
+    return areas;
 }
 
 TopologySummary summarise_topology(const TriangleMesh& mesh) {
     const Edges edges = find_edges(mesh);
-    const std::vector<int> component = vertex_components(mesh);
-    const int last = component.empty() ? -1 : *std::max_element(component.begin(), component.end());
     TopologySummary summary{count_used_vertices(mesh), find_boundary(mesh, edges).loops, 0};
     const int euler = summary.used_vertices - edges.size() + mesh.face_count();
-    summary.genus = (2 * (last + 1) - summary.boundary_loops - euler) / 2;
+    summary.genus = (2 * connected_components(mesh).count - summary.boundary_loops - euler) / 2;
     return summary;
 }
 

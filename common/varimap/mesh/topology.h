@@ -77,8 +77,18 @@ std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<ch
 /// have one or two sides, and those run in opposite directions.
 VertexData<int> count_fans(const TriangleMesh& mesh, const Edges& edges, const FaceData<char>& marked);
 
-/// Per vertex: its connected component, numbered by lowest vertex from 0; -1 where no face uses it.
-std::vector<int> vertex_components(const TriangleMesh& mesh);
+/// The connected components of a mesh, numbered from 0 by their lowest vertices.
+struct ConnectedComponents {
+    int count = 0;
+    std::vector<int> of_vertex;  ///< -1 where no face uses it
+    std::vector<int> of_face;
+
+    /// Per component, ascending.
+    std::vector<std::vector<int>> faces() const;
+    /// Per component: its area. Of the mesh whose components they are.
+    std::vector<double> areas(const TriangleMesh& mesh) const;
+};
+ConnectedComponents connected_components(const TriangleMesh& mesh);
 
 /// Numbers of a manifold surface. genus = components - (boundary_loops + V - E + F) / 2: that of all of them.
 struct TopologySummary {

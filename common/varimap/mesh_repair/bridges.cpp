@@ -121,15 +121,9 @@ void add(const Tube& tube, RepairedMesh& repaired) {
 
 /// The faces of each component, by falling area; among equals the lowest first.
 std::vector<std::vector<int>> components_by_area(const TriangleMesh& mesh) {
-    const std::vector<int> component = vertex_components(mesh);
-    const auto count = std::size_t(1 + *std::max_element(component.begin(), component.end()));
-    std::vector<std::vector<int>> faces(count);
-    std::vector<double> area(count, 0);
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto c = std::size_t(component[std::size_t(mesh.faces(f, 0))]);
-        faces[c].push_back(f);
-        area[c] += face_normal(mesh, f).norm();
-    }
+    const ConnectedComponents components = connected_components(mesh);
+    std::vector<std::vector<int>> faces = components.faces();
+    const std::vector<double> area = components.areas(mesh);
     std::vector<int> order = all_indices(std::ssize(area));
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return area[std::size_t(a)] > area[std::size_t(b)]; });

@@ -174,11 +174,9 @@ void Repair::separate_sheets() {
 /// The largest component, and of the others those that are asked for.
 void Repair::choose_components() {
     const TriangleMesh mesh = current();
-    const std::vector<int> component = vertex_components(mesh);
-    std::vector<double> area(std::size_t(1 + *std::max_element(component.begin(), component.end())), 0);
-    if (area.size() < 2) return;
-    const auto of_face = [&](int f) { return std::size_t(component[std::size_t(faces_(f, 0))]); };
-    for (int f = 0; f < mesh.face_count(); ++f) area[of_face(f)] += face_normal(mesh, f).norm();
+    const ConnectedComponents components = connected_components(mesh);
+    if (components.count < 2) return;
+    const std::vector<double> area = components.areas(mesh);
     const double total = std::accumulate(area.begin(), area.end(), 0.);
     const auto largest = std::size_t(std::max_element(area.begin(), area.end()) - area.begin());
     std::vector<char> chosen(area.size(), 0);
@@ -190,7 +188,7 @@ void Repair::choose_components() {
     }
     std::vector<char> keep;
     for (int f = 0; f < mesh.face_count(); ++f) {
-        keep.push_back(chosen[of_face(f)]);
+        keep.push_back(chosen[std::size_t(components.of_face[std::size_t(f)])]);
         if (keep.back()) continue;
         for (const int v : file_.faces.row(number_[std::size_t(f)])) left_out_[std::size_t(v)] = 1;
     }

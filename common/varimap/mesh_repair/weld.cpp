@@ -75,11 +75,10 @@ std::vector<int> Welding::places() const {
 
 /// Of faces in the same place the one of the lowest component is what the others are copies of.
 void Welding::join_copies() {
-    const std::vector<int> component = vertex_components(mesh_);
-    const int count = 1 + *std::max_element(component.begin(), component.end());
-    if (count < 2) return;
+    const ConnectedComponents components = connected_components(mesh_);
+    if (components.count < 2) return;
     const std::vector<int> place = places();
-    const auto component_of = [&](int f) { return component[std::size_t(mesh_.faces(f, 0))]; };
+    const auto component_of = [&](int f) { return components.of_face[std::size_t(f)]; };
     std::map<std::array<int, 3>, std::vector<int>> at;
     for (int f = 0; f < mesh_.face_count(); ++f) {
         std::array<int, 3> corners;
@@ -87,7 +86,7 @@ void Welding::join_copies() {
         std::sort(corners.begin(), corners.end());
         at[corners].push_back(f);
     }
-    std::vector<char> is_copy(std::size_t(count), 1);
+    std::vector<char> is_copy(std::size_t(components.count), 1);
     for (auto& [corners, faces] : at) {
         std::stable_sort(faces.begin(), faces.end(),
                          [&](int f, int g) { return component_of(f) < component_of(g); });

@@ -27,13 +27,11 @@ constexpr double as_holes = 0.4;
 /// a body is whole if it wears an open jacket.
 std::vector<char> on_largest_component(const Surface& surface) {
     const TriangleMesh mesh = without_added_faces(surface);
-    const std::vector<int> component = vertex_components(mesh);
-    std::vector<double> area(component.size(), 0);  // of which there are fewer
-    for (int f = 0; f < mesh.face_count(); ++f)
-        area[std::size_t(component[std::size_t(mesh.faces(f, 0))])] += face_normal(mesh, f).norm();
-    const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
+    const ConnectedComponents components = connected_components(mesh);
+    const std::vector<double> areas = components.areas(mesh);
+    const auto largest = std::max_element(areas.begin(), areas.end()) - areas.begin();
     std::vector<char> marks;
-    for (const int c : component) marks.push_back(c == largest);
+    for (const int c : components.of_vertex) marks.push_back(c == largest);
     return marks;
 }
 

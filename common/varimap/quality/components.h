@@ -10,12 +10,12 @@ namespace varimap {
 /// Where a map takes a connected component of a surface, and the other direction comes back to it. Components
 /// are numbered by their lowest vertices.
 struct ComponentImage {
-    int vertex = -1;     ///< its lowest
-    double area = 0;     ///< its share of the surface's
-    int onto = -1;       ///< the other's component that more of it lies on than on any other; -1: on none
-    double on_that = 0;  ///< the share of its area that does
-    double taken = 0;    ///< area of the other surface, as a share of that, which lies on it, by its own
-    int side = 0;        ///< orientation_sign (boundary.h)
+    int vertex = -1;      ///< its lowest
+    double area = 0;      ///< its share of the surface's
+    int onto = -1;        ///< the other's component that more of it lies on than on any other; -1: on none
+    double on_that = 0;   ///< the share of its area that does
+    double taken = 0;     ///< area of the other surface, as a share of that, which lies on it, by its own
+    int orientation = 0;  ///< orientation_sign (boundary.h)
 
     /// Whether some of the other surface, half as large as it is, has its place there. A component may lie on
     /// another without: on what has a partner already.
@@ -35,8 +35,8 @@ struct ComponentImages {
     std::vector<int> opposed() const;
 
   private:
-    /// The product of a component's side and of its partner's; 0 where they have not each other.
-    int sides(const ComponentImage& one) const;
+    /// Of a component's orientation and of its partner's; 0 where they have not each other.
+    int orientation_product(const ComponentImage& one) const;
 };
 
 /// `map` leads from `source` to `target`, `back` the other way. Vertices count by the area around them, those

@@ -90,7 +90,7 @@ void shorten(Eigen::VectorXd& u, const TriangleMesh& mesh) {
 /// paths along edges do by 20 degrees here and there.
 Eigen::VectorXd distances_from_ends(const TriangleMesh& mesh, double width) {
     const GeodesicGraph graph(mesh);
-    const std::vector<int> component = vertex_components(mesh);
+    const std::vector<int> component = connected_components(mesh).of_vertex;
     const auto u_from = [&](const std::vector<int>& sources) { return distances_from(sources, graph); };
     const Eigen::VectorXd nowhere = Eigen::VectorXd::Zero(mesh.vertex_count());
     const Eigen::VectorXd along = u_from(farthest(u_from(farthest(nowhere, component)), component));

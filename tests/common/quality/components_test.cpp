@@ -103,8 +103,8 @@ TEST(Components, AreOpposedWhereOneLooksInward) {
                     .opposed()
                     .empty())
         << "as --mirror has it";
-    EXPECT_EQ(found.of_source[2].side, 1);
-    EXPECT_EQ(found.of_target[2].side, -1);
+    EXPECT_EQ(found.of_source[2].orientation, 1);
+    EXPECT_EQ(found.of_target[2].orientation, -1);
 }
 
 }  // namespace
