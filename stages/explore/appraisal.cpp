@@ -4,8 +4,8 @@
 
 #include "stages/explore/difference.h"
 #include "varimap/core/rotation.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/quality/quality.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

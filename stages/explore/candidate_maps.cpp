@@ -4,9 +4,9 @@
 
 #include "stages/explore/telling_vertex.h"
 #include "varimap/core/parallel.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/results/choice.h"
 #include "varimap/surface/input_locator.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -10,13 +10,13 @@
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/descriptor_terms.h"
 #include "varimap/multilevel/sparse_plan.h"
 #include "varimap/multilevel/vertex_images.h"
 #include "varimap/results/candidate.h"
 #include "varimap/results/read_out.h"
-#include "varimap/surface/pulled_back.h"
 #include "varimap/untangling/untangling.h"
 
 namespace varimap {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "varimap/core/rotation.h"
-#include "varimap/surface/pulled_back.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 

@@ -6,8 +6,8 @@
 #include "varimap/core/statistics.h"
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/relaxation/relief_agreement.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

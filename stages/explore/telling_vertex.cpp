@@ -6,8 +6,8 @@
 #include "stages/explore/tips.h"
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/surface/input_locator.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -9,7 +9,7 @@
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/surface/pulled_back.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 

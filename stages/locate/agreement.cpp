@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "varimap/surface/pulled_back.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 

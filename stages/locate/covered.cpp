@@ -8,9 +8,9 @@
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/surface/input_locator.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

@@ -14,7 +14,7 @@
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/multilevel/exchanged_landmarks.h"
 #include "varimap/results/landmark_words.h"
@@ -26,31 +26,17 @@ namespace {
 
 constexpr std::size_t grain = 256;  ///< points worth a task
 
-/// A place near the whole's mesh, and the normal there, of any length.
-struct Spot {
-    Vec3 place = Vec3::Zero(), normal = Vec3::Zero();
-};
-/// The image of a point of the part's mesh.
-Spot spot_of(const SurfacePoint& at, const PointMap& images, const Sides& sides) {
-    Spot spot;
-    for (int c = 0; c < 3; ++c) {
-        const SurfacePoint& image = images[std::size_t(sides.part.mesh.faces(at.face, c))];
-        spot.place += at.barycentric[c] * position(sides.whole.mesh, image);
-        spot.normal += at.barycentric[c] * face_normal(sides.whole.mesh, image.face).normalized();
-    }
-    return spot;
-}
-
 /// Images on a whole's sketch carried to its surface, by way of the inputs.
 PointMap on_surfaces(const PointMap& images, const Sides& sketch, const Sides& surface) {
     const MeshLocator on_sketch(sketch.part);
     const ClosestPoint closest(surface.whole.mesh);
     PointMap result(surface.part.on_input.size());
     parallel_for_each_index(result.size(), grain, [&](std::size_t v) {
-        const Spot spot = spot_of(on_sketch(surface.part.on_input[v]), images, sketch);
-        const Vec3 on_whole = spot.place / sketch.whole.scale + sketch.whole.centre;
+        const StraightImage image =
+            straight_image(on_sketch(surface.part.on_input[v]), images, sketch.part.mesh, sketch.whole.mesh);
+        const Vec3 on_whole = image.place / sketch.whole.scale + sketch.whole.centre;
         const Vec3 place = (on_whole - surface.whole.centre) * surface.whole.scale;
-        result[v] = closest(place, spot.normal).point;
+        result[v] = closest(place, image.normal).point;
     });
     return result;
 }
@@ -62,8 +48,8 @@ PointMap on_files(const PointMap& images, const Sides& sides) {
     parallel_for_each_index(result.size(), grain, [&](std::size_t v) {
         const SurfacePoint& at = sides.part.on_mesh[v];
         if (at.face < 0) return;
-        const Spot spot = spot_of(at, images, sides);
-        result[v] = on_input(spot.place, spot.normal);
+        const StraightImage image = straight_image(at, images, sides.part.mesh, sides.whole.mesh);
+        result[v] = on_input(image.place, image.normal);
     });
     return to_file(std::move(result), sides.part, sides.whole);
 }

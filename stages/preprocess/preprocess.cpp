@@ -9,6 +9,7 @@
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/mesh/bisection.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
@@ -83,11 +84,8 @@ ThinFaceRemoval repaired(Normalised& normalised, const FileLink& link) {
 SurfacePoint before_repair(const SurfacePoint& point, const ThinFaceRemoval& repair,
                            const PointMap& corner_on_input, const TriangleMesh& input) {
     SurfacePoint result{repair.origin[point.face], Vec3::Zero()};
-    for (int c = 0; c < 3; ++c)
-        if (point.barycentric[c] != 0)
-            result.barycentric +=
-                point.barycentric[c] *
-                barycentric_on(input, result.face, corner_on_input[repair.mesh.faces(point.face, c)]);
+    for (const auto [vertex, weight] : WeightedCorners(repair.mesh, point))
+        result.barycentric += weight * barycentric_on(input, result.face, corner_on_input[vertex]);
     return result;
 }
 

@@ -5,7 +5,7 @@
 
 #include "varimap/core/log.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/quality/quality.h"
 #include "varimap/sliding/inverse_map.h"
 #include "varimap/surface/input_locator.h"
@@ -27,17 +27,11 @@ void lay_where_placed(PointMap& there, const PointMap& on_input, const Surface& 
     for (std::size_t v = 0; v < there.size(); ++v) {
         const SurfacePoint& at = part.on_input[v];
         if (at.face < 0) continue;
-        Vec3 sum = Vec3::Zero(), normal = Vec3::Zero();
-        double weight = 0;
-        for (int c = 0; c < 3; ++c) {
-            const SurfacePoint& image = on_input[std::size_t(part.input.faces(at.face, c))];
-            if (image.face < 0) continue;
-            const SurfacePoint point = on_mesh(image);
-            sum += at.barycentric[c] * position(whole.mesh, point);
-            normal += at.barycentric[c] * face_normal(whole.mesh, point.face).normalized();
-            weight += at.barycentric[c];
-        }
-        if (weight > half) there[v] = closest(sum / weight, normal).point;
+        const StraightImage image = straight_image(at, part.input, whole.mesh, [&](int corner) {
+            const SurfacePoint& placed = on_input[std::size_t(corner)];
+            return placed.face < 0 ? placed : on_mesh(placed);
+        });
+        if (image.share > half) there[v] = closest(image.place / image.share, image.normal).point;
     }
 }
 

@@ -5,12 +5,12 @@
 #include "varimap/core/parallel.h"
 #include "varimap/core/timing.h"
 #include "varimap/map_repair/chart_repair.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/subdivision.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/relaxation/fold_removal.h"
 #include "varimap/relaxation/local_relaxation.h"
 #include "varimap/relaxation/movable_vertices.h"
-#include "varimap/surface/pulled_back.h"
 #include "varimap/untangling/rounds.h"
 
 namespace varimap {

@@ -6,6 +6,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/boundary.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/thin_faces.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh_repair/holes.h"
@@ -58,11 +59,10 @@ PointMap without_images_on_added_faces(PointMap map, const Surface& target) {
     for (SurfacePoint& image : map) {
         if (image.face < 0) continue;
         int corners = 0, rim_corners = 0;
-        for (int k = 0; k < 3; ++k)
-            if (image.barycentric[k] > 0) {
-                ++corners;
-                rim_corners += on_rim[target.input.faces(image.face, k)];
-            }
+        for (const auto [vertex, weight] : WeightedCorners(target.input, image)) {
+            ++corners;
+            rim_corners += on_rim[vertex];
+        }
         if (corners < 3 && rim_corners == corners) image = {};
     }
     return map;

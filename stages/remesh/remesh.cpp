@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh_files/polygon_cutting.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 
@@ -90,13 +90,13 @@ std::string masses_csv(const Surface& surface, const std::vector<int>& samples,
         const int vertex = surface.link.is_identity() ? i : surface.link.vertex[std::size_t(i)];
         if (vertex < 0) continue;
         const SurfacePoint& point = surface.on_mesh[std::size_t(vertex)];
+        if (point.face < 0) continue;
         double ratio = 0;
-        bool known = point.face >= 0;
-        for (int c = 0; c < 3 && known; ++c) {
-            if (point.barycentric[c] == 0) continue;
-            const int k = sample_at[std::size_t(surface.mesh.faces(point.face, c))];
-            known = k >= 0;
-            if (known) ratio += point.barycentric[c] * transported[k] / mass[k];
+        bool known = true;
+        for (const auto [corner, weight] : WeightedCorners(surface.mesh, point)) {
+            const int k = sample_at[std::size_t(corner)];
+            known = known && k >= 0;
+            if (known) ratio += weight * transported[k] / mass[k];
         }
         if (known) text += fmt::format("{},{}\n", i, ratio);
     }

@@ -10,6 +10,7 @@
 #include "stages/render/lettering.h"
 #include "stages/render/panels.h"
 #include "varimap/core/log.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 
@@ -38,9 +39,7 @@ struct Quantity {
 };
 
 double mass_ratio(const DistortedSurface& surface, const SurfacePoint& p) {
-    double ratio = 0;
-    for (int k = 0; k < 3; ++k) ratio += p.barycentric[k] * surface.mass_ratio[surface.mesh.faces(p.face, k)];
-    return ratio;
+    return interpolated(surface.mass_ratio, surface.mesh, p);
 }
 
 const TriangleDistortion& triangle(const DistortedSurface& surface, const SurfacePoint& p) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "stages/render/openness.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 
@@ -37,13 +38,10 @@ Figure::Figure(TriangleMesh mesh, Paint paint, std::vector<bool> flagged)
 }
 
 Colour Figure::shade(const SurfacePoint& point, const Eigen::Matrix3d& view) const {
-    const auto corners = mesh_.faces.row(point.face);
     Vec3 normal = Vec3::Zero();
-    double openness = 0;
-    for (int k = 0; k < 3; ++k) {
-        normal += point.barycentric[k] * normals_.row(corners[k]).transpose();
-        openness += point.barycentric[k] * openness_[size_t(corners[k])];
-    }
+    for (const auto [vertex, weight] : WeightedCorners(mesh_, point))
+        normal += weight * normals_.row(vertex).transpose();
+    const double openness = interpolated(openness_, mesh_, point);
     normal = (view * normal).normalized();
     if ((view.row(2) * face_normal(mesh_, point.face))[0] < 0)
         normal = -normal;  // the inside, through a hole

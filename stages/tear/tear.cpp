@@ -4,9 +4,9 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh/unit_area.h"
-#include "varimap/surface/pulled_back.h"
 #include "varimap/verification/verification.h"
 
 namespace varimap {

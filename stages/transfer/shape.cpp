@@ -10,9 +10,9 @@
 
 #include "varimap/core/parallel.h"
 #include "varimap/core/rotation.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh_repair/weld.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

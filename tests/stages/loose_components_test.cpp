@@ -8,7 +8,7 @@
 #include "fixtures/known_pair.h"
 #include "stages/generate/level_set.h"
 #include "varimap/mesh/closest_point.h"
-#include "varimap/surface/pulled_back.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 namespace {

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "varimap/landmarks/vertex_list.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/spectral_check.h"
 #include "varimap/surface/input_locator.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 

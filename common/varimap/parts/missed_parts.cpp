@@ -4,6 +4,7 @@
 
 #include "varimap/core/log.h"
 #include "varimap/core/timing.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/parts/strained_parts.h"
@@ -28,14 +29,8 @@ constexpr double least_step_gain =
 
 /// Where the way there and back leads from a vertex; itself where it ends nowhere.
 Vec3 there_and_back(const SlidingMap& map, const PointMap& back, int v) {
-    const SurfacePoint& image = map.point(v);
-    Vec3 end = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-        const SurfacePoint& corner = back[std::size_t(map.target().faces(image.face, k))];
-        if (corner.face < 0) return map.source().vertex(v);
-        end += image.barycentric[k] * position(map.source(), corner);
-    }
-    return end;
+    const StraightImage end = straight_image(map.point(v), back, map.target(), map.source());
+    return end.is_whole ? end.place : map.source().vertex(v);
 }
 
 VertexData<bool> vertices_elsewhere(const SlidingMap& map, const PointMap& back) {

@@ -6,6 +6,7 @@
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/disc.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/subdivision.h"
 #include "varimap/mesh/topology.h"
@@ -20,17 +21,10 @@ namespace {
 /// Of a point of a side of the source: the closest to its straight image that faces as the side's ends do.
 SurfacePoint image_along(const SurfacePoint& at, const PointMap& map, const TriangleMesh& source,
                          const TriangleMesh& target, const ClosestPoint& closest) {
-    Vec3 straight = Vec3::Zero(), normal = Vec3::Zero();
-    int guess = -1;
-    for (int k = 0; k < 3; ++k) {
-        if (at.barycentric[k] == 0) continue;
-        const SurfacePoint& end = map[std::size_t(source.faces(at.face, k))];
-        if (end.face < 0) return end;
-        straight += at.barycentric[k] * position(target, end);
-        normal += face_normal(target, end.face).stableNormalized();
-        guess = end.face;
-    }
-    return closest(straight, normal, guess).point;
+    const StraightImage image = straight_image(at, map, source, target);
+    if (!image.is_whole) return {};
+    const int guess = map[std::size_t(nearest_vertex(source, at))].face;
+    return closest(image.place, image.normal, guess).point;
 }
 
 /// Cuts faces much larger than the target's in four, until they are as small. Their straight images cut

@@ -6,6 +6,7 @@
 
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh/unit_area.h"
 #include "varimap/quality/image_mesh.h"
@@ -163,8 +164,7 @@ namespace {
 std::vector<int> vertices_around(const SurfacePoint& point, const TriangleMesh& mesh,
                                  const Adjacency& faces_of_vertex) {
     std::vector<int> at, around;
-    for (int k = 0; k < 3; ++k)
-        if (point.barycentric[k] > 0) at.push_back(mesh.faces(point.face, k));
+    for (const auto [vertex, weight] : WeightedCorners(mesh, point)) at.push_back(vertex);
     for (const int v : at)
         for (const int f : faces_of_vertex[v])
             for (int k = 0; k < 3; ++k) around.push_back(mesh.faces(f, k));
@@ -180,21 +180,9 @@ std::vector<double> landmark_residuals(const PointMap& map, const PointPairs& la
     const double length = std::sqrt(surface_area(target));
     std::vector<double> residuals;
     for (const auto& [from, to] : landmarks) {
-        Vec3 image = Vec3::Zero();
-        double known = 0;
-        bool is_whole = true;
-        for (int k = 0; k < 3; ++k) {
-            const SurfacePoint& corner = map[source.faces(from.face, k)];
-            if (!(from.barycentric[k] > 0)) continue;
-            if (corner.face < 0) {
-                is_whole = false;
-                continue;
-            }
-            image += from.barycentric[k] * position(target, corner);
-            known += from.barycentric[k];
-        }
-        if (!is_whole && known > 0) image /= known;
-        residuals.push_back(known > 0 ? (image - position(target, to)).norm() / length : 0);
+        const StraightImage image = straight_image(from, map, source, target);
+        const Vec3 place = image.is_whole ? image.place : Vec3(image.place / image.share);
+        residuals.push_back(image.share > 0 ? (place - position(target, to)).norm() / length : 0);
     }
     return residuals;
 }

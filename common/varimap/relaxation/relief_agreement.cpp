@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "varimap/core/statistics.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/mass.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/spectral/laplacian.h"
@@ -127,11 +128,7 @@ double ReliefAgreement::correlation() const {
 }
 
 double ReliefAgreement::residual(const ReliefPair& pair, int v) const {
-    const SurfacePoint& image = map_.point(v);
-    double there = 0;
-    for (int k = 0; k < 3; ++k)
-        there += image.barycentric[k] * pair.target[map_.target().faces(image.face, k)];
-    return pair.source[v] - there;
+    return pair.source[v] - interpolated(pair.target, map_.target(), map_.point(v));
 }
 
 double ReliefAgreement::value(int v) const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/mass.h"
 
 namespace varimap {
@@ -9,9 +10,9 @@ namespace varimap {
 namespace {
 
 Vec3 offset(const SoftConstraint& constraint, const SlidingMap& map) {
-    const auto corners = map.source().faces.row(constraint.from.face);
     Vec3 image = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) image += constraint.from.barycentric[k] * map.image(corners[k]);
+    for (const auto [vertex, weight] : WeightedCorners(map.source(), constraint.from))
+        image += weight * map.image(vertex);
     return image - constraint.to;
 }
 

@@ -6,6 +6,7 @@
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 
@@ -72,20 +73,17 @@ PointCarrier::PointCarrier(const TriangleMesh& from, const PointMap& map, const 
 
 SurfacePoint PointCarrier::operator()(const SurfacePoint& point) const {
     if (point.face < 0) return {};
-    const auto corners = from_.faces.row(point.face);
     Vec3 place = Vec3::Zero(), normal = Vec3::Zero(), on_one_face = Vec3::Zero();
     bool one_face = true;
     int first = -1;
-    for (int k = 0; k < 3; ++k) {
-        const double share = point.barycentric[k];
-        if (share == 0) continue;
-        const SurfacePoint& image = map_[std::size_t(corners[k])];
+    for (const auto [vertex, weight] : WeightedCorners(from_, point)) {
+        const SurfacePoint& image = map_[std::size_t(vertex)];
         if (image.face < 0) return {};
         if (first < 0) first = image.face;
         one_face = one_face && image.face == first;
-        on_one_face += share * image.barycentric;
-        place += share * position(to_, image);
-        normal += share * position(normals_, image);
+        on_one_face += weight * image.barycentric;
+        place += weight * position(to_, image);
+        normal += weight * position(normals_, image);
     }
     if (one_face) return {first, on_one_face};
     return closest_(place, normal).point;

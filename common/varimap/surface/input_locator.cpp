@@ -1,6 +1,7 @@
 #include "varimap/surface/input_locator.h"
 
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 
 namespace varimap {
 
@@ -21,10 +22,10 @@ SurfacePoint InputLocator::operator()(const Vec3& x, const Vec3& normal, int gue
 
 SurfacePoint MeshLocator::operator()(const SurfacePoint& on_input) const {
     Vec3 x = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-        const SurfacePoint& corner = surface_.on_mesh[std::size_t(surface_.input.faces(on_input.face, k))];
-        if (on_input.barycentric[k] == 1) return corner;
-        x += on_input.barycentric[k] * position(surface_.mesh, corner);
+    for (const auto [vertex, weight] : WeightedCorners(surface_.input, on_input)) {
+        const SurfacePoint& corner = surface_.on_mesh[std::size_t(vertex)];
+        if (weight == 1) return corner;
+        x += weight * position(surface_.mesh, corner);
     }
     return (*closest_)(x).point;
 }

@@ -5,6 +5,7 @@
 #include "varimap/mesh/boundary.h"
 #include "varimap/mesh/closest_point.h"
 #include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/mesh/serialization.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/surface/surface_check.h"
@@ -89,26 +90,23 @@ bool one_is_inside_out(const Surface& A, const Surface& B) {
 }
 
 Vec3 barycentric_on(const TriangleMesh& mesh, int face, const SurfacePoint& point) {
-    const auto own = mesh.faces.row(point.face), other = mesh.faces.row(face);
+    const auto other = mesh.faces.row(face);
     Vec3 result = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) {
-        if (point.barycentric[i] == 0) continue;
-        const auto at = std::find(other.begin(), other.end(), own[i]);
+    for (const auto [vertex, weight] : WeightedCorners(mesh, point)) {
+        const auto at = std::find(other.begin(), other.end(), vertex);
         if (at == other.end())
             return closest_barycentric(position(mesh, point), mesh.vertex(other[0]), mesh.vertex(other[1]),
                                        mesh.vertex(other[2]));
-        result[at - other.begin()] += point.barycentric[i];
+        result[at - other.begin()] += weight;
     }
     return result;
 }
 
 SurfacePoint to_input(const Surface& surface, const SurfacePoint& on_mesh) {
     SurfacePoint result{surface.input_face[on_mesh.face], Vec3::Zero()};
-    for (int c = 0; c < 3; ++c) {
+    for (const auto [vertex, weight] : WeightedCorners(surface.mesh, on_mesh))
         // A corner's own input face may be the one next door.
-        const SurfacePoint& corner = surface.on_input[surface.mesh.faces(on_mesh.face, c)];
-        result.barycentric += on_mesh.barycentric[c] * barycentric_on(surface.input, result.face, corner);
-    }
+        result.barycentric += weight * barycentric_on(surface.input, result.face, surface.on_input[vertex]);
     result.barycentric = result.barycentric.cwiseMax(0).cwiseMin(1);
     return result;
 }

@@ -7,9 +7,9 @@
 #include <locale>
 
 #include "varimap/core/error.h"
+#include "varimap/mesh/interpolation.h"
 #include "varimap/results/map_table.h"
 #include "varimap/results/quality_numbers.h"
-#include "varimap/surface/pulled_back.h"
 
 namespace varimap {
 namespace {
