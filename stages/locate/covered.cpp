@@ -23,11 +23,11 @@ class Image {
         : mesh_{image_positions(images, whole, part.vertices), part.faces},
           closest_(mesh_),
           on_rim_(part.vertex_count()),
-          side_on_rim_(std::size_t(3 * part.face_count()), false) {
+          half_edge_on_rim_(std::size_t(3 * part.face_count()), false) {
         const Edges edges = find_edges(part);
         for (int e = 0; e < edges.size(); ++e) {
-            if (edges.sides[e].size() != 1) continue;
-            side_on_rim_[std::size_t(edges.sides[e].front())] = true;
+            if (edges.half_edges[e].size() != 1) continue;
+            half_edge_on_rim_[std::size_t(edges.half_edges[e].front())] = true;
             for (const int v : edges.vertices[std::size_t(e)]) on_rim_[v] = true;
         }
     }
@@ -44,7 +44,7 @@ class Image {
             const int next = (c + 1) % 3, after = (c + 2) % 3;
             const bool on_side = point.barycentric[after] <= 0,
                        at_corner = on_side && point.barycentric[next] <= 0;
-            if (on_side && side_on_rim_[std::size_t(3 * point.face + c)]) return true;
+            if (on_side && half_edge_on_rim_[std::size_t(3 * point.face + c)]) return true;
             if (at_corner && on_rim_[mesh_.faces(point.face, c)]) return true;
         }
         return false;
@@ -53,7 +53,7 @@ class Image {
     TriangleMesh mesh_;
     ClosestPoint closest_;
     VertexData<bool> on_rim_;
-    std::vector<bool> side_on_rim_;  ///< of Edges::sides
+    std::vector<bool> half_edge_on_rim_;  ///< per half-edge of `mesh_`
 };
 
 }  // namespace

@@ -187,7 +187,7 @@ void Cutter::share_cuts(int side, int other) {
 void Cutter::number_cuts() {
     const Edges edges = find_edges(map_.to);
     for (int e = 0; e < edges.size(); ++e) {
-        const auto sides = edges.sides[e];
+        const auto sides = edges.half_edges[e];
         if (sides.size() == 2 && begin_of(sides[0]) != begin_of(sides[1]) &&
             cuts(sides[0]).size() == cuts(sides[1]).size())
             share_cuts(sides[0], sides[1]);

@@ -73,7 +73,7 @@ void strips(benchmark::State& state) {
     const Edges edges = find_edges(e.mesh);
     const auto four_edges_on = [&](int f) {
         for (int step = 0; step < 4; ++step)
-            for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + step % 3)]])
+            for (const int side : edges.half_edges[edges.of_half_edge[std::size_t(3 * f + step % 3)]])
                 if (side / 3 != f) {
                     f = side / 3;
                     break;

@@ -116,7 +116,8 @@ FaceList Geodesic::State::faces_around(const SurfacePoint& p) const {
     if (zeros >= 2) {
         for (int f : faces_of_vertex[mesh.faces(p.face, largest)]) faces.push_back(f);
     } else if (zeros == 1) {
-        for (int side : edges.sides[edges.of_side[3 * p.face + (zero + 1) % 3]]) faces.push_back(side / 3);
+        for (int half_edge : edges.half_edges[edges.of_half_edge[3 * p.face + (zero + 1) % 3]])
+            faces.push_back(half_edge / 3);
     } else {
         faces.push_back(p.face);
     }
@@ -131,8 +132,8 @@ double Geodesic::State::shortest(const Vec3& a, const FaceList& a_faces, const V
     s.start(goal + 1);
     const auto point = [&](int node) -> Vec3 { return node_position.row(node).transpose(); };
     const auto reach_face = [&](int f, const Vec3& from, double distance, int parent, int skipped_edge) {
-        for (int side = 3 * f; side < 3 * f + 3; ++side) {
-            const int e = edges.of_side[side];
+        for (int half_edge = 3 * f; half_edge < 3 * f + 3; ++half_edge) {
+            const int e = edges.of_half_edge[half_edge];
             if (e == skipped_edge) continue;
             for (int node = first_node[e]; node < first_node[e + 1]; ++node) {
                 const Vec3 p = point(node);
@@ -146,9 +147,9 @@ double Geodesic::State::shortest(const Vec3& a, const FaceList& a_faces, const V
     for (int node = s.closest(); node >= 0; node = s.closest()) {
         if (node == goal) return straightened(s, a, b);
         const auto [stamp, closed, parent, parent_face, distance] = s.entries[node];
-        for (int side : edges.sides[edge_of_node[node]])
-            if (side / 3 != parent_face)
-                reach_face(side / 3, point(node), distance, node, edge_of_node[node]);
+        for (int half_edge : edges.half_edges[edge_of_node[node]])
+            if (half_edge / 3 != parent_face)
+                reach_face(half_edge / 3, point(node), distance, node, edge_of_node[node]);
     }
     return infinity;
 }

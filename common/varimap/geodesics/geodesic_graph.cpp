@@ -2,31 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
+#include "varimap/core/bucket_sort.h"
 #include "varimap/core/parallel.h"
 
 namespace varimap {
 
 namespace {
-
-/// The items by the vertex that `vertex_of` names, those of one vertex sorted by `before`; and where each
-/// vertex's begin.
-template <class Item, class VertexOf, class Before>
-std::vector<int> sort_by_vertex(std::vector<Item>& items, int vertices, const VertexOf& vertex_of,
-                                const Before& before) {
-    std::vector<int> begin(size_t(vertices) + 1, 0);
-    for (const Item& item : items) ++begin[size_t(vertex_of(item)) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<Item> sorted(items.size());
-    std::vector<int> next = begin;
-    for (const Item& item : items) sorted[size_t(next[size_t(vertex_of(item))]++)] = item;
-    for (size_t v = 0; v < size_t(vertices); ++v)
-        std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1], before);
-    items = std::move(sorted);
-    return begin;
-}
 
 struct HalfEdge {
     int low, high;  ///< the edge's vertices
@@ -34,19 +17,16 @@ struct HalfEdge {
 };
 
 std::vector<HalfEdge> half_edges_by_edge(const TriangleMesh& mesh) {
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * size_t(mesh.face_count()));
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (int c = 0; c < 3; ++c) {
-            const int a = mesh.faces(f, c), b = mesh.faces(f, (c + 1) % 3);
-            edges.push_back({std::min(a, b), std::max(a, b), mesh.faces(f, (c + 2) % 3)});
-        }
-    sort_by_vertex(
-        edges, mesh.vertex_count(), [](const HalfEdge& e) { return e.low; },
-        [](const HalfEdge& a, const HalfEdge& b) {
-            return std::tie(a.high, a.apex) < std::tie(b.high, b.apex);
-        });
-    return edges;
+    const auto half_edge = [&](int h) {
+        const int f = h / 3, c = h % 3, a = mesh.faces(f, c), b = mesh.faces(f, (c + 1) % 3);
+        return HalfEdge{std::min(a, b), std::max(a, b), mesh.faces(f, (c + 2) % 3)};
+    };
+    return sorted_in_buckets(
+               3 * mesh.face_count(), mesh.vertex_count(), half_edge, [](const HalfEdge& e) { return e.low; },
+               [](const HalfEdge& a, const HalfEdge& b) {
+                   return std::tie(a.high, a.apex) < std::tie(b.high, b.apex);
+               })
+        .item;
 }
 
 /// Position of `apex` relative to the edge: along it from `low`, and the (positive) height above it.
@@ -100,14 +80,16 @@ std::vector<Arc> arcs_of(const Domain& domain) {
     return arcs;
 }
 
-GeodesicGraph graph_of(std::vector<Arc> arcs, int vertices) {
+GeodesicGraph graph_of(const std::vector<Arc>& arcs, int vertices) {
     GeodesicGraph graph;
-    graph.offset = sort_by_vertex(
-        arcs, vertices, [](const Arc& a) { return a.from; },
+    auto [offset, sorted] = sorted_in_buckets(
+        int(arcs.size()), vertices, [&](int i) -> const Arc& { return arcs[std::size_t(i)]; },
+        [](const Arc& a) { return a.from; },
         [](const Arc& a, const Arc& b) { return std::tie(a.to, a.length) < std::tie(b.to, b.length); });
-    graph.target.reserve(arcs.size());
-    graph.length.reserve(arcs.size());
-    for (const Arc& a : arcs) {
+    graph.offset = std::move(offset);
+    graph.target.reserve(sorted.size());
+    graph.length.reserve(sorted.size());
+    for (const Arc& a : sorted) {
         graph.target.push_back(a.to);
         graph.length.push_back(a.length);
     }

@@ -23,8 +23,8 @@ int corner_of(const TriangleMesh& mesh, int f, int vertex) {
 /// The faces around a vertex, counter-clockwise; from a boundary, if it has one, or from the lowest.
 std::vector<int> fan(const TriangleMesh& mesh, const Edges& edges, int vertex, int face) {
     const auto beyond = [&](int f, int side_of_corner) {
-        const int side = 3 * f + (corner_of(mesh, f, vertex) + side_of_corner) % 3;
-        return face_beyond(edges, edges.of_side[std::size_t(side)], f);
+        const int half_edge = 3 * f + (corner_of(mesh, f, vertex) + side_of_corner) % 3;
+        return face_beyond(edges, edges.of_half_edge[std::size_t(half_edge)], f);
     };
     std::vector<int> faces{face};
     int next = beyond(face, 2);  // the side that enters the corner lies to the left
@@ -80,8 +80,8 @@ Vec2 LogMap::seen_from_vertex(int vertex, const TriangleStrip& strip, const Vec3
         total += corner_angle(mesh_, f, vertex);
     }
     const int edge =
-        edges_->of_side[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))];
-    if (edges_->sides[edge].size() > 1) at *= 2 * std::numbers::pi / total;  // the vertex is inside
+        edges_->of_half_edge[std::size_t(3 * around.front() + corner_of(mesh_, around.front(), vertex))];
+    if (edges_->half_edges[edge].size() > 1) at *= 2 * std::numbers::pi / total;  // the vertex is inside
     return {length * std::cos(at), length * std::sin(at)};
 }
 

@@ -132,8 +132,8 @@ TriangleStrip straight_strip(const TriangleMesh& mesh, const Edges& edges, const
         const int face = strip.faces.back();
         int exit = -1;
         double farthest = reached;
-        for (int side = 3 * face; side < 3 * face + 3; ++side) {
-            const int edge = edges.of_side[std::size_t(side)];
+        for (int half_edge = 3 * face; half_edge < 3 * face + 3; ++half_edge) {
+            const int edge = edges.of_half_edge[std::size_t(half_edge)];
             if (const auto at = cut.crossing(edges.vertices[std::size_t(edge)]); at && *at > farthest) {
                 exit = edge;
                 farthest = *at;
@@ -149,55 +149,99 @@ TriangleStrip straight_strip(const TriangleMesh& mesh, const Edges& edges, const
     return {};
 }
 
+namespace {
+
+/// A search for find_strip, from face to face by the lengths of ways through their centres, those first that
+/// may lead to the goal soonest (A*).
+class StripSearch {
+  public:
+    StripSearch(const TriangleMesh& mesh, const Edges& edges, int from, int to, double longest_detour)
+        : mesh_(mesh),
+          edges_(edges),
+          to_(to),
+          goal_(centroid(mesh, to)),
+          reached_(reached_faces()),
+          open_(open_ways()) {
+        const Vec3 start = centroid(mesh, from);
+        const double straight = (start - goal_).norm();
+        longest_ = longest_detour * (straight + std::max(longest_edge(mesh, from), longest_edge(mesh, to)));
+        open_way({straight, from, reached_.add({from, 0, -1, -1, start, 0})});
+    }
+
+    /// After `most` faces at most; empty where none was found by then.
+    TriangleStrip run(int most) {
+        for (int settled = 0; !open_.empty() && settled < most;) {
+            std::pop_heap(open_.begin(), open_.end());
+            if (open_.back().length > longest_) break;
+            const int here = open_.back().number;
+            open_.pop_back();
+            if (std::exchange(reached_[here].settled, true)) continue;
+            ++settled;
+            if (reached_[here].face == to_) return strip_to(reached_, here);
+            go_on_from(here);
+        }
+        return {};
+    }
+
+  private:
+    /// Memory that searches of a thread have in common.
+    static ReachedFaces& reached_faces() {
+        thread_local ReachedFaces reached;
+        reached.clear();
+        return reached;
+    }
+    static std::vector<OpenWay>& open_ways() {
+        thread_local std::vector<OpenWay> open;
+        open.clear();
+        return open;
+    }
+
+    void open_way(const OpenWay& way) {
+        open_.push_back(way);
+        std::push_heap(open_.begin(), open_.end());
+    }
+
+    void go_on_from(int here) {
+        const int f = reached_[here].face;
+        for (int half_edge = 3 * f; half_edge < 3 * f + 3; ++half_edge) {
+            const int edge = edges_.of_half_edge[std::size_t(half_edge)];
+            for (const int beyond : edges_.half_edges[edge])
+                if (beyond / 3 != f) go_on(here, edge, beyond / 3);
+        }
+    }
+
+    void go_on(int here, int edge, int g) {
+        int there = reached_.find(g);
+        const bool is_new = there < 0;
+        if (is_new) {
+            const Vec3 middle = centroid(mesh_, g);
+            there = reached_.add({g, 0, edge, here, middle, (middle - goal_).norm()});
+        }
+        Reached& next = reached_[there];
+        const double through = reached_[here].length + (next.centre - reached_[here].centre).norm();
+        if (!is_new && next.length <= through) return;
+        next.length = through, next.edge = edge, next.before = here, next.settled = false;
+        open_way({through + next.to_goal, g, there});
+    }
+
+    const TriangleMesh& mesh_;
+    const Edges& edges_;
+    const int to_;
+    const Vec3 goal_;
+    ReachedFaces& reached_;
+    std::vector<OpenWay>& open_;  ///< a heap
+    double longest_;
+};
+
+}  // namespace
+
 TriangleStrip find_strip(const TriangleMesh& mesh, const Edges& edges, int from, int to, int most,
                          double detour) {
     if (from == to) return {{from}, {}};
-    for (int side = 3 * from; side < 3 * from + 3; ++side)  // most ways are that short
-        for (const int beyond : edges.sides[edges.of_side[std::size_t(side)]])
-            if (beyond / 3 == to) return {{from, to}, {edges.of_side[std::size_t(side)]}};
-    thread_local ReachedFaces reached;
-    thread_local std::vector<OpenWay> open;  // a heap
-    reached.clear();
-    open.clear();
-    const Vec3 goal = centroid(mesh, to), start = centroid(mesh, from);
-    const double longest =
-        detour * ((start - goal).norm() + std::max(longest_edge(mesh, from), longest_edge(mesh, to)));
-    const auto open_way = [](const OpenWay& way) {
-        open.push_back(way);
-        std::push_heap(open.begin(), open.end());
-    };
-    open_way({(start - goal).norm(), from, reached.add({from, 0, -1, -1, start, 0})});
-    for (int settled = 0; !open.empty() && settled < most;) {
-        std::pop_heap(open.begin(), open.end());
-        if (open.back().length > longest) break;
-        const int here = open.back().number;
-        open.pop_back();
-        if (std::exchange(reached[here].settled, true)) continue;
-        ++settled;
-        const int f = reached[here].face;
-        if (f == to) return strip_to(reached, here);
-        const double length = reached[here].length;
-        const Vec3 from_here = reached[here].centre;
-        for (int side = 3 * f; side < 3 * f + 3; ++side) {
-            const int edge = edges.of_side[std::size_t(side)];
-            for (const int beyond : edges.sides[edge]) {
-                const int g = beyond / 3;
-                if (g == f) continue;
-                int there = reached.find(g);
-                const bool is_new = there < 0;
-                if (is_new) {
-                    const Vec3 middle = centroid(mesh, g);
-                    there = reached.add({g, 0, edge, here, middle, (middle - goal).norm()});
-                }
-                Reached& next = reached[there];
-                const double through = length + (next.centre - from_here).norm();
-                if (!is_new && next.length <= through) continue;
-                next.length = through, next.edge = edge, next.before = here, next.settled = false;
-                open_way({through + next.to_goal, g, there});
-            }
-        }
-    }
-    return {};
+    for (int half_edge = 3 * from; half_edge < 3 * from + 3; ++half_edge)  // most ways are that short
+        for (const int beyond : edges.half_edges[edges.of_half_edge[std::size_t(half_edge)]])
+            if (beyond / 3 == to) return {{from, to}, {edges.of_half_edge[std::size_t(half_edge)]}};
+    return StripSearch(mesh, edges, from, to, detour).run(most);
 }
 
 }  // namespace varimap

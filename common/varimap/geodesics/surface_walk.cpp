@@ -22,15 +22,7 @@ struct SurfaceWalk::State {
 };
 
 SurfaceWalk::SurfaceWalk(const TriangleMesh& mesh)
-    : mesh_(mesh), beyond_(std::size_t(3 * mesh.face_count()), -1) {
-    const Edges edges = find_edges(mesh);
-    for (int e = 0; e < edges.size(); ++e) {
-        const auto sides = edges.sides[e];
-        if (sides.size() != 2) continue;
-        beyond_[std::size_t(sides[0])] = sides[1];
-        beyond_[std::size_t(sides[1])] = sides[0];
-    }
-}
+    : mesh_(mesh), opposite_(opposite_half_edges(find_edges(mesh))) {}
 
 SurfacePoint SurfaceWalk::operator()(const SurfacePoint& start, const Vec3& step) const {
     State state{start, step};
@@ -80,7 +72,7 @@ void SurfaceWalk::cross(State& state, int corner) const {
     }
     const Vec3 along = edge / length;
     const double parallel = state.step.dot(along);
-    const int other = beyond_[std::size_t(3 * state.point.face + from)];
+    const int other = opposite_[std::size_t(3 * state.point.face + from)];
     if (other < 0) {
         state.step = parallel * along;
         state.entry = corner;

@@ -23,7 +23,7 @@ class SurfaceWalk {
     void cross(State& state, int corner) const;
 
     const TriangleMesh& mesh_;
-    std::vector<int> beyond_;  ///< per side 3 f + c (from corner c to c + 1): the same edge's other side; -1
+    std::vector<int> opposite_;  ///< opposite_half_edges (topology.h)
 };
 
 }  // namespace varimap

@@ -119,8 +119,8 @@ StraightPath ends_of(const Way& way, const TriangleMesh& mesh, const TriangleStr
 /// The edge of a face at one of its vertices that is not `edge`.
 int other_edge_at(const Edges& edges, int vertex, int face, int edge) {
     int other = -1;
-    for (int side = 3 * face; side < 3 * face + 3; ++side) {
-        const int e = edges.of_side[side];
+    for (int half_edge = 3 * face; half_edge < 3 * face + 3; ++half_edge) {
+        const int e = edges.of_half_edge[half_edge];
         const auto [a, b] = edges.vertices[e];
         if (e != edge && (a == vertex || b == vertex)) other = e;
     }
@@ -173,7 +173,7 @@ bool has_angle(const TriangleMesh& mesh, const Edges& edges, int vertex, int fac
     do {
         sum += corner_angle(mesh, face, vertex);
         edge = other_edge_at(edges, vertex, face, edge);
-        if (edges.sides[edge].size() > 2) return false;
+        if (edges.half_edges[edge].size() > 2) return false;
         face = face_beyond(edges, edge, face);
     } while (face >= 0 && face != first && sum < enough);
     return face < 0 || sum >= enough;

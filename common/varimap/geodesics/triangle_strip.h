@@ -15,9 +15,9 @@ struct TriangleStrip {
 
 /// The face beyond an edge of a face; -1 on a boundary, and where the edge has more than two.
 inline int face_beyond(const Edges& edges, int edge, int face) {
-    const auto sides = edges.sides[edge];
-    if (sides.size() != 2) return -1;
-    return sides[0] / 3 == face ? sides[1] / 3 : sides[0] / 3;
+    const auto half_edges = edges.half_edges[edge];
+    if (half_edges.size() != 2) return -1;
+    return half_edges[0] / 3 == face ? half_edges[1] / 3 : half_edges[0] / 3;
 }
 
 /// The angle of a face at one of its vertices.

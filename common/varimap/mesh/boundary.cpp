@@ -13,7 +13,7 @@ Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges) {
     Boundary boundary;
     DisjointSets sets(mesh.vertex_count());
     for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() > 1) continue;
+        if (edges.half_edges[e].size() > 1) continue;
         boundary.edges.push_back(edges.vertices[e]);
         sets.join(edges.vertices[e][0], edges.vertices[e][1]);
     }
@@ -33,7 +33,7 @@ Boundary find_boundary(const TriangleMesh& mesh) {
 VertexData<bool> boundary_vertices(const TriangleMesh& mesh, const Edges& edges) {
     VertexData<bool> marks(mesh.vertex_count(), false);
     for (int e = 0; e < edges.size(); ++e)
-        if (edges.sides[e].size() == 1)
+        if (edges.half_edges[e].size() == 1)
             for (const int v : edges.vertices[e]) marks[v] = true;
     return marks;
 }
@@ -41,8 +41,8 @@ VertexData<bool> boundary_vertices(const TriangleMesh& mesh, const Edges& edges)
 std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh, const Edges& edges) {
     std::vector<int> next(std::size_t(mesh.vertex_count()), -1);
     for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() != 1) continue;
-        const int side = edges.sides[e][0], f = side / 3, c = side % 3;
+        if (edges.half_edges[e].size() != 1) continue;
+        const int half_edge = edges.half_edges[e][0], f = half_edge / 3, c = half_edge % 3;
         next[std::size_t(mesh.faces(f, (c + 1) % 3))] = mesh.faces(f, c);
     }
     std::vector<BoundaryLoop> loops;
@@ -71,8 +71,8 @@ std::vector<double> loop_openings(const TriangleMesh& mesh, const Edges& edges, 
     std::vector<Vec3> sums(std::size_t(boundary.loops), Vec3::Zero());
     std::size_t i = 0;  // of the boundary's edges
     for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() > 1) continue;
-        const int f = edges.sides[e][0] / 3, k = edges.sides[e][0] % 3;
+        if (edges.half_edges[e].size() > 1) continue;
+        const int f = edges.half_edges[e][0] / 3, k = edges.half_edges[e][0] % 3;
         const Vec3 along = mesh.vertex(mesh.faces(f, (k + 1) % 3)) - mesh.vertex(mesh.faces(f, k));
         sums[std::size_t(boundary.loop[i++])] += along.cross(face_normal(mesh, f).stableNormalized());
     }

@@ -55,8 +55,8 @@ class FaceSets {
     template <class Visit>
     void neighbours(int f, const Visit& visit) const {
         for (int k = 0; k < 3; ++k)
-            for (const int side : edges_->sides[edges_->of_side[std::size_t(3 * f + k)]])
-                if (side / 3 != f) visit(side / 3);
+            for (const int half_edge : edges_->half_edges[edges_->of_half_edge[std::size_t(3 * f + k)]])
+                if (half_edge / 3 != f) visit(half_edge / 3);
     }
     void mark(const std::vector<int>& faces, char value) {
         for (const int f : faces) marks_[f] = value;

@@ -54,7 +54,7 @@ void refuse_degenerate_faces(const TriangleMesh& mesh, const std::string& path) 
 void refuse_crowded_edges(const Edges& edges, const std::string& path) {
     Defect defect;
     for (int e = 0; e < edges.size(); ++e)
-        if (edges.sides[e].size() > 2) defect.add(e);
+        if (edges.half_edges[e].size() > 2) defect.add(e);
     if (defect.count == 0) return;
     const auto [a, b] = edges.vertices[defect.first];
     throw InputError(
@@ -67,9 +67,9 @@ void refuse_crowded_edges(const Edges& edges, const std::string& path) {
 void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
     Defect defect;
     for (int e = 0; e < edges.size(); ++e) {
-        const auto sides = edges.sides[e];
+        const auto half_edges = edges.half_edges[e];
         const auto start = [&](int s) { return mesh.faces(s / 3, s % 3); };
-        if (sides.size() == 2 && start(sides[0]) == start(sides[1])) defect.add(e);
+        if (half_edges.size() == 2 && start(half_edges[0]) == start(half_edges[1])) defect.add(e);
     }
     if (defect.count == 0) return;
     const auto [a, b] = edges.vertices[defect.first];
@@ -79,7 +79,7 @@ void refuse_inconsistent_orientation(const TriangleMesh& mesh, const Edges& edge
         path, defect.count, a, b));
 }
 
-/// Edges have one or two sides, and those run in opposite directions.
+/// Edges have one or two half-edges, and those run in opposite directions.
 void refuse_pinched_vertices(const TriangleMesh& mesh, const Edges& edges, const std::string& path) {
     const VertexData<int> fans = count_fans(mesh, edges, FaceData<char>(mesh.face_count(), 1));
     Defect defect;

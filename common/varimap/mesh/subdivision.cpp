@@ -12,14 +12,14 @@ Subdivision subdivide(const TriangleMesh& mesh) {
     vertices.resize(before + edges.size(), 3);
     vertices.topRows(before) = mesh.vertices;
     for (int e = 0; e < edges.size(); ++e) {
-        const int side = edges.sides[e][0], corner = side % 3;
-        result.midpoints.push_back({side / 3, (Vec3::Unit(corner) + Vec3::Unit((corner + 1) % 3)) / 2});
+        const int half_edge = edges.half_edges[e][0], corner = half_edge % 3;
+        result.midpoints.push_back({half_edge / 3, (Vec3::Unit(corner) + Vec3::Unit((corner + 1) % 3)) / 2});
         vertices.row(before + e) = position(mesh, result.midpoints.back()).transpose();
     }
     Faces& faces = result.mesh.faces;
     faces.resize(4 * mesh.face_count(), 3);
     for (int f = 0; f < mesh.face_count(); ++f) {
-        const auto midpoint = [&](int side) { return before + edges.of_side[std::size_t(3 * f + side)]; };
+        const auto midpoint = [&](int k) { return before + edges.of_half_edge[std::size_t(3 * f + k)]; };
         for (int k = 0; k < 3; ++k)
             faces.row(4 * f + k) << mesh.faces(f, k), midpoint(k), midpoint((k + 2) % 3);
         faces.row(4 * f + 3) << midpoint(1), midpoint(2), midpoint(0);

@@ -54,16 +54,22 @@ PointMap points_at_vertices(const TriangleMesh& mesh);
 int vertex_of(const TriangleMesh& mesh, const SurfacePoint& point);
 
 /// The edges of a mesh, ascending by (lower vertex, higher vertex).
-/// Side 3 f + c is the side of face f that runs from its corner c to its corner c + 1 (mod 3).
+/// Half-edge 3 f + c runs along face f from its corner c to its corner c + 1 (mod 3).
 struct Edges {
     std::vector<std::array<int, 2>> vertices;  ///< lower, higher
-    Adjacency sides;                           ///< per edge, ascending; one side on a boundary
-    std::vector<int> of_side;                  ///< 3 |F|: the edge of each side
+    Adjacency half_edges;                      ///< per edge, ascending; one on a boundary
+    std::vector<int> of_half_edge;             ///< 3 |F|: the edge of each half-edge
 
     int size() const { return int(vertices.size()); }
 };
-/// Faces must not repeat a vertex. Non-manifold edges are allowed: they have more than two sides.
+/// Faces must not repeat a vertex. Non-manifold edges are allowed: they have more than two half-edges.
 Edges find_edges(const TriangleMesh& mesh);
+/// The half-edge of the same face that begins where this one ends.
+inline int next_half_edge(int half_edge) {
+    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+}
+/// Per half-edge: the other one of its edge, or -1 where there is not exactly one other.
+std::vector<int> opposite_half_edges(const Edges& edges);
 /// Found once for all who need them: of a large mesh they take as much memory as the mesh.
 using SharedEdges = std::shared_ptr<const Edges>;
 inline SharedEdges find_shared_edges(const TriangleMesh& mesh) {
@@ -74,7 +80,7 @@ inline SharedEdges find_shared_edges(const TriangleMesh& mesh) {
 std::vector<std::vector<int>> face_components(const Edges& edges, std::vector<char> marked);
 
 /// Per vertex: how many fans its marked faces form, groups that hang together over the edges at it. Edges
-/// have one or two sides, and those run in opposite directions.
+/// have one or two half-edges, and those run in opposite directions.
 VertexData<int> count_fans(const TriangleMesh& mesh, const Edges& edges, const FaceData<char>& marked);
 
 /// The connected components of a mesh, numbered from 0 by their lowest vertices.

@@ -62,8 +62,8 @@ void Thinning::thin_group(const int* begin, const int* end) {
 bool Thinning::is_fin(const std::vector<int>& part, const Edges& edges) const {
     bool attached = false;
     for (const int f : part)
-        for (int side = 3 * f; side < 3 * f + 3; ++side) {
-            const auto around = edges.sides[edges.of_side[std::size_t(side)]];
+        for (int half_edge = 3 * f; half_edge < 3 * f + 3; ++half_edge) {
+            const auto around = edges.half_edges[edges.of_half_edge[std::size_t(half_edge)]];
             const auto others = std::count_if(around.begin(), around.end(), [&](int other) {
                 return keep_[std::size_t(other / 3)] && !back_to_back_[std::size_t(other / 3)];
             });

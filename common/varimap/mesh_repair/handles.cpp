@@ -34,14 +34,14 @@ class Cutting {
     void apply(RepairedMesh& mesh) const;
 
   private:
-    int side_of(int from, int to) const;
-    int opposite(int side) const { return opposite_[std::size_t(side)]; }
-    bool separates(const std::vector<int>& sides);
+    int half_edge_from(int from, int to) const;
+    int opposite(int half_edge) const { return opposite_[std::size_t(half_edge)]; }
+    bool separates(const std::vector<int>& half_edges);
     std::vector<int> fan_to_the_right(const Cycle& cycle, std::size_t i) const;
 
     const TriangleMesh& mesh_;
     Adjacency faces_;
-    std::vector<int> opposite_;  ///< per side: the one beyond its edge; -1: none
+    std::vector<int> opposite_;  ///< opposite_half_edges; -1 also at cuts
     std::vector<char> taken_;    ///< vertices on cuts and on the boundary
     std::vector<int> reached_from_;
     std::vector<Cycle> cycles_;
@@ -50,39 +50,34 @@ class Cutting {
 Cutting::Cutting(const TriangleMesh& mesh, const Edges& edges)
     : mesh_(mesh),
       faces_(vertex_faces(mesh)),
-      opposite_(edges.of_side.size(), -1),
+      opposite_(opposite_half_edges(edges)),
       taken_(std::size_t(mesh.vertex_count()), 0),
       reached_from_(std::size_t(mesh.face_count()), 0) {
-    for (int e = 0; e < edges.size(); ++e) {
-        const auto sides = edges.sides[e];
-        if (sides.size() == 2) {
-            opposite_[std::size_t(sides[0])] = sides[1];
-            opposite_[std::size_t(sides[1])] = sides[0];
-        } else {
+    for (int e = 0; e < edges.size(); ++e)
+        if (edges.half_edges[e].size() != 2)
             for (const int v : edges.vertices[std::size_t(e)]) taken_[std::size_t(v)] = 1;
-        }
-    }
 }
 
-/// The side that runs from one vertex to the other.
-int Cutting::side_of(int from, int to) const {
+/// The half-edge that runs from one vertex to the other.
+int Cutting::half_edge_from(int from, int to) const {
     for (const int f : faces_[from])
         for (int c = 0; c < 3; ++c)
             if (mesh_.faces(f, c) == from && mesh_.faces(f, (c + 1) % 3) == to) return 3 * f + c;
     return -1;
 }
 
-/// Whether the faces on both sides of a closed path, given by the sides to its left, do not meet elsewhere.
-/// Grows both regions in turn, so that the smaller one ends the search.
-bool Cutting::separates(const std::vector<int>& sides) {
+/// Whether the faces on both sides of a closed path, given by the half-edges to its left, do not meet
+/// elsewhere. Grows both regions in turn, so that the smaller one ends the search.
+bool Cutting::separates(const std::vector<int>& half_edges) {
     std::array<std::vector<int>, 2> region;
-    for (const int side : sides) {
-        region[0].push_back(side / 3);
-        region[1].push_back(opposite(side) / 3);
-        opposite_[std::size_t(opposite(side))] = -1;
+    for (const int half_edge : half_edges) {
+        region[0].push_back(half_edge / 3);
+        region[1].push_back(opposite(half_edge) / 3);
+        opposite_[std::size_t(opposite(half_edge))] = -1;
     }
     std::vector<int> beyond;
-    for (const int side : sides) beyond.push_back(std::exchange(opposite_[std::size_t(side)], -1));
+    for (const int half_edge : half_edges)
+        beyond.push_back(std::exchange(opposite_[std::size_t(half_edge)], -1));
     bool met = false;
     for (int k = 0; k < 2; ++k)
         for (const int f : region[std::size_t(k)]) {
@@ -92,20 +87,20 @@ bool Cutting::separates(const std::vector<int>& sides) {
     std::array<std::size_t, 2> next{0, 0};
     for (int k = 0; !met && next[std::size_t(k)] < region[std::size_t(k)].size(); k = 1 - k) {
         const int f = region[std::size_t(k)][next[std::size_t(k)]++];
-        for (int side = 3 * f; side < 3 * f + 3 && !met; ++side) {
-            if (opposite(side) < 0) continue;
-            int& from = reached_from_[std::size_t(opposite(side) / 3)];
+        for (int half_edge = 3 * f; half_edge < 3 * f + 3 && !met; ++half_edge) {
+            if (opposite(half_edge) < 0) continue;
+            int& from = reached_from_[std::size_t(opposite(half_edge) / 3)];
             met = from == 2 - k;
             if (from != 0) continue;
             from = k + 1;
-            region[std::size_t(k)].push_back(opposite(side) / 3);
+            region[std::size_t(k)].push_back(opposite(half_edge) / 3);
         }
     }
     for (const auto& faces : region)
         for (const int f : faces) reached_from_[std::size_t(f)] = 0;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        opposite_[std::size_t(sides[i])] = beyond[i];
-        opposite_[std::size_t(beyond[i])] = sides[i];
+    for (std::size_t i = 0; i < half_edges.size(); ++i) {
+        opposite_[std::size_t(half_edges[i])] = beyond[i];
+        opposite_[std::size_t(beyond[i])] = half_edges[i];
     }
     return !met;
 }
@@ -114,13 +109,13 @@ Cutting::Outcome Cutting::cut(const Cycle& cycle) {
     const auto& vertices = cycle.vertices;
     if (std::any_of(vertices.begin(), vertices.end(), [&](int v) { return taken_[std::size_t(v)] != 0; }))
         return Outcome::touches;
-    std::vector<int> sides;
+    std::vector<int> half_edges;
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        sides.push_back(side_of(vertices[i], vertices[(i + 1) % vertices.size()]));
-    if (separates(sides)) return Outcome::separates;
-    for (const int side : sides) {
-        opposite_[std::size_t(opposite(side))] = -1;
-        opposite_[std::size_t(side)] = -1;
+        half_edges.push_back(half_edge_from(vertices[i], vertices[(i + 1) % vertices.size()]));
+    if (separates(half_edges)) return Outcome::separates;
+    for (const int half_edge : half_edges) {
+        opposite_[std::size_t(opposite(half_edge))] = -1;
+        opposite_[std::size_t(half_edge)] = -1;
     }
     for (const int v : vertices) taken_[std::size_t(v)] = 1;
     cycles_.push_back(cycle);
@@ -132,9 +127,9 @@ std::vector<int> Cutting::fan_to_the_right(const Cycle& cycle, std::size_t i) co
     const std::size_t n = cycle.vertices.size();
     const int v = cycle.vertices[i];
     std::vector<int> fan;
-    for (int side = side_of(cycle.vertices[(i + 1) % n], v); side >= 0;) {
-        fan.push_back(side / 3);
-        side = opposite(side % 3 == 2 ? side - 2 : side + 1);  // -1 at the cut
+    for (int half_edge = half_edge_from(cycle.vertices[(i + 1) % n], v); half_edge >= 0;) {
+        fan.push_back(half_edge / 3);
+        half_edge = opposite(next_half_edge(half_edge));  // -1 at the cut
     }
     return fan;
 }

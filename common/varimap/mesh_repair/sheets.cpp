@@ -14,9 +14,9 @@ namespace {
 constexpr double least_height = 1e-9;      ///< by the length of the face's other side
 constexpr std::size_t most_compared = 64;  ///< faces at an edge; comparing them takes their cube
 
-/// A face at an edge, by its side there.
+/// A face at an edge, by its half-edge there.
 struct Flank {
-    int side;
+    int half_edge;
     bool forward;  ///< it runs from the edge's lower vertex to its higher one
     double angle;  ///< about the edge, counter-clockwise seen from the higher vertex
     bool flat;     ///< without height over the edge: the angle means nothing
@@ -34,23 +34,22 @@ class SheetFinder {
     explicit SheetFinder(const TriangleMesh& mesh)
         : mesh_(mesh),
           edges_(find_edges(mesh)),
-          partner_(edges_.of_side.size(), -1),
+          partner_(edges_.of_half_edge.size(), -1),
           turned_(std::size_t(mesh.face_count()), 0) {}
     Sheets find();
 
   private:
-    int start(int side) const { return mesh_.faces(side / 3, side % 3); }
-    static int next(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
-    int partner(int side) const { return partner_[std::size_t(side)]; }
-    bool is_turned(int side) const { return turned_[std::size_t(side / 3)]; }
+    int start(int half_edge) const { return mesh_.faces(half_edge / 3, half_edge % 3); }
+    int partner(int half_edge) const { return partner_[std::size_t(half_edge)]; }
+    bool is_turned(int half_edge) const { return turned_[std::size_t(half_edge / 3)]; }
     void find_partners();
     std::vector<Flank> flanks(int edge) const;
     void join_beside_wedges(const std::vector<Flank>& flanks);
     void join_opposite(const std::vector<Flank>& flanks);
     void join_flattest(std::vector<Flank> flanks);
-    void join(int side, int other);
-    void part(int side);
-    bool agree(int side, int other) const;
+    void join(int half_edge, int other);
+    void part(int half_edge);
+    bool agree(int half_edge, int other) const;
     void orient();
     std::vector<int> orient_from(int seed, std::vector<char>& seen);
     bool looks_inward(const std::vector<int>& faces) const;
@@ -59,21 +58,21 @@ class SheetFinder {
 
     const TriangleMesh& mesh_;
     Edges edges_;
-    std::vector<int> partner_;  ///< per side: that of the face it hangs together with; -1: none
+    std::vector<int> partner_;  ///< per half-edge: that of the face it hangs together with; -1: none
     std::vector<char> turned_;
     std::vector<int> corner_;  ///< per corner: the lowest of those that are one with it
     int cut_edges_ = 0, opened_edges_ = 0;
 };
 
-void SheetFinder::join(int side, int other) {
-    partner_[std::size_t(side)] = other;
-    partner_[std::size_t(other)] = side;
+void SheetFinder::join(int half_edge, int other) {
+    partner_[std::size_t(half_edge)] = other;
+    partner_[std::size_t(other)] = half_edge;
 }
 
-void SheetFinder::part(int side) {
-    if (partner(side) < 0) return;
-    partner_[std::size_t(partner(side))] = -1;
-    partner_[std::size_t(side)] = -1;
+void SheetFinder::part(int half_edge) {
+    if (partner(half_edge) < 0) return;
+    partner_[std::size_t(partner(half_edge))] = -1;
+    partner_[std::size_t(half_edge)] = -1;
 }
 
 std::vector<Flank> SheetFinder::flanks(int edge) const {
@@ -81,15 +80,15 @@ std::vector<Flank> SheetFinder::flanks(int edge) const {
     const Vec3 origin = mesh_.vertex(low), axis = (mesh_.vertex(high) - origin).stableNormalized();
     const Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
     std::vector<Flank> result;
-    for (const int side : edges_.sides[edge]) {
-        const Vec3 across = mesh_.vertex(start(next(next(side)))) - origin;
+    for (const int half_edge : edges_.half_edges[edge]) {
+        const Vec3 across = mesh_.vertex(start(next_half_edge(next_half_edge(half_edge)))) - origin;
         const double up = across.dot(y), out = across.dot(x), angle = std::atan2(up, out);
         const bool flat = std::hypot(up, out) <= least_height * across.norm();
         // About an edge without length there are no angles.
-        result.push_back({side, start(side) == low, std::isfinite(angle) ? angle : 0, flat});
+        result.push_back({half_edge, start(half_edge) == low, std::isfinite(angle) ? angle : 0, flat});
     }
     std::sort(result.begin(), result.end(), [](const Flank& a, const Flank& b) {
-        return a.angle != b.angle ? a.angle < b.angle : a.side < b.side;
+        return a.angle != b.angle ? a.angle < b.angle : a.half_edge < b.half_edge;
     });
     return result;
 }
@@ -100,16 +99,16 @@ void SheetFinder::join_beside_wedges(const std::vector<Flank>& flanks) {
     std::vector<int> open, closing;
     for (const Flank& flank : flanks) {
         if (!flank.forward) {
-            open.push_back(flank.side);
+            open.push_back(flank.half_edge);
         } else if (open.empty()) {
-            closing.push_back(flank.side);
+            closing.push_back(flank.half_edge);
         } else {
-            join(open.back(), flank.side);
+            join(open.back(), flank.half_edge);
             open.pop_back();
         }
     }
-    for (const int side : closing) {
-        join(open.back(), side);
+    for (const int half_edge : closing) {
+        join(open.back(), half_edge);
         open.pop_back();
     }
 }
@@ -117,7 +116,7 @@ void SheetFinder::join_beside_wedges(const std::vector<Flank>& flanks) {
 /// Of so many faces each goes with the one that is half of them away: as flat as can be where they are even.
 void SheetFinder::join_opposite(const std::vector<Flank>& flanks) {
     const std::size_t half = flanks.size() / 2;
-    for (std::size_t i = 0; i < half; ++i) join(flanks[i].side, flanks[i + half].side);
+    for (std::size_t i = 0; i < half; ++i) join(flanks[i].half_edge, flanks[i + half].half_edge);
 }
 
 void SheetFinder::join_flattest(std::vector<Flank> flanks) {
@@ -128,7 +127,7 @@ void SheetFinder::join_flattest(std::vector<Flank> flanks) {
             for (std::size_t k = i + 1; k < flanks.size(); ++k)
                 if (turn_between(flanks[i], flanks[k]) > turn_between(flanks[first], flanks[second]))
                     first = i, second = k;
-        join(flanks[first].side, flanks[second].side);
+        join(flanks[first].half_edge, flanks[second].half_edge);
         flanks.erase(flanks.begin() + std::ptrdiff_t(second));
         flanks.erase(flanks.begin() + std::ptrdiff_t(first));
     }
@@ -136,9 +135,9 @@ void SheetFinder::join_flattest(std::vector<Flank> flanks) {
 
 void SheetFinder::find_partners() {
     for (int e = 0; e < edges_.size(); ++e) {
-        const auto sides = edges_.sides[e];
-        if (sides.size() == 2) join(sides[0], sides[1]);
-        if (sides.size() < 3) continue;
+        const auto half_edges = edges_.half_edges[e];
+        if (half_edges.size() == 2) join(half_edges[0], half_edges[1]);
+        if (half_edges.size() < 3) continue;
         ++cut_edges_;
         const std::vector<Flank> around = flanks(e);
         const auto forward =
@@ -151,8 +150,8 @@ void SheetFinder::find_partners() {
 }
 
 /// Whether two faces run through their common edge in opposite directions.
-bool SheetFinder::agree(int side, int other) const {
-    return (start(side) == start(other)) == (is_turned(side) != is_turned(other));
+bool SheetFinder::agree(int half_edge, int other) const {
+    return (start(half_edge) == start(other)) == (is_turned(half_edge) != is_turned(other));
 }
 
 /// Turns the faces that hang together with the seed as it is; those where that cannot be are parted.
@@ -160,15 +159,15 @@ std::vector<int> SheetFinder::orient_from(int seed, std::vector<char>& seen) {
     std::vector<int> faces{seed};
     seen[std::size_t(seed)] = 1;
     for (std::size_t i = 0; i < faces.size(); ++i)
-        for (int side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side) {
-            const int other = partner(side);
+        for (int half_edge = 3 * faces[i]; half_edge < 3 * faces[i] + 3; ++half_edge) {
+            const int other = partner(half_edge);
             if (other < 0) continue;
             if (!seen[std::size_t(other / 3)]) {
                 seen[std::size_t(other / 3)] = 1;
-                turned_[std::size_t(other / 3)] = !agree(side, other);
+                turned_[std::size_t(other / 3)] = !agree(half_edge, other);
                 faces.push_back(other / 3);
-            } else if (!agree(side, other)) {
-                part(side);
+            } else if (!agree(half_edge, other)) {
+                part(half_edge);
                 ++opened_edges_;
             }
         }
@@ -186,7 +185,8 @@ bool SheetFinder::looks_inward(const std::vector<int>& faces) const {
         volume += (is_turned ? -1 : 1) * (mesh_.vertex(mesh_.faces(f, 0)) - origin).dot(normal);
         area += normal.norm();
         if (is_turned) turned += normal.norm();
-        for (int side = 3 * f; side < 3 * f + 3; ++side) closed = closed && partner(side) >= 0;
+        for (int half_edge = 3 * f; half_edge < 3 * f + 3; ++half_edge)
+            closed = closed && partner(half_edge) >= 0;
     }
     return closed && volume != 0 ? volume < 0 : turned > area / 2;
 }
@@ -206,12 +206,12 @@ void SheetFinder::orient() {
 
 void SheetFinder::join_corners() {
     DisjointSets sets(int(partner_.size()));
-    for (int side = 0; side < int(partner_.size()); ++side) {
-        const int other = partner(side);
-        if (other < side) continue;
-        const bool along = start(side) == start(other);
-        sets.join(side, along ? other : next(other));
-        sets.join(next(side), along ? next(other) : other);
+    for (int half_edge = 0; half_edge < int(partner_.size()); ++half_edge) {
+        const int other = partner(half_edge);
+        if (other < half_edge) continue;
+        const bool along = start(half_edge) == start(other);
+        sets.join(half_edge, along ? other : next_half_edge(other));
+        sets.join(next_half_edge(half_edge), along ? next_half_edge(other) : other);
     }
     corner_.resize(partner_.size());
     for (int c = 0; c < int(corner_.size()); ++c) corner_[std::size_t(c)] = sets.lowest(c);
@@ -224,14 +224,15 @@ bool SheetFinder::part_where_crowded() {
     const Edges edges = find_edges(sheets);
     bool parted = false;
     for (int e = 0; e < edges.size(); ++e) {
-        const auto sides = edges.sides[e];
-        const auto is_joined = [&](int side) { return partner(side) >= 0; };
-        if (sides.size() < 2 || (sides.size() == 2 && agree(sides[0], sides[1]))) continue;
-        if (std::any_of(sides.begin(), sides.end(), is_joined))
-            for (const int side : sides) part(side);
+        const auto half_edges = edges.half_edges[e];
+        const auto is_joined = [&](int half_edge) { return partner(half_edge) >= 0; };
+        if (half_edges.size() < 2 || (half_edges.size() == 2 && agree(half_edges[0], half_edges[1])))
+            continue;
+        if (std::any_of(half_edges.begin(), half_edges.end(), is_joined))
+            for (const int half_edge : half_edges) part(half_edge);
         else
-            for (const int side : sides)
-                for (int k = 0; k < 3; ++k) part(side - side % 3 + k);
+            for (const int half_edge : half_edges)
+                for (int k = 0; k < 3; ++k) part(half_edge - half_edge % 3 + k);
         parted = true;
     }
     return parted;

@@ -123,7 +123,7 @@ std::vector<double> Welding::shortest_boundary_edges() {
     const Edges edges = find_edges(joined());
     std::vector<double> shortest(std::size_t(mesh_.vertex_count()), 0);
     for (int e = 0; e < edges.size(); ++e) {
-        if (edges.sides[e].size() != 1) continue;
+        if (edges.half_edges[e].size() != 1) continue;
         const auto [a, b] = edges.vertices[std::size_t(e)];
         // Edges without length say nothing, and are no longer than any.
         const double length = std::max((mesh_.vertex(a) - mesh_.vertex(b)).norm(),

@@ -17,8 +17,8 @@ ReversedPatch measure(const SlidingMap& map, const Edges& edges, const FaceData<
         signed_area += map.rest(f).area * map.image_triangle(f).D;
         bool surrounded = true;
         for (int k = 0; k < 3; ++k)
-            for (const int side : edges.sides[edges.of_side[3 * f + k]])
-                surrounded = surrounded && reversed[side / 3];
+            for (const int half_edge : edges.half_edges[edges.of_half_edge[3 * f + k]])
+                surrounded = surrounded && reversed[half_edge / 3];
         interior += surrounded;
     }
     patch.ratio = signed_area / patch.area;

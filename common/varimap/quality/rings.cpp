@@ -195,8 +195,8 @@ void Rings::number_components(const std::vector<int>& band) {
             const int f = ahead.back();
             ahead.pop_back();
             for (int k = 0; k < 3; ++k)
-                for (const int side : edges_.sides[edges_.of_side[std::size_t(3 * f + k)]]) {
-                    const auto g = std::size_t(side / 3);
+                for (const int half_edge : edges_.half_edges[edges_.of_half_edge[std::size_t(3 * f + k)]]) {
+                    const auto g = std::size_t(half_edge / 3);
                     if (ring_of_[g] >= 0 || band[g] != band[std::size_t(f)]) continue;
                     ring_of_[g] = count;
                     ahead.push_back(int(g));
@@ -227,10 +227,10 @@ void Rings::add(int f, int band) {
 
 void Rings::join() {
     for (int e = 0; e < edges_.size(); ++e) {
-        const auto sides = edges_.sides[e];
-        const int a = ring_of_[std::size_t(sides[0] / 3)];
-        if (sides.size() == 1) rings_[std::size_t(a)].is_closed = false;
-        for (std::size_t k = 1; k < sides.size(); ++k) join(a, ring_of_[std::size_t(sides[k] / 3)]);
+        const auto half_edges = edges_.half_edges[e];
+        const int a = ring_of_[std::size_t(half_edges[0] / 3)];
+        if (half_edges.size() == 1) rings_[std::size_t(a)].is_closed = false;
+        for (std::size_t k = 1; k < half_edges.size(); ++k) join(a, ring_of_[std::size_t(half_edges[k] / 3)]);
     }
     for (Ring& ring : rings_) make_set(ring.next), make_set(ring.before);
 }

@@ -86,7 +86,7 @@ int AlongTarget::farthest(const std::array<int, 2>& ends) const {
 }
 
 SeenSide AlongTarget::side(int f, int k) {
-    const int e = source_edges_->of_side[std::size_t(3 * f + k)];
+    const int e = source_edges_->of_half_edge[std::size_t(3 * f + k)];
     const std::array<int, 2>& ends = source_edges_->vertices[std::size_t(e)];
     const std::scoped_lock lock(edge_lock_[std::size_t(e) % locks]);
     SeenSide seen = known_edges_(

@@ -99,8 +99,8 @@ void join_patches(const TriangleMesh& mesh, const FaceData<char>& between, FaceD
         if (marked[f])
             for (int g = before[f]; g != none && !marked[g]; g = before[g]) marked[g] = 1;
         for (int c = 0; c < 3; ++c)
-            for (const int side : edges.sides[edges.of_side[std::size_t(3 * f + c)]]) {
-                const int g = side / 3;
+            for (const int half_edge : edges.half_edges[edges.of_half_edge[std::size_t(3 * f + c)]]) {
+                const int g = half_edge / 3;
                 if (before[g] != unknown || !(marked[g] || between[g])) continue;
                 before[g] = f;
                 reached.push_back(g);

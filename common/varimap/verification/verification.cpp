@@ -106,8 +106,8 @@ std::vector<std::pair<Vec2, Vec2>> Judge::look_around() const {
 
 /// The image of a face's corner as seen from that of another.
 Vec2 Judge::seen(int f, int from, int to) const {
-    const int side = 3 * f + ((from + 1) % 3 == to ? from : to);
-    const auto& [of_higher, of_lower] = seen_[std::size_t(edges_.of_side[std::size_t(side)])];
+    const int half_edge = 3 * f + ((from + 1) % 3 == to ? from : to);
+    const auto& [of_higher, of_lower] = seen_[std::size_t(edges_.of_half_edge[std::size_t(half_edge)])];
     return source_.faces(f, from) < source_.faces(f, to) ? of_higher : of_lower;
 }
 

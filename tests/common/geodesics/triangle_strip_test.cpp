@@ -58,8 +58,8 @@ TriangleStrip strip_through(const Edges& edges, const std::vector<int>& faces) {
     TriangleStrip strip{faces, {}};
     for (std::size_t i = 0; i + 1 < faces.size(); ++i)
         for (int side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side)
-            for (const int other : edges.sides[edges.of_side[std::size_t(side)]])
-                if (other / 3 == faces[i + 1]) strip.edges.push_back(edges.of_side[std::size_t(side)]);
+            for (const int other : edges.half_edges[edges.of_half_edge[std::size_t(side)]])
+                if (other / 3 == faces[i + 1]) strip.edges.push_back(edges.of_half_edge[std::size_t(side)]);
     return strip;
 }
 

@@ -254,7 +254,7 @@ TEST(MeshRepair, SeparatesSheetsAtEdgesOfThreeFaces) {
     TriangleMesh file = shapes::square(2);  // with a wall on one inner edge
     const Edges edges = find_edges(file);
     int inner = 0;
-    while (edges.sides[inner].size() < 2) ++inner;
+    while (edges.half_edges[inner].size() < 2) ++inner;
     file.vertices.conservativeResize(file.vertex_count() + 1, 3);
     file.vertices.bottomRows(1) << .5, .5, 1;
     const auto [a, b] = edges.vertices[std::size_t(inner)];

@@ -87,7 +87,7 @@ TEST(Adjacency, NamesFacesAndNeighboursInAscendingOrder) {
     const Edges edges = find_edges(mesh);
     EXPECT_EQ(edges.size(), 5);
     for (int s = 0; s < 6; ++s) {
-        const auto sides = edges.sides[edges.of_side[s]];
+        const auto sides = edges.half_edges[edges.of_half_edge[s]];
         EXPECT_NE(std::find(sides.begin(), sides.end(), s), sides.end());
     }
 }

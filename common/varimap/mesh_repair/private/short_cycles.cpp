@@ -67,9 +67,9 @@ void ShortCycles::grow(int seed, Length radius) {
     }
 }
 
-/// The number in the region of the face that has a side, or 0.
-int ShortCycles::region_face(int side) const {
-    return face_number_[std::size_t(side / 3)];
+/// The number in the region of the face that a half-edge runs along, or 0.
+int ShortCycles::region_face(int half_edge) const {
+    return face_number_[std::size_t(half_edge / 3)];
 }
 
 void ShortCycles::collect_edges() {
@@ -80,8 +80,8 @@ void ShortCycles::collect_edges() {
             const auto [a, b] = edges_.vertices[std::size_t(e)];
             if (a != v || !is_reached(b)) continue;
             region_edges_.push_back(e);
-            for (const int side : edges_.sides[e]) {
-                const int f = side / 3, apex = mesh_.faces(f, (side % 3 + 2) % 3);
+            for (const int half_edge : edges_.half_edges[e]) {
+                const int f = half_edge / 3, apex = mesh_.faces(f, (half_edge % 3 + 2) % 3);
                 if (!is_reached(apex) || face_number_[std::size_t(f)] > 0) continue;
                 region_faces_.push_back(f);
                 face_number_[std::size_t(f)] = int(region_faces_.size());
@@ -104,8 +104,9 @@ std::vector<int> ShortCycles::closing_edges() {
     DisjointSets sets(1 + int(region_faces_.size()));
     std::vector<int> closing;
     for (const auto& [way, e] : ways) {
-        const auto sides = edges_.sides[e];
-        const int here = region_face(sides[0]), there = sides.size() > 1 ? region_face(sides[1]) : 0;
+        const auto half_edges = edges_.half_edges[e];
+        const int here = region_face(half_edges[0]),
+                  there = half_edges.size() > 1 ? region_face(half_edges[1]) : 0;
         if (sets.lowest(here) == sets.lowest(there))
             closing.push_back(e);
         else

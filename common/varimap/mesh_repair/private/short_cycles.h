@@ -38,7 +38,7 @@ class ShortCycles {
     void grow(int seed, Length radius);
     int other_end(int edge, int vertex) const;
     bool is_reached(int vertex) const { return distance_[std::size_t(vertex)] != nowhere; }
-    int region_face(int side) const;
+    int region_face(int half_edge) const;
     void collect_edges();
     std::vector<int> closing_edges();
     Cycle closed_by(int edge) const;
