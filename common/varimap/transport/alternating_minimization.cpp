@@ -126,7 +126,7 @@ void AlternatingMinimization::renew_support() {
 }
 
 /// The half-step over the plan, with the rest fixed. Returns the gamma that it ends with, too.
-SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
+SinkhornReport AlternatingMinimization::solve_plan(Tightness tightness, double& gamma) {
     if (solution_.plan.support.entries() == 0)
         throw ConvergenceError(
             "nothing is left of the transport plan: samples of the hierarchies are their own neighbours no "
@@ -154,15 +154,15 @@ SinkhornReport AlternatingMinimization::solve_plan(bool tight, double& gamma) {
     const SinkhornReport report =
         solve_annealed(problem, {largest, first_divisor, options_.gamma_divisor},
                        {options_.marginal_tolerance, options_.sinkhorn_iterations}, solution_);
-    if (!tight) return report;
+    if (tightness != Tightness::tight) return report;
     const SinkhornReport last = tighten(problem, largest, options_, solution_);
     return {report.iterations + last.iterations, last.marginal_error};
 }
 
-Alternation AlternatingMinimization::step(bool tight) {
+Alternation AlternatingMinimization::step(Tightness tightness) {
     if (!fresh_) renew_support();
     double gamma;
-    const SinkhornReport sinkhorn = solve_plan(tight, gamma);
+    const SinkhornReport sinkhorn = solve_plan(tightness, gamma);
     const AveragedSide X = averaged_X(), Y = averaged_Y();
     if (options_.area_energy == AreaEnergy::paper) {
         const Masses masses(solution_.plan, plan_bounds(X_, Y_, solution_.relaxed, options_));
@@ -171,7 +171,7 @@ Alternation AlternatingMinimization::step(bool tight) {
     }
     solution_.step = update_centres(X, Y, solution_.plan, solution_.relaxed, partners_);
     fresh_ = false;
-    if (tight) keep_bounds();
+    if (tightness == Tightness::tight) keep_bounds();
     return {solution_.step.energy, gamma, sinkhorn, solution_.plan.support.entries()};
 }
 

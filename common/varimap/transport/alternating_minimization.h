@@ -83,11 +83,11 @@ class AlternatingMinimization {
     /// (coarsest level).
     void start(const Centres& centres, const KeptEntries& kept);
     /// The half-steps over the plan, over the relaxed masses (if the energy has them), and over the centres.
-    Alternation step() { return step(false); }
+    Alternation step() { return step(Tightness::usual); }
     /// A step with a plan solved for more tightly and at last rounded, so that it keeps the area bound to
     /// within 0.1%. The centres are those of the plan before rounding. Throws ConvergenceError where the
     /// bound cannot be kept.
-    Alternation tight_step() { return step(true); }
+    Alternation tight_step() { return step(Tightness::tight); }
     /// From now on samples count this much in their neighbourhoods' means; with no value in full again.
     void set_damping(const std::optional<Damping>& damping);
     /// Steps until the energy of Eq. (3) settles: the one that is reported, though costs of descriptors have
@@ -103,8 +103,9 @@ class AlternatingMinimization {
   private:
     AveragedSide averaged_X() const { return damped_X_ ? AveragedSide(X_, *damped_X_) : X_; }
     AveragedSide averaged_Y() const { return damped_Y_ ? AveragedSide(Y_, *damped_Y_) : Y_; }
-    Alternation step(bool tight);
-    SinkhornReport solve_plan(bool tight, double& gamma);
+    enum class Tightness { usual, tight };
+    Alternation step(Tightness tightness);
+    SinkhornReport solve_plan(Tightness tightness, double& gamma);
     void keep_bounds();
     void renew_support();
 

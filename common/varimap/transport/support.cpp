@@ -140,27 +140,33 @@ Eigen::VectorXd column_sums(const Coupling& plan) {
     return sums;
 }
 
-std::vector<int> largest_of_rows(const Coupling& plan) {
-    const Support& s = plan.support;
-    std::vector<int> best(s.rows(), 0);
-    for (int i = 0; i < s.rows(); ++i) {
+namespace {
+
+/// Per line, a row or a column: `across` of its largest entry. `begin`: where a line's begin; `entry_at`:
+/// their places in row order.
+template <class EntryAt>
+std::vector<int> largest_of_lines(const Coupling& plan, const std::vector<int>& begin,
+                                  const std::vector<int>& across, const EntryAt& entry_at) {
+    std::vector<int> best(begin.size() - 1, 0);
+    for (std::size_t line = 0; line < best.size(); ++line) {
         double largest = -1;
-        for (int e = s.row_begin[i]; e < s.row_begin[i + 1]; ++e)
-            if (plan.value[e] > largest) largest = plan.value[e], best[i] = s.column[e];
+        for (int e = begin[line]; e < begin[line + 1]; ++e)
+            if (const double value = plan.value[entry_at(e)]; value > largest)
+                largest = value, best[line] = across[std::size_t(e)];
     }
     return best;
 }
 
+}  // namespace
+
+std::vector<int> largest_of_rows(const Coupling& plan) {
+    const Support& s = plan.support;
+    return largest_of_lines(plan, s.row_begin, s.column, [](int e) { return e; });
+}
+
 std::vector<int> largest_of_columns(const Coupling& plan) {
     const Support& s = plan.support;
-    std::vector<int> best(s.columns(), 0);
-    for (int j = 0; j < s.columns(); ++j) {
-        double largest = -1;
-        for (int e = s.column_begin[j]; e < s.column_begin[j + 1]; ++e)
-            if (const double value = plan.value[s.by_row[e]]; value > largest)
-                largest = value, best[j] = s.row[e];
-    }
-    return best;
+    return largest_of_lines(plan, s.column_begin, s.row, [&](int e) { return s.by_row[std::size_t(e)]; });
 }
 
 RowMatrix row_barycentres(const Coupling& plan, const RowMatrix& points) {
