@@ -80,22 +80,22 @@ Exploration::Exploration(const PairContext& context, const ExplorationOptions& o
     progress_.random.seed(unsigned(options.seed));
 }
 
-Trial Exploration::tried(const Start& start, bool ironed) const {
+Trial Exploration::tried(const Start& start, Folds folds) const {
     const Ironing& ironing = descent_.ironing();
     AlternatingMinimization minimization = descent_.settled(start);
     if (descent_.samples() < ironing.options().minimum_samples) return {minimization.take_solution(), {}};
     std::optional<PairOrientation> orientation;
-    if (ironed) orientation = ironing.iron(descent_.level(), minimization, unobserved);
+    if (folds == Folds::ironed) orientation = ironing.iron(descent_.level(), minimization, unobserved);
     if (!orientation) orientation = ironing.measure(descent_.level(), minimization.solution());
     return {minimization.take_solution(), std::move(*orientation)};
 }
 
-void Exploration::try_all(const std::vector<Start>& starts, bool ironed) {
+void Exploration::try_all(const std::vector<Start>& starts, Folds folds) {
     std::vector<Trial>& pool = progress_.pool;
     const size_t before = pool.size();
     pool.resize(before + starts.size());
     parallel_for_each_index(starts.size(), size_t(1),
-                            [&](size_t n) { pool[before + n] = tried(starts[n], ironed); });
+                            [&](size_t n) { pool[before + n] = tried(starts[n], folds); });
 }
 
 void Exploration::enter(int level) {
@@ -134,7 +134,7 @@ void Exploration::add_axes_starts() {
     std::vector<Start> starts;
     for (const Matching& m : axes_matchings(context_, level)) starts.push_back({centres_of(level, m), {}});
     std::vector<Trial> others = std::exchange(progress_.pool, {});
-    try_all(starts, false);  // finishing irons them
+    try_all(starts, Folds::left);  // finishing irons them
     prune(options_.axes_maps);
     std::vector<Trial>& pool = progress_.pool;
     std::erase_if(pool, [](const Trial& trial) { return trial.is_mirrored(); });
@@ -153,7 +153,7 @@ void Exploration::add_swaps(int best) {
         for (const Coupling& swapped : with_swapped_rows(coarse, extremities))
             starts.push_back({back.hand_down(swapped, alternation_.support_threshold).centres, {}});
     }
-    try_all(starts, false);  // most are no good: those that are get ironed on the next level
+    try_all(starts, Folds::left);  // most are no good: those that are get ironed on the next level
 }
 
 void Exploration::prune(int keep) {

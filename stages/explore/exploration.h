@@ -77,8 +77,9 @@ class Exploration {
     /// Degrees of the rotation that takes the places of one map nearest to those of another.
     double turn(const Points& best, const Points& other) const;
     void log_pool() const;
-    Trial tried(const Start& start, bool ironed) const;
-    void try_all(const std::vector<Start>& starts, bool ironed = true);
+    enum class Folds { ironed, left };
+    Trial tried(const Start& start, Folds folds) const;
+    void try_all(const std::vector<Start>& starts, Folds folds = Folds::ironed);
 
     const PairContext& context_;
     ExplorationOptions options_;
