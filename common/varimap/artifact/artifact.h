@@ -37,6 +37,7 @@ struct Header {
 template <class T>
 struct ArtifactType;
 
+/// What read_artifact returns.
 template <class T>
 struct Artifact {
     Header header;
@@ -67,6 +68,7 @@ void write_payload(const std::string& path, Header header, const std::string& pa
 /// The ASCII header as it is written.
 std::string header_text(const Header& header);
 
+/// Throws ArtifactError (damaged, of another kind or schema, or its parts contradict each other), IoError.
 template <class T>
 Artifact<T> read_artifact(const std::string& path) {
     using Type = ArtifactType<T>;

@@ -31,6 +31,7 @@ std::vector<std::pair<std::string, std::string>> csr_files(long long rows, long 
                                                            const std::vector<int>& indices,
                                                            const std::vector<int>& indptr);
 
+/// Whether the bytes begin as a zip archive does.
 bool is_zip(std::string_view bytes);
 /// The files of a zip archive by their names, stored or deflated. Throws InputError, naming `path`, for
 /// archives that are damaged, encrypted, or of more than 4 GB.

@@ -11,6 +11,7 @@ namespace varimap {
 template <class Enum>
 struct EnumNames;
 
+/// The name of one value, and those of all in their order.
 template <class Enum>
 std::string name_of(Enum value) {
     return EnumNames<Enum>::names[std::size_t(value)];

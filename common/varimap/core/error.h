@@ -26,18 +26,23 @@ class Error : public std::runtime_error {
     ExitCode code_;
 };
 
+/// An option or a call that contradicts itself or what it is given.
 struct UsageError : Error {
     explicit UsageError(const std::string& m) : Error(ExitCode::usage, m) {}
 };
+/// A mesh, landmarks or a table that cannot be served.
 struct InputError : Error {
     explicit InputError(const std::string& m) : Error(ExitCode::bad_input, m) {}
 };
+/// An artifact that is damaged, incompatible or made from other inputs.
 struct ArtifactError : Error {
     explicit ArtifactError(const std::string& m) : Error(ExitCode::bad_artifact, m) {}
 };
+/// An iteration that did not reach its tolerance.
 struct ConvergenceError : Error {
     explicit ConvergenceError(const std::string& m) : Error(ExitCode::not_converged, m) {}
 };
+/// A file that cannot be opened, read or written, or too large for what holds it.
 struct IoError : Error {
     explicit IoError(const std::string& m) : Error(ExitCode::input_output, m) {}
 };

@@ -37,6 +37,7 @@ class PerElement {
     std::vector<Value> values_;
 };
 
+/// One value per vertex, or per face, by its number.
 template <class T>
 using VertexData = PerElement<struct OfVertices, T>;
 template <class T>

@@ -13,6 +13,7 @@ void set_log_name(const std::string& name);
 void log_message(const std::string& message);
 void log_warning(const std::string& message);
 
+/// The same of formatted text (fmt).
 template <class... Args>
 void log(fmt::format_string<Args...> format, Args&&... args) {
     log_message(fmt::format(format, std::forward<Args>(args)...));

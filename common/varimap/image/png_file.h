@@ -9,6 +9,7 @@ namespace varimap {
 /// The bytes of a PNG file of 8-bit sRGB, rows from the top: three bytes a pixel, or with alpha four.
 std::string encode_png(int width, int height, const std::vector<unsigned char>& pixels);
 
+/// An image as 8-bit sRGB with alpha.
 struct DecodedPng {
     int width = 0, height = 0;
     std::vector<unsigned char> rgba;  ///< four bytes a pixel, rows from the top

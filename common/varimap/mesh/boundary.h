@@ -13,6 +13,7 @@ struct Boundary {
     std::vector<int> loop;                  ///< per edge: its loop, numbered by lowest vertex from 0
     int loops = 0;
 };
+/// Edges may have any number of faces. `edges`: of the mesh, where they are there already.
 Boundary find_boundary(const TriangleMesh& mesh, const Edges& edges);
 Boundary find_boundary(const TriangleMesh& mesh);
 /// Marks the vertices that lie on it.
@@ -24,7 +25,7 @@ using BoundaryLoop = std::vector<int>;
 /// All of them, each from its lowest vertex, by these. Of a manifold mesh: where loops touch, some end early.
 std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh, const Edges& edges);
 
-/// Per loop its length.
+/// Per loop its length, in units of the mesh.
 std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary);
 
 /// Per loop how wide it is open: the length of the sum of what leads out of the surface across its edges,

@@ -20,6 +20,7 @@ inline double longest_edge(const TriangleMesh& mesh, int f) {
     return std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
 }
 
+/// Area of some faces together, in units of the mesh squared.
 inline double area_of(const TriangleMesh& mesh, const std::vector<int>& faces) {
     double area = 0;
     for (const int f : faces) area += face_normal(mesh, f).norm() / 2;

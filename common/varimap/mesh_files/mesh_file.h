@@ -19,6 +19,7 @@ TriangleMesh parse_mesh(std::string_view bytes, const std::string& path);
 /// The vertices of such a file, which may hold no faces: a point cloud.
 Points read_vertices(const std::string& path);
 
+/// How the numbers of a PLY file are written.
 enum class PlyFormat : int { binary, ascii };
 /// PLY with double coordinates: binary little-endian, or text whose numbers read back exactly.
 std::string to_ply(const TriangleMesh& mesh, PlyFormat format = PlyFormat::binary);

@@ -17,6 +17,7 @@ struct NpyArray {
 /// What becomes of 64-bit integers, which doubles do not hold exactly.
 enum class WideIntegers : int { rounded, halved };
 
+/// Whether the bytes begin as an .npy file does.
 bool is_npy(std::string_view bytes);
 /// Throws InputError, naming `path`, for more than two extents, types that are no real numbers, and files
 /// that end too early.

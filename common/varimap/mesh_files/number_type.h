@@ -19,6 +19,7 @@ struct NumberType {
     void (*append)(double, std::string&) = nullptr;
 };
 
+/// Rounded, and kept within what T holds; 0 for NaN where T is an integer.
 template <class T>
 T nearest_of_type(double number) {
     if constexpr (std::is_integral_v<T>) {
@@ -31,6 +32,7 @@ T nearest_of_type(double number) {
     }
 }
 
+/// T as it stands in memory.
 template <class T>
 NumberType number_type() {
     return {int(sizeof(T)),

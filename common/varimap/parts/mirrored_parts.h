@@ -24,6 +24,7 @@ struct ReversedPatch {
 /// All patches, largest area first.
 std::vector<ReversedPatch> reversed_patches(const SlidingMap& map);
 
+/// Whether a patch passes all three of the gate.
 inline bool is_mirrored_part(const ReversedPatch& patch, const MirrorGate& gate) {
     return patch.area >= gate.area && patch.ratio <= gate.ratio && patch.interior >= gate.interior;
 }

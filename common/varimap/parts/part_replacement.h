@@ -8,6 +8,7 @@
 
 namespace varimap {
 
+/// Which parts are tried, how they are judged, and how long.
 struct PartReplacementOptions {
     StrainLimits strain;  ///< of parts that are tried, per round
     TrialRules rules;
@@ -19,9 +20,10 @@ struct PartReplacementOptions {
     double most_visits = 4;  ///< of all vertices in the mean, by trials: bounds the time
 };
 
+/// What was done to one direction, all rounds together.
 struct PartReplacementReport {
-    int tried = 0, replaced = 0;
-    double area_percent = 0;  ///< share of the source's area in replaced parts
+    int tried = 0, replaced = 0;  ///< parts
+    double area_percent = 0;      ///< share of the source's area in replaced parts
 };
 
 /// Undoes what relaxation cannot: mirrored, twisted and crumpled parts (Sec. 4.4). A relaxed map is strained

@@ -33,9 +33,11 @@ struct TriangleDistortion {
     double squared_norm = 0;  ///< |J|_F^2
     bool flipped = false, collapsed = false;
 };
+/// Per source face.
 FaceData<TriangleDistortion> measure_triangles(const PointMap& map, const TriangleMesh& source,
                                                const TriangleMesh& target);
 
+/// Of a whole map.
 struct Distortion {
     /// Triangles with n . m <= 0: n the normal of the image triangle, m the sum of the target's normals
     /// (angle-weighted at vertices, interpolated) at the three images. Collapsed triangles count as flipped.
@@ -67,6 +69,7 @@ struct UncoveredPart {
     int vertex = -1;
 };
 
+/// What of the target a map hits.
 struct Coverage {
     double share = 0;                  ///< of the target's area that is hit
     std::vector<UncoveredPart> parts;  ///< connected, of at least 0.005 of the target's area; largest first

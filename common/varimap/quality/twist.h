@@ -11,6 +11,7 @@ struct Twist {
     double area = 0;  ///< share of the source's
 };
 
+/// A tube and how it is twisted.
 struct TwistedTube {
     Tube rings;
     Twist twist;

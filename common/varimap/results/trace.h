@@ -17,6 +17,7 @@ struct TraceRow {
     double marginal_error = 0;  ///< L1 distance of the row sums from the masses
 };
 
+/// In the order in which they were computed.
 using Trace = std::vector<TraceRow>;
 
 }  // namespace varimap

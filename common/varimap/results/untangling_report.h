@@ -17,6 +17,7 @@ struct UntanglingReport {
         disagreeing_after = 0;  ///< faces that cut through a feature (normal_agreement.h)
 };
 
+/// Of both directions.
 struct UntanglingReports {
     UntanglingReport A_to_B, B_to_A;
 };

@@ -100,7 +100,7 @@ class SlidingMap {
     VertexData<Vec3> image_, normal_;
 };
 
-/// Areas on the source.
+/// Areas on the source, which has unit area.
 double area_of(const SlidingMap& map, const std::vector<int>& faces);
 double area_of(const SlidingMap& map, const FaceData<bool>& marked);
 
@@ -110,6 +110,7 @@ inline int marked_corners(const TriangleMesh& mesh, int f, const VertexData<bool
     for (int k = 0; k < 3; ++k) count += marks[mesh.faces(f, k)] != 0;
     return count;
 }
+/// Marks all of them.
 inline void mark_corners(const TriangleMesh& mesh, int f, VertexData<bool>& marks) {
     for (int k = 0; k < 3; ++k) marks[mesh.faces(f, k)] = true;
 }

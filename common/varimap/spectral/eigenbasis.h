@@ -30,6 +30,7 @@ struct ArtifactType<Basis> {
 std::string encode(const Basis& basis);
 void decode(const std::string& payload, Basis& basis);
 
+/// How many eigenpairs compute_eigenbasis looks for, and how exactly.
 struct EigenSolverOptions {
     int count = 100;                 ///< eigenpairs wanted (the paper's M), capped by the number of vertices
     double shift = -0.01;            ///< shift of the inverse iteration, below the spectrum, units of 1/area

@@ -24,9 +24,9 @@ bool is_inward(const Domain& surface);
 Points outward_normals(const TriangleMesh& mesh, bool inward);
 
 /// How far each vertex stands out of the smoothed surface, along its outward normal, units of sqrt(area): the
-/// surface less its heat flow (by the eigenbasis) at a time in units of area. Positive on ridges, negative in
-/// hollows. Isometries do not keep it, so it tells a toe from a heel where distances on the surface hardly
-/// do.
+/// surface less its heat flow (by the eigenbasis) at a time in units of area, which is twice the time times
+/// the mean curvature smoothed at that scale. Positive on ridges, negative in hollows. Isometries do not keep
+/// it, so it tells a toe from a heel where distances on the surface hardly do.
 Eigen::VectorXd bending(const Domain& surface, const Points& normals, const Basis& basis, double time);
 
 /// Shape diameter (Shapira, Shamir, Cohen-Or 2008): how far it is through the shape from each vertex, along

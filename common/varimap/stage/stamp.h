@@ -16,10 +16,12 @@ bool would_be_written(const Header& now, const Header& then);
 inline constexpr const char* stamp_kind = "stamp";
 inline constexpr int stamp_schema = 1;
 
+/// A file as a stamp lists it.
 struct StampedFile {
     std::string hash, name;  ///< the name within the stamp's folder
 };
 
+/// A stamp as it was read.
 struct Stamp {
     Header header;
     std::vector<StampedFile> files;

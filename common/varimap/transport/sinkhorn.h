@@ -35,11 +35,13 @@ struct Potentials {
     }
 };
 
+/// When the iteration stops.
 struct SinkhornOptions {
     double tolerance = 1e-2;  ///< stop when one more row update would move less than this mass
     int maximum_iterations = 1000;
 };
 
+/// Where it stopped.
 struct SinkhornReport {
     int iterations = 0;
     /// Mass that one more row update would move (L1); for exact masses the distance of the row sums from the

@@ -38,6 +38,7 @@ struct Coupling {
     Eigen::VectorXd column_background;  ///< per column
 };
 
+/// pi 1 (per row) and pi' 1 (per column), with the background.
 Eigen::VectorXd row_sums(const Coupling& plan);
 Eigen::VectorXd column_sums(const Coupling& plan);
 

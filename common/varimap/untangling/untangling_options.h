@@ -16,6 +16,7 @@ namespace varimap {
 // and which of its parts are mapped anew. Constants that name neither a range nor a source were chosen by
 // hand on the known pairs and not swept.
 
+/// What untangling does, and how much of it.
 struct UntanglingOptions {
     bool enabled = true;
     /// Of relaxation over the whole map, each of two times; fewer from 20'000 vertices on.

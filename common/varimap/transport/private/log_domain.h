@@ -6,6 +6,7 @@ namespace varimap {
 
 // The half-steps of Sinkhorn's iteration as log-sum-exp, on potentials ("Working in log space").
 
+/// Lines that are worth a task.
 inline constexpr int rows_per_task = 512;
 
 /// The kernel of a problem, in the log domain.
