@@ -135,7 +135,7 @@ list_landmarks() {
     local ending stem=${2##*/}
     landmark_files=()
     [[ -n $1 ]] || return 0
-    for ending in mrk.json fcsv pp txt csv vts; do
+    for ending in mrk.json fcsv pp pts txt csv vts; do
         [[ ! -f $1/${stem%.*}.$ending ]] || landmark_files+=("$1/${stem%.*}.$ending")
     done
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "varimap/core/error.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/descent.h"
+#include "varimap/multilevel/exchanged_landmarks.h"
+#include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {
 
@@ -101,6 +104,24 @@ std::vector<LandmarkCheck> check_landmarks(const PairContext& context, const Alt
         checks.push_back({distance_to_partner(landmarks[n], maps.lacking[n], descent.level(), context),
                           1 - maps.lacking[n].step.energy / maps.all.step.energy});
     return checks;
+}
+
+void warn_of_exchanged_columns(const Landmarks& landmarks, const PairContext& context) {
+    const Surface &A = context.A().surface, &B = context.B().surface;
+    if (!landmarks.points.empty() || !A.link.is_identity() || !B.link.is_identity()) return;
+    VertexPairs<InputVertex> other;
+    for (const auto& [a, b] : landmarks.vertices) {
+        if (b.index >= A.input.vertex_count() || a.index >= B.input.vertex_count()) return;
+        other.emplace_back(b, a);
+    }
+    try {
+        if (!distances_fit(context, to_mesh_vertices(other, A, B))) return;
+    } catch (const InputError&) {
+        return;  // two are one vertex, or belong to no face
+    }
+    warn(
+        "source and target look exchanged in the landmarks: distances between them agree far better with the "
+        "source's vertices on the target, and the target's on the source");
 }
 
 void report(const std::vector<LandmarkCheck>& checks) {

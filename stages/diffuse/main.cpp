@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_reading);
         const PairContext context =
             pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
+        warn_of_exchanged_columns(landmarks, context);
         Diffusion diffusion = diffuse(context, params, candidates, initial_map);
         diffusion.record.landmark_points =
             landmark_points(landmarks, context.A().surface, context.B().surface);

@@ -50,7 +50,9 @@ MapErrors errors_of(const RepairedMesh& target, const PointMap& map, const Trian
                     const std::string& name) {
     if (files.size() == 2 && !holds_points(files[0]) && !holds_points(files[1]))
         return vertex_errors(
-            target, map, read_vertex_pairs(files[0], files[1], reading.base, source, &file_of(target)), name);
+            target, map,
+            read_vertex_pairs(files[0], files[1], reading.base, source, &file_of(target), int(map.size())),
+            name);
     if (source == nullptr)
         throw UsageError(files[0] + ": landmarks that are no lists of vertices need --source-mesh, too");
     return landmark_errors(target, map, *source, files, reading, name);

@@ -24,7 +24,8 @@ struct EvaluateRequest {
     void describe(List& list) {
         repair.describe(list);
         list.add("index_base", reading.base,
-                 "number of a list's first vertex; auto: coordinates in the list decide, else 0");
+                 "number of a list's first vertex; auto: coordinates in the list decide, a 0, or a number as "
+                 "large as there are vertices; else 0");
         list.add("landmark_space", reading.space,
                  "axes of points: stated by their file, as-is (those of the mesh), lps or ras");
         list.add("map_base", map_base, "number of the first vertex in a map of vertices to vertices");

@@ -88,7 +88,8 @@ void warn_of_shift(const std::vector<char>& is_off, const std::vector<char>& is_
     while (first > 0 && (is_off[first - 1] || is_exchanged[first - 1]))
         if (!is_exchanged[--first]) ++count;
     if (count >= least)
-        warn("all landmarks from {} on, to the last one, are off: is the list one row off?", first + 1);
+        warn("all landmarks from {} on, to the last one, are off: is the list {}?", first + 1,
+             first == 0 ? "one row off, or are source and target exchanged" : "one row off");
 }
 
 /// Pinned landmarks that the map does not meet, or meets with a spike, or most of them nearly so. Those

@@ -68,7 +68,8 @@ int main(int argc, char** argv) {
     const auto& out = stage.option("out", "folder for the results, which keep the names of what is carried");
     const auto& reverse = stage.flag("reverse", "carry from the target to the source");
     const auto& points = stage.input_list_option(
-        "points", "points, landmarks or curves: .mrk.json, .fcsv, .pp, or lines of x y z or vertex numbers");
+        "points",
+        "points, landmarks or curves: .mrk.json, .fcsv, .pp, .pts, or lines of x y z or vertex numbers");
     const auto& values = stage.input_list_option(
         "values", "numbers of vertices or faces, to interpolate: .csv, .txt, .npy, .ply");
     const auto& labels = stage.input_list_option("labels", "the same, never mixed; words, too");

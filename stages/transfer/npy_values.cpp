@@ -21,17 +21,19 @@ std::string written_type(const std::string& type, ValueKind kind) {
 }  // namespace
 
 ValueFile parse_npy_values(std::string_view bytes, const std::string& path, ValueKind kind) {
-    // Labels are compared and copied by row, so halves serve; numbers are interpolated, and rounded anyway.
-    const auto wide = kind == ValueKind::label ? WideIntegers::halved : WideIntegers::rounded;
-    NpyArray array = parse_npy(bytes, path, wide);
+    // Labels are compared and copied by row, so parts serve; numbers are interpolated, and rounded anyway.
+    const auto items = kind == ValueKind::label ? NpyItems::parted : NpyItems::numbers;
+    NpyArray array = parse_npy(bytes, path, items);
     if (kind == ValueKind::number && holds_integers(array.type) &&
         (array.values.array().abs() >= exact_integers).any())
         warn("{}: holds integers beyond 2^53, which are rounded; numbers that mean names are --labels", path);
     ValueTable table{Place::vertex, std::move(array.values)};
-    if (array.halved) table.label_columns.assign(std::size_t(table.values.cols()) / 2, 2);
-    array.type = written_type(array.type, kind);
+    if (array.parts > 1)
+        table.label_columns.assign(std::size_t(table.values.cols() / array.parts), array.parts);
+    const std::string written = written_type(array.type, kind);
+    if (written != array.type) array.type = array.part_type = written;
     const auto write = [array](const std::vector<ValueTable>& tables, const TriangleMesh&) {
-        return to_npy(NpyArray{array.type, array.flat, array.halved, tables[0].values});
+        return to_npy(NpyArray{array.type, array.flat, array.part_type, array.parts, tables[0].values});
     };
     return {{std::move(table)}, write};
 }

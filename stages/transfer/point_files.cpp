@@ -83,6 +83,20 @@ std::string meshlab(std::string_view bytes, const std::vector<PickedPoint>& poin
     return text + std::string(done, bytes.end());
 }
 
+std::string landmark_editor(std::string_view bytes, const std::vector<PickedPoint>& points) {
+    std::string text;
+    auto done = bytes.begin();
+    auto point = points.begin();
+    for (TextScanner lines(bytes, "", LineStyle::plain); point != points.end() && lines.next_line();) {
+        if (lines.line() != point->line) continue;
+        const Vec3& now = (point++)->position;
+        const auto &first = lines.words()[1], &last = lines.words()[3];
+        text += std::string(done, first.begin()) + fmt::format("{} {} {}", now[0], now[1], now[2]);
+        done = last.end();
+    }
+    return text + std::string(done, bytes.end());
+}
+
 /// Whether a column of that name holds the axis: x, or Points:0 as ParaView writes it.
 bool names_axis(std::string_view name, std::size_t axis) {
     const std::string lower = lower_case(name);
@@ -91,11 +105,28 @@ bool names_axis(std::string_view name, std::size_t axis) {
 
 }  // namespace
 
+bool names_coordinates(const std::vector<std::string>& headings) {
+    std::size_t named = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        named += std::ranges::any_of(headings, [&](const auto& name) { return names_axis(name, axis); });
+    return named == 3;
+}
+
+bool names_normal(std::string_view heading) {
+    const std::string lower = lower_case(heading);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const char* before : {"n", "n_", "normal_", "normal "})
+            if (lower == before + std::string(1, "xyz"[axis]) || lower == fmt::format("normals:{}", axis))
+                return true;
+    return false;
+}
+
 std::string with_positions(const std::string& path, const std::string& file,
                            const std::vector<PickedPoint>& points) {
     const std::string_view bytes = without_byte_order_mark(file, path);
     return has_ending(path, ".pp")     ? meshlab(bytes, points)
            : has_ending(path, ".json") ? slicer_json(bytes, points)
+           : has_ending(path, ".pts")  ? landmark_editor(bytes, points)
                                        : slicer_fcsv(bytes, points);
 }
 

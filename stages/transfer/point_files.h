@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,10 +11,16 @@
 
 namespace varimap {
 
-/// The text of a file of picked points (.mrk.json, .fcsv, .pp) with the positions of `points`, which are in
-/// the file's order; nothing else changes, and nothing where a point is not defined.
+/// The text of a file of picked points (.mrk.json, .fcsv, .pp, .pts) with the positions of `points`, which
+/// are in the file's order; nothing else changes, and nothing where a point is not defined.
 std::string with_positions(const std::string& path, const std::string& bytes,
                            const std::vector<PickedPoint>& points);
+
+/// Whether three columns of headings are those of x, y and z.
+bool names_coordinates(const std::vector<std::string>& headings);
+/// Whether a column of that name holds a coordinate of normals: nx, normal_x, or Normals:0 as ParaView writes
+/// it.
+bool names_normal(std::string_view heading);
 
 /// Which columns hold x, y and z: those that the first row names so, or in each row three numbers beside
 /// words that are none. Also the first row that holds a point. Throws InputError.

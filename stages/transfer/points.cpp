@@ -87,6 +87,10 @@ std::string carry_picked(const std::string& path, const std::string& bytes, Land
     return with_positions(path, bytes, points);
 }
 
+bool is_vertex_name(const std::string& heading) {
+    return lower_case(heading) == "vertex";
+}
+
 /// A list of numbers may have a name.
 bool has_name(const TextRows& list) {
     const std::string& first = list.rows[0].words[0];
@@ -103,41 +107,77 @@ std::string name_line(const TextRows& list) {
     return has_name(list) ? with_comment(join(list.rows[0].words, list.separator), list.rows[0]) : "";
 }
 
-/// From 0. `first`: the number of the first one in the file.
-int number_of(const TextRow& row, const std::string& path, int first, int count, const char* what) {
+/// A number in a column, from 0. `first`: the number of the first one in the file.
+int number_of(const TextRow& row, std::size_t column, const std::string& path, int first, int count,
+              const char* what) {
+    const std::string word = column < row.words.size() ? row.words[column] : "";
     long long number = -1;
-    if (!to_index(row.words[0], number) || number < first || number >= count + first)
-        throw InputError(fmt::format("{}:{}: '{}' is not one of the mesh's {} {}, counted from {}", path,
-                                     row.line, excerpt(row.words[0]), count, what, first));
+    if (!to_index(word, number) || number < first || number >= count + first)
+        fail_at(path, row.line,
+                fmt::format("'{}' is not one of the mesh's {} {}, counted from {}", excerpt(word), count,
+                            what, first));
     return int(number) - first;
 }
 
+/// Where the numbers of vertices stand in rows that hold one each.
+struct VertexColumn {
+    std::size_t column = 0, first_row = 0;
+};
+
+/// None of rows of points: rows of one word hold vertices, those with a column of that name and none of
+/// coordinates, and those that begin with one number beside words that are none.
+std::optional<VertexColumn> vertex_column(const TextRows& rows) {
+    if (std::ranges::all_of(rows.rows, [](const TextRow& row) { return row.words.size() == 1; }))
+        return VertexColumn{0, has_name(rows) ? 1u : 0u};
+    const std::vector<std::string>& first = rows.rows[0].words;
+    const auto place = [&](const auto& found) { return std::size_t(found - first.begin()); };
+    if (const auto number = std::ranges::find_if(first, is_number); number != first.end())
+        return std::ranges::count_if(first, is_number) == 1 ? std::optional(VertexColumn{place(number), 0})
+                                                            : std::nullopt;
+    const auto named = std::ranges::find_if(first, is_vertex_name);
+    if (named == first.end() || names_coordinates(first)) return {};
+    return VertexColumn{place(named), 1};
+}
+
 /// `first`: the number of the first vertex.
-std::string carry_vertices(const TextRows& rows, const std::string& path, int first,
+std::string carry_vertices(TextRows rows, const std::string& path, const VertexColumn& at, int first,
                            const Correspondence& map, const PointCarrier& there) {
     const PointMap at_vertex = points_at_vertices(map.from);
     std::string text;
-    if (has_name(rows)) text = rows.rows[0].before + name_line(rows);
     std::vector<std::string> without;
-    for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
-        text += rows.rows[i].before;
-        const int v = number_of(rows.rows[i], path, first, map.from.vertex_count(), "vertices");
-        const SurfacePoint image = there(at_vertex[std::size_t(v)]);
-        if (image.face >= 0)
-            text += with_comment(std::to_string(nearest_vertex(map.to, image) + first), rows.rows[i]);
-        else
-            without.push_back(std::to_string(v + first));
+    for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+        TextRow& row = rows.rows[i];
+        if (row.words.size() > rows.rows[0].words.size())
+            fail_at(path, row.line, "holds more than a vertex and what the first line holds besides");
+        if (i >= at.first_row) {
+            const int v = number_of(row, at.column, path, first, map.from.vertex_count(), "vertices");
+            const SurfacePoint image = there(at_vertex[std::size_t(v)]);
+            if (image.face < 0)
+                without.push_back(std::to_string(v + first));
+            else
+                row.words[at.column] = std::to_string(nearest_vertex(map.to, image) + first);
+        }
+        text += row.before + with_comment(join(row.words, rows.separator), row);
     }
     refuse_those_without_image(without, path, "vertex", "vertices");
     return text + rows.behind;
 }
 
+/// The normals of points are those of the surface they were picked on.
+void drop_normals(TextRows& rows, const std::string& path) {
+    const std::vector<std::string> headings = rows.rows[0].words;
+    if (std::ranges::none_of(headings, names_normal)) return;
+    for (TextRow& row : rows.rows)
+        for (std::size_t c = std::min(headings.size(), row.words.size()); c-- > 0;)
+            if (names_normal(headings[c])) row.words.erase(row.words.begin() + std::ptrdiff_t(c));
+    warn("{}: its normals are those of this surface, and are left out", path);
+}
+
 std::string carry_rows(TextRows rows, const std::string& path, const Correspondence& map,
                        const PointCarrier& there) {
+    drop_normals(rows, path);
     const auto [columns, first] = coordinate_columns(rows, path);
-    if (first > 0 && std::ranges::any_of(rows.rows[0].words, [](const std::string& word) {
-            return lower_case(word) == "vertex";
-        }))
+    if (first > 0 && std::ranges::any_of(rows.rows[0].words, is_vertex_name))
         fail_at(path, rows.rows[0].line,
                 "the numbers of the column 'vertex' are those of this mesh, not of the other one; leave out "
                 "that column, or the coordinates");
@@ -164,11 +204,9 @@ std::string carry_points(const std::string& path, const LandmarkReading& reading
         if (has_ending(path, mesh))
             throw InputError(path + ": is a mesh; give its points as lines of x y z (.txt or .csv)");
     TextRows rows = split_rows(bytes, path, Content::numbers);
-    const bool vertices = std::all_of(rows.rows.begin(), rows.rows.end(),
-                                      [](const TextRow& row) { return row.words.size() == 1; });
-    const int first = number_of_first(reading.base);
-    return vertices ? carry_vertices(rows, path, first, map, there)
-                    : carry_rows(std::move(rows), path, map, there);
+    if (const auto at = vertex_column(rows))
+        return carry_vertices(std::move(rows), path, *at, number_of_first(reading.base), map, there);
+    return carry_rows(std::move(rows), path, map, there);
 }
 
 std::string carry_region(const std::string& path, const Correspondence& map, const PointCarrier& back) {
@@ -184,7 +222,7 @@ std::string carry_region(const std::string& path, const Correspondence& map, con
         const TextRow& row = rows.rows[i];
         if (row.words.size() != 1)
             throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
-        inside[std::size_t(number_of(row, path, 0, map.from.face_count(), "faces"))] = true;
+        inside[std::size_t(number_of(row, 0, path, 0, map.from.face_count(), "faces"))] = true;
     }
     std::vector<char> covered(std::size_t(map.to.face_count()));
     parallel_for_each_index(map.to.face_count(), 256, [&](int f) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "varimap/core/parallel.h"
@@ -225,31 +226,64 @@ Points follow_known(const WeldedMesh& welded, const std::vector<char>& known, bo
 class ShapeToMesh {
   public:
     ShapeToMesh(const TriangleMesh& mesh, const Points& shape)
-        : mesh_(mesh), shape_(shape), used_(used_vertices(mesh.faces, mesh.vertex_count()).vertex) {}
+        : mesh_(mesh),
+          shape_(shape),
+          used_(thinned(used_vertices(mesh.faces, mesh.vertex_count()).vertex, most_anchors)),
+          size_(apart(mean_of(mesh.vertices, used_).transpose().replicate(shape.rows(), 1))) {}
 
-    /// Whether the vertices lie about elsewhere.
+    /// Whether the vertices lie about elsewhere, and none to speak of where they were: those at rest say that
+    /// the others moved in the mesh's own axes and units.
     bool is_away() const {
         constexpr double much = 0.1;  // of the mesh's size; chosen by hand, as the others
-        const Vec3 centre = mean_of(mesh_.vertices, used_);
-        return apart() > much * apart(centre.transpose().replicate(shape_.rows(), 1));
+        return apart() > much * size_ && share_at_rest(shape_) < 0.1;
     }
-    /// The shape laid onto the mesh by the best similarity, or the best that mirrors.
+    /// The shape laid onto the mesh by the similarity, or that which mirrors, that takes half of the vertices
+    /// nearest to their places: an expression leaves the most part at rest, and the others would spoil it.
     Points laid(bool mirrored) const {
-        const Motion motion = best_motion(shape_, mesh_.vertices, used_, mirrored);
-        Points laid(shape_.rows(), 3);
-        for (Eigen::Index v = 0; v < shape_.rows(); ++v)
-            laid.row(v) = motion(shape_.row(v).transpose()).transpose();
+        constexpr int most_rounds = 20;
+        std::vector<int> fitted = used_;
+        Points laid;
+        for (int round = 0; round < most_rounds; ++round) {
+            laid = moved(best_motion(shape_, mesh_.vertices, fitted, mirrored));
+            std::vector<int> nearest = nearest_half(laid);
+            if (nearest == fitted) break;
+            fitted = std::move(nearest);
+        }
         return laid;
     }
+    bool is_mostly_at_rest(const Points& other) const { return share_at_rest(other) > 0.5; }
     double apart() const { return apart(shape_); }
     double apart(const Points& other) const {
         return (other(used_, Eigen::all) - mesh_.vertices(used_, Eigen::all)).norm();
     }
 
   private:
+    double distance(const Points& other, int v) const {
+        return (other.row(v) - mesh_.vertices.row(v)).norm();
+    }
+    double share_at_rest(const Points& other) const {
+        const double rest = 1e-4 * size_ / std::sqrt(double(used_.size()));
+        const auto count = std::ranges::count_if(used_, [&](int v) { return distance(other, v) <= rest; });
+        return double(count) / double(used_.size());
+    }
+    Points moved(const Motion& motion) const {
+        Points moved(shape_.rows(), 3);
+        for (Eigen::Index v = 0; v < shape_.rows(); ++v)
+            moved.row(v) = motion(shape_.row(v).transpose()).transpose();
+        return moved;
+    }
+    std::vector<int> nearest_half(const Points& other) const {
+        std::vector<int> half = used_;
+        std::ranges::sort(half, {}, [&](int v) { return std::pair(distance(other, v), v); });
+        half.resize((half.size() + 1) / 2);
+        std::ranges::sort(half);
+        return half;
+    }
+
     const TriangleMesh& mesh_;
     const Points& shape_;
     std::vector<int> used_;
+    double size_;  ///< root of the sum of squared distances from the centre
 };
 
 /// Of the displacements: what may be left of them where they are those of a motion.
@@ -257,16 +291,14 @@ constexpr double most_left = 0.5;
 
 }  // namespace
 
-std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape) {
+std::optional<LaidShape> laid_onto(const TriangleMesh& mesh, const Points& shape) {
     const ShapeToMesh lie(mesh, shape);
     if (!lie.is_away()) return std::nullopt;
     Points laid = lie.laid(false);
-    return lie.apart(laid) < most_left * lie.apart() ? std::optional(std::move(laid)) : std::nullopt;
-}
-
-bool is_mirror_image(const TriangleMesh& mesh, const Points& shape) {
-    const ShapeToMesh lie(mesh, shape);
-    return lie.is_away() && lie.apart(lie.laid(true)) < most_left * lie.apart(lie.laid(false));
+    const bool is_mirrored =
+        !lie.is_mostly_at_rest(laid) && lie.apart(lie.laid(true)) < most_left * lie.apart(laid);
+    if (!is_mirrored && lie.apart(laid) >= most_left * lie.apart()) return std::nullopt;
+    return LaidShape{std::move(laid), is_mirrored};
 }
 
 Points carry_shape(const Correspondence& map, const Points& shape) {

@@ -13,13 +13,16 @@ namespace varimap {
 /// here. Vertices without an image follow those near them, as in carried_vertices.
 Points carry_shape(const Correspondence& map, const Points& shape);
 
-/// A mesh in another shape, laid onto it by the best similarity where most of what moves it is one: of other
-/// axes, units or place, which would be carried as a displacement of every vertex. Otherwise nothing.
-std::optional<Points> laid_onto(const TriangleMesh& mesh, const Points& shape);
+/// Another shape of a mesh, brought to where the mesh lies.
+struct LaidShape {
+    Points vertices;
+    bool is_mirror_image = false;  ///< it is rather that of the mesh, as where two axes were exchanged
+};
 
-/// Whether a mesh in another shape is rather its mirror image in another shape, as where two axes were
-/// exchanged.
-bool is_mirror_image(const TriangleMesh& mesh, const Points& shape);
+/// A mesh in another shape that has other axes, units or place, which would be carried as a displacement of
+/// every vertex: laid onto the mesh by the similarity that fits half of the vertices best. Nothing where some
+/// lie where they were, or most of what moves the vertices is no similarity.
+std::optional<LaidShape> laid_onto(const TriangleMesh& mesh, const Points& shape);
 
 /// The vertices of `map.from` at their images on `map.to`. Those without an image follow the vertices nearest
 /// to them that have one: by the best similarity from these to their images, one for all vertices that hang

@@ -167,16 +167,16 @@ void Transfer::add_values(const std::string& path, ValueKind kind) {
 void Transfer::add_shape(const std::string& path) {
     const TriangleMesh shape = read_mesh(path);
     require_same_mesh(same_faces(shape, map_.from), path, shape, map_.from_file, map_.from);
-    if (is_mirror_image(map_.from, shape.vertices))
+    const std::optional<LaidShape> laid = laid_onto(map_.from, shape.vertices);
+    if (laid && laid->is_mirror_image)
         throw InputError(
             fmt::format("{}: is a mirror image of {}, or has two axes exchanged: mirror it back, or save "
                         "both with the same axes",
                         path, map_.from_file));
-    const std::optional<Points> laid = laid_onto(map_.from, shape.vertices);
     if (laid)
         warn("{}: lies elsewhere than {}, or in other axes or units, and is laid onto it first", path,
              map_.from_file);
-    const Points moved = carry_shape(map_, laid.value_or(shape.vertices));
+    const Points moved = carry_shape(map_, laid ? laid->vertices : shape.vertices);
     warn_of_followers(map_.back, map_.to_file);
     if (has_ending(map_.to_file, ".obj"))
         add(stem_of(path) + ".obj",

@@ -28,6 +28,8 @@ const std::vector<std::string> slicer{
 const std::vector<std::string> old_slicer{
     "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
     "1,.526,.851,0,0,0,0,1,1,1,0,tail,,\r\n2,0,.526,.851,0,0,0,1,1,1,0,nose,,\n"};
+const std::vector<std::string> landmark_editor{
+    "Version 1.0\n3\nS000 0 .526 .851\nS001 9999 9999 9999\nC000 .526 .851 0\n"};
 
 /// Read as the list of both surfaces, or as the file of pairs.
 Target target(const std::string& name, const std::string& ending, const std::vector<std::string>& seeds,
@@ -52,6 +54,7 @@ std::vector<Target> landmark_targets() {
             target("pp", ".pp", meshlab, {"<point ", "x=\"1\"", "active", ">", "\""}),
             target("mrk_json", ".mrk.json", slicer,
                    {"null", "[]", "{}", "\"markups\"", "\"position\"", "\"label\"", "\"LPS\"", "true"}),
+            target("pts", ".pts", landmark_editor, {"Version", "9999", "S002 "}),
             target("fcsv", ".fcsv", old_slicer, {",", "#", "# CoordinateSystem = RAS", "0", "IJK"})};
 }
 

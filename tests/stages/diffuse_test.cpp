@@ -10,7 +10,9 @@
 #include "fixtures/surface_data.h"
 #include "stages/diffuse/check_landmarks.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/surface/input_locator.h"
 
 namespace varimap {
@@ -166,6 +168,28 @@ TEST(Diffuse, NamesTheLandmarkThatTheOthersContradict) {
     EXPECT_EQ(contradicted_landmark(checks), 2);
     EXPECT_GT(checks[2].distance, .5);
     EXPECT_GT(checks[2].energy_fall, checks[1].energy_fall);
+}
+
+TEST(Diffuse, SaysWhereSourceAndTargetLookExchangedInLandmarks) {
+    const KnownPair pair = shapes::figure_pair(1, true);
+    const auto in_input = [](const Surface& surface, MeshVertex v) {
+        return InputVertex{shapes::nearest_vertex(
+            surface.input, surface.mesh.vertex(v.index) / surface.scale + surface.centre)};
+    };
+    Landmarks right, exchanged;
+    for (const auto& [on_A, on_B] : pair.landmarks) {
+        const InputVertex a = in_input(pair.A.surface, on_A), b = in_input(pair.B.surface, on_B);
+        right.vertices.emplace_back(a, b);
+        exchanged.vertices.emplace_back(b, a);
+    }
+    const auto warnings_of = [&](const Landmarks& landmarks) {
+        const std::size_t before = logged_warnings().size();
+        warn_of_exchanged_columns(landmarks, pair_context(pair.A, pair.B, landmarks, 1));
+        return logged_warnings().size() - before;
+    };
+    EXPECT_EQ(warnings_of(right), 0u);
+    EXPECT_EQ(warnings_of(exchanged), 1u);
+    EXPECT_NE(logged_warnings().back().find("source and target look exchanged"), std::string::npos);
 }
 
 TEST(Diffuse, ChecksNoMoreLandmarksThanTimeAllows) {

@@ -8,6 +8,7 @@
 #include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
 #include "varimap/core/error.h"
+#include "varimap/core/warnings.h"
 #include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 
@@ -67,6 +68,26 @@ TEST_F(Evaluate, CountsListsFromTheirBase) {
     EXPECT_NEAR(evaluate(from_1).mean(), .125, 1e-6);
     from_1.points[1] = write("targets.txt", "0\n3\n");
     EXPECT_THROW(evaluate(from_1), InputError);
+}
+
+TEST_F(Evaluate, TheNumbersOfListsTellTheirBase) {
+    const std::string last = std::to_string(square_.vertex_count()) + "\n";
+    const auto warnings_of = [&](const std::string& sources, const std::string& targets, double mean) {
+        const std::size_t before = logged_warnings().size();
+        EXPECT_NEAR(evaluate(request(identity_, sources, targets)).mean(), mean, 1e-6);
+        return logged_warnings().size() - before;
+    };
+    EXPECT_EQ(warnings_of("2\n" + last, "3\n" + last, .125), 0u) << "from 1";
+    EXPECT_EQ(warnings_of("2\n3\n", "2\n" + last, 0.5 * std::hypot(.5, 1)), 0u) << "so is the other list";
+    EXPECT_EQ(warnings_of("0\n2\n", "1\n2\n", .125), 0u) << "from 0";
+    EXPECT_EQ(warnings_of("2\n3\n", "2\n4\n", .125), 1u);
+    EXPECT_THAT(logged_warnings().back(),
+                HasSubstr("nothing tells whether their vertices are counted from 0"));
+    EvaluateRequest told = request(identity_, "2\n3\n", "2\n4\n");
+    told.reading.base = IndexBase::zero;
+    const std::size_t before = logged_warnings().size();
+    evaluate(told);
+    EXPECT_EQ(logged_warnings().size(), before);
 }
 
 TEST_F(Evaluate, CountsAMapOfVerticesFromItsBase) {

@@ -146,6 +146,34 @@ TEST_F(Transfer, LabelsOfAnyIntegerStayExact) {
     }
 }
 
+/// As NumPy writes words: all as long as the longest, in letters of four bytes, or bytes.
+TEST_F(Transfer, LabelsOfNumPyMayBeText) {
+    std::string letters, bytes;
+    for (int v = 0; v < ball_.vertex_count(); ++v) {
+        std::u32string word = v % 2 == 0 ? U"Fu\u00df" : U"Knie";
+        word.resize(4);
+        letters.append(reinterpret_cast<const char*>(word.data()), 16);
+        bytes += v % 3 == 0 ? "leg" : std::string("a\0\0", 3);
+    }
+    const std::string text = npy_header("<U4", {162}) + letters, ascii = npy_header("|S3", {162}) + bytes;
+    EXPECT_EQ(kept_labels("a.npy", text), text);
+    EXPECT_EQ(kept_labels("a.npy", ascii), ascii);
+    const Correspondence middle = onto_middle(ball_, {.1, .2, .7});
+    TransferRequest request;
+    request.labels = {write("a.npy", text)};
+    const std::string carried = carry(request, middle).at("a.npy");
+    const auto word = [&](const std::string& file, int v) {
+        return file.substr(file.size() - letters.size() + 16 * std::size_t(v), 16);
+    };
+    EXPECT_EQ(word(carried, ball_.faces(0, 0)), word(text, ball_.faces(0, 2)));
+    request.labels = {write("a.npy", npy_header("|O", {162}) + letters)};
+    EXPECT_THAT(refusal(request, middle),
+                HasSubstr("a.npy: has items of type |O; save it as integers or text"));
+    request = {};
+    request.values = {write("a.npy", text)};
+    EXPECT_THAT(refusal(request, middle), HasSubstr("a.npy: has items of type <U4; save it as float64"));
+}
+
 TEST_F(Transfer, ANameAboveTooFewRowsIsNoValue) {
     std::string rows = "vertex,bone,other\n", labels = "vertex,part\n";
     for (int v = 0; v < 161; ++v) {

@@ -62,9 +62,11 @@ TEST_F(Transfer, KeepsWhatPointFilesSayBesidesPositions) {
         write("a.pp", fmt::format("<PickedPoints>\n <point x=\"{}\" y=\"{}\" z=\"{}\" name=\"tip\" "
                                   "active=\"1\"/>\n</PickedPoints>\n",
                                   p[0], p[1], p[2])),
+        write("a.pts",
+              fmt::format("Version 1.0\n2\nS000 {} {} {}\r\nS001 9999 9999 9999\n", p[0], p[1], p[2])),
         write("a.csv", fmt::format("name;x;y;z\ntail;{};{};{}\n", p[0], p[1], p[2]))};
     const auto files = carry(request, map);
-    for (const std::string name : {"a.mrk.json", "a.fcsv", "a.pp"}) {
+    for (const std::string name : {"a.mrk.json", "a.fcsv", "a.pp", "a.pts"}) {
         const auto before = read_picked_points(folder_ / name);
         const auto after = read_picked_points(write("after-" + name, files.at(name)));
         ASSERT_EQ(after.size(), before.size());
@@ -74,6 +76,7 @@ TEST_F(Transfer, KeepsWhatPointFilesSayBesidesPositions) {
     }
     EXPECT_THAT(files.at("a.mrk.json"), HasSubstr("\"locked\": true"));
     EXPECT_FALSE(read_picked_points(folder_ / "after-a.mrk.json")[1].defined);
+    EXPECT_THAT(files.at("a.pts"), HasSubstr("\r\nS001 9999 9999 9999\n"));
     EXPECT_THAT(files.at("a.csv"), HasSubstr("name;x;y;z\ntail;"));
 }
 
@@ -135,6 +138,31 @@ TEST_F(Transfer, RefusesPointsOfAnotherMesh) {
     request.points = {write("v.txt", "3\n162\n")};
     EXPECT_THAT(refusal(request, identity_onto(ball_)),
                 HasSubstr("v.txt:2: '162' is not one of the mesh's 162"));
+}
+
+TEST_F(Transfer, VerticesMayHaveNames) {
+    TransferRequest request;
+    for (const std::string text : {"nose,5\ntail,7\n", "name,vertex\nnose,5\n2,7\n",
+                                   "# tips\nVertex;name\n5;\"nose; left\"\n\n7;tail\n", "5 nose\n7 tail\n"}) {
+        request.points = {write("v.csv", text)};
+        EXPECT_EQ(carry(request, identity_onto(ball_)).at("v.csv"), text);
+    }
+    request.points = {write("v.csv", "name,vertex\nnose,5\ntail,162\n")};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)),
+                HasSubstr("v.csv:3: '162' is not one of the mesh's 162"));
+    request.points = {write("v.csv", "nose,5\ntail\n")};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("v.csv:2: '' is not one of the mesh's"));
+}
+
+TEST_F(Transfer, NormalsOfPointsAreLeftOut) {
+    const Vec3 p = ball_.vertex(5);
+    TransferRequest request;
+    request.points = {write(
+        "a.csv", fmt::format("name,x,y,z,nx,ny,nz,note\ntail,{},{},{},0,0,1,left\n", p[0], p[1], p[2]))};
+    EXPECT_THAT(carry(request, identity_onto(ball_)).at("a.csv"),
+                testing::MatchesRegex("name,x,y,z,note\ntail(,[-.0-9e]+){3},left\n"));
+    EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
+                HasSubstr("a.csv: its normals are those of this"));
 }
 
 /// In lines that blanks split, where they may be landmarks' names.

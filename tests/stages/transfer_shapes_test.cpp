@@ -104,20 +104,32 @@ TEST_F(Transfer, AShapeMayLieElsewhere) {
     bulging.vertices.row(5) *= 1.1;
     EXPECT_FALSE(laid_onto(ball_, bulging.vertices));
     const Points away = shapes::moved(bulging, 1000, 1.5, {4, 5, 6}).vertices;
-    EXPECT_LT((laid_onto(ball_, away).value() - bulging.vertices).rowwise().norm().maxCoeff(), .01);
+    EXPECT_LT((laid_onto(ball_, away).value().vertices - bulging.vertices).rowwise().norm().maxCoeff(), 1e-9);
     TriangleMesh bent = ball_;
     bent.vertices.col(2).array() += bent.vertices.col(0).array().square();
     EXPECT_FALSE(laid_onto(ball_, bent.vertices)) << "its motion is not one of the whole";
     TransferRequest request;
     request.shapes = {write("away.ply", to_ply({away, ball_.faces}))};
     EXPECT_THAT(warnings_of(request, map), HasSubstr("lies elsewhere than a.obj"));
-    for (const Points& other : {bulging.vertices, away, bent.vertices})
-        EXPECT_FALSE(is_mirror_image(ball_, other));
+    EXPECT_FALSE(laid_onto(ball_, away).value().is_mirror_image);
     TriangleMesh exchanged = bulging;
     exchanged.vertices.col(1).swap(exchanged.vertices.col(2));
-    EXPECT_TRUE(is_mirror_image(ball_, exchanged.vertices));
+    EXPECT_TRUE(laid_onto(ball_, exchanged.vertices).value().is_mirror_image);
     request.shapes = {write("exchanged.ply", to_ply(exchanged))};
     EXPECT_THAT(refusal(request, map), HasSubstr("is a mirror image of a.obj, or has two axes exchanged"));
+}
+
+/// The part that moves does so as a whole: the best similarity of all vertices would take much of that away.
+TEST_F(Transfer, AnExpressionStaysWholeInOtherAxesAndUnits) {
+    TriangleMesh turned = ball_;
+    for (auto vertex : turned.vertices.rowwise())
+        if (vertex[2] > .4) vertex << -vertex[0], -vertex[1], vertex[2] + .8;
+    EXPECT_FALSE(laid_onto(ball_, turned.vertices)) << "most vertices lie where they were";
+    Points other_axes(ball_.vertex_count(), 3);
+    other_axes << 100 * turned.vertices.col(0), -100 * turned.vertices.col(2), 100 * turned.vertices.col(1);
+    const LaidShape laid = laid_onto(ball_, other_axes).value();
+    EXPECT_LT((laid.vertices - turned.vertices).rowwise().norm().maxCoeff(), 1e-9);
+    EXPECT_FALSE(laid.is_mirror_image);
 }
 
 /// Of values of the vertices of a mesh, those of the corners of its faces.

@@ -1,6 +1,9 @@
 #include "varimap/landmarks/csv_fields.h"
 
 #include <algorithm>
+#include <array>
+
+#include "varimap/core/lower_case.h"
 
 namespace varimap {
 namespace {
@@ -82,6 +85,11 @@ std::optional<std::vector<std::string>> csv_fields(std::string_view line, char s
         if (line.empty()) return fields;
         if (!line.starts_with(separator)) return {};
     }
+}
+
+bool is_missing(std::string_view field) {
+    constexpr std::array<std::string_view, 8> words{"", "na", "n/a", "nan", "null", "none", "?", "-"};
+    return std::ranges::find(words, lower_case(field)) != words.end();
 }
 
 }  // namespace varimap

@@ -27,4 +27,7 @@ std::string_view take_raw_field(std::string_view& line);
 /// behind it.
 std::optional<std::vector<std::string>> csv_fields(std::string_view line, char separator = ',');
 
+/// Whether a field says that its value is missing, as tables do: nothing, NA, NaN, ? and the like.
+bool is_missing(std::string_view field);
+
 }  // namespace varimap

@@ -10,6 +10,7 @@
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/lower_case.h"
 #include "varimap/core/parse_number.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/trimmed.h"
@@ -99,6 +100,28 @@ void read_fcsv_comment(std::string_view text, const std::string& path, Space& sp
         space = space_from(trimmed(text.substr(equals + 1)), path);
 }
 
+/// Landmark Editor's: a line `Version 1.0`, one with the count, then lines `S000 x y z`. 9999 stands for what
+/// is missing.
+std::vector<PickedPoint> read_pts(const std::string& path, std::string_view bytes) {
+    constexpr double missing = 9999;
+    std::vector<PickedPoint> points;
+    TextScanner lines(bytes, path, LineStyle::plain);
+    if (!lines.next_line() || lower_case(lines.words()[0]) != "version" || !lines.next_line())
+        throw InputError(path +
+                         ": does not begin as Landmark Editor's .pts files do, with a line 'Version 1.0' and "
+                         "the count; lists of other kinds end in .txt or .csv");
+    while (lines.next_line()) {
+        const auto& words = lines.words();
+        if (words.size() != 4) lines.fail("expected a name and x y z");
+        PickedPoint point{lines.line(), std::string(words[0])};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            point.position[Eigen::Index(axis)] = number(words[axis + 1], path, lines.line());
+        point.defined = (point.position.array() != missing).any();
+        points.push_back(std::move(point));
+    }
+    return points;
+}
+
 /// Columns: id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,...
 std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view bytes) {
     constexpr std::size_t label = 11;
@@ -125,7 +148,8 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
 }  // namespace
 
 bool is_picked_points(const std::string& path) {
-    return has_ending(path, ".pp") || has_ending(path, ".json") || has_ending(path, ".fcsv");
+    return has_ending(path, ".pp") || has_ending(path, ".json") || has_ending(path, ".fcsv") ||
+           has_ending(path, ".pts");
 }
 
 std::vector<PickedPoint> read_picked_points(const std::string& path) {
@@ -136,6 +160,7 @@ std::vector<PickedPoint> parse_picked_points(std::string_view bytes, const std::
     bytes = without_byte_order_mark(bytes, path);
     const auto points = has_ending(path, ".pp")     ? read_pp(path, bytes)
                         : has_ending(path, ".json") ? read_mrk_json(path, bytes)
+                        : has_ending(path, ".pts")  ? read_pts(path, bytes)
                                                     : read_fcsv(path, bytes);
     if (points.empty()) throw InputError(path + ": holds no points");
     return points;

@@ -16,13 +16,13 @@ struct PickedPoint {
     std::string name;              ///< empty where the format has none
     Vec3 position = Vec3::Zero();  ///< as the file says it
     Space space = Space::unstated;  ///< the axes that the file says it uses
-    bool defined = true;            ///< false: switched off or never placed, and position means nothing
+    bool defined = true;  ///< false: missing, switched off or never placed, and position means nothing
 };
 
-/// Whether the file's ending is that of picked points: .pp, .json, .fcsv.
+/// Whether the file's ending is that of picked points: .pp, .json, .fcsv, .pts.
 bool is_picked_points(const std::string& path);
 
-/// Reads MeshLab's .pp, 3D Slicer's .mrk.json or .fcsv.
+/// Reads MeshLab's .pp, 3D Slicer's .mrk.json or .fcsv, Landmark Editor's .pts.
 /// Throws IoError; InputError naming the file for anything malformed and for a file without points.
 std::vector<PickedPoint> read_picked_points(const std::string& path);
 /// The same from the bytes of such a file; `path` tells the format, and is named in messages.

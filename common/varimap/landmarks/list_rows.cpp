@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
+#include "varimap/core/file_ending.h"
 #include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
 #include "varimap/landmarks/csv_fields.h"
@@ -23,10 +27,33 @@ bool has_commas(const TextScanner& scanner) {
     return std::ranges::any_of(scanner.words(), [](auto word) { return word.find(',') != word.npos; });
 }
 
+/// Whether a field is a number whose decimals have a comma, which stands between digits.
+bool has_decimal_comma(std::string_view field, double& number) {
+    const std::size_t comma = field.find(',');
+    if (comma == field.npos || comma == 0 || comma + 1 == field.size()) return false;
+    std::string with_point(field);
+    with_point[comma] = '.';
+    return to_number(with_point, number);
+}
+
+bool is_value(std::string_view field) {
+    double ignored;
+    return is_number(field) || has_decimal_comma(field, ignored);
+}
+
+bool separates_decimal_commas(const TextScanner& line, char separator) {
+    const auto fields = csv_fields(line.line_text(), separator);
+    double ignored;
+    return fields && fields->size() > 1 &&
+           std::ranges::any_of(*fields, [&](const auto& f) { return has_decimal_comma(f, ignored); });
+}
+
 /// Semicolon or tab where the first line is one of a table with these; else a blank. Numbers that tabs
 /// separate are those that blanks separate.
 char separator_of_table(const TextScanner& first_line) {
     if (std::ranges::all_of(first_line.words(), is_number)) return ' ';
+    for (const char separator : {';', '\t'})
+        if (separates_decimal_commas(first_line, separator)) return separator;
     const char separator = separator_of(first_line.line_text());
     return separator == ',' ? ' ' : separator;
 }
@@ -66,56 +93,99 @@ void require_order(const std::vector<std::string>& headings, const TextScanner& 
     require_order(headings, std::array{"x", "y", "z"}, scanner);
 }
 
-std::vector<double> numbers_of(std::span<const std::string> fields, const TextScanner& scanner) {
-    std::vector<double> numbers;
-    for (const std::string& field : fields) {
-        double number;
-        if (!to_number(field, number) || !std::isfinite(number))
-            scanner.fail(fmt::format("'{}' is not a number", excerpt(field)));
-        numbers.push_back(number);
-    }
-    return numbers;
+/// Headings are no values, and missing ones only in front of names of rows.
+bool are_headings(std::span<const std::string> fields) {
+    return std::ranges::none_of(fields, is_value) && std::ranges::none_of(fields.subspan(1), is_missing);
 }
 
-/// A line of a table, whose first or last field may be a name.
-ListRow row_of_table(std::span<const std::string> fields, bool first_is_name, const TextScanner& scanner) {
-    ListRow row{scanner.line(), {}};
-    if (first_is_name || !is_number(fields.front())) {
-        row.name = fields.front();
-        fields = fields.subspan(1);
-    } else if (!is_number(fields.back())) {
-        row.name = fields.back();
-        fields = fields.first(fields.size() - 1);
+/// Reads the lines of one list, of which the first says how they are split.
+class RowReader {
+  public:
+    /// None of a line of headings.
+    std::optional<ListRow> read(const TextScanner& line) {
+        const bool first = std::exchange(is_first_, false);
+        if (first) of_table_ = separator_of_table(line);
+        // Lines with commas and with blanks may stand in one file.
+        const char separator = of_table_ == ' ' && has_commas(line) ? ',' : of_table_;
+        if (separator == ' ') {
+            const std::vector<std::string> words(line.words().begin(), line.words().end());
+            return ListRow{line.line(), numbers_of(words, line)};
+        }
+        const std::vector<std::string> fields = fields_of(line, separator);
+        if (!first || !are_headings(fields)) return row_of_table(fields, line);
+        require_order(fields, line);
+        first_is_name_ = is_heading_of_names(fields.front());
+        return {};
     }
-    row.numbers = numbers_of(fields, scanner);
-    return row;
+
+  private:
+    /// A line of a table, whose first or last field may be a name. One that is missing is a name where lines
+    /// before have one there.
+    ListRow row_of_table(std::span<const std::string> fields, const TextScanner& line) {
+        const auto is_name = [](const std::string& field, bool others_are) {
+            return !is_value(field) && (others_are || !is_missing(field));
+        };
+        ListRow row{line.line(), {}};
+        if (first_is_name_ || is_name(fields.front(), named_first_)) {
+            named_first_ = true;
+            row.name = fields.front();
+            fields = fields.subspan(1);
+        } else if (is_name(fields.back(), named_last_)) {
+            named_last_ = true;
+            row.name = fields.back();
+            fields = fields.first(fields.size() - 1);
+        }
+        row.numbers = numbers_of(fields, line);
+        return row;
+    }
+    std::vector<double> numbers_of(std::span<const std::string> fields, const TextScanner& line) {
+        std::vector<double> numbers;
+        for (const std::string& field : fields) numbers.push_back(number_of(field, line));
+        return numbers;
+    }
+    double number_of(const std::string& field, const TextScanner& line) {
+        if (is_missing(field)) return std::numeric_limits<double>::quiet_NaN();
+        double number;
+        const bool has_comma = has_decimal_comma(field, number);
+        if (!has_comma && (!to_number(field, number) || !std::isfinite(number)))
+            line.fail(fmt::format("'{}' is not a number{}", excerpt(field),
+                                  field.find(' ') != field.npos
+                                      ? "; where decimals have commas, semicolons or tabs separate columns"
+                                      : ""));
+        commas_ = commas_ || has_comma;
+        points_ = points_ || field.find('.') != field.npos;
+        // 1,234 beside 0.5 is a thousand.
+        if (commas_ && points_) line.fail("some numbers have a decimal comma, others a decimal point");
+        return number;
+    }
+
+    bool is_first_ = true;
+    char of_table_ = ' ';
+    bool first_is_name_ = false;                     ///< the heading says so, also of numbers
+    bool named_first_ = false, named_last_ = false;  ///< a line before has a name there
+    bool commas_ = false, points_ = false;           ///< of decimals so far
+};
+
+/// Landmarks of many specimens in one file.
+void require_readable_format(const std::string& path) {
+    for (const char* format : {".tps", ".dta", ".nts"})
+        if (has_ending(path, format))
+            throw InputError(fmt::format(
+                "{}: {} files are not read; save the landmarks of each specimen as a .csv with lines x,y,z "
+                "or name,x,y,z",
+                path, format));
 }
 
 }  // namespace
 
 std::vector<ListRow> read_list_rows(const std::string& path) {
+    require_readable_format(path);
     const std::string bytes = read_file(path);
     TextScanner scanner(without_byte_order_mark(bytes, path), path);
     std::vector<ListRow> rows;
-    bool first_is_name = false;
-    char of_table = ' ';
-    for (bool first = true; scanner.next_line(); first = false) {
-        if (first) of_table = separator_of_table(scanner);
-        // Lines with commas and with blanks may stand in one file.
-        const char separator = of_table == ' ' && has_commas(scanner) ? ',' : of_table;
-        if (separator == ' ') {
-            const std::vector<std::string> words(scanner.words().begin(), scanner.words().end());
-            rows.push_back({scanner.line(), numbers_of(words, scanner)});
-            continue;
-        }
-        const std::vector<std::string> fields = fields_of(scanner, separator);
-        if (first && std::ranges::none_of(fields, is_number)) {
-            require_order(fields, scanner);
-            first_is_name = is_heading_of_names(fields.front());
-        } else {
-            rows.push_back(row_of_table(fields, first_is_name, scanner));
-        }
-    }
+    RowReader reader;
+    while (scanner.next_line())
+        if (auto row = reader.read(scanner)) rows.push_back(std::move(*row));
     if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
     return rows;
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -68,10 +69,9 @@ void require_same_gaps(const std::vector<Named> (&lists)[2], const std::vector<s
         first(0), first(1)));
 }
 
-}  // namespace
-
-std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
-                                             const std::vector<std::string>& files) {
+/// Of rows that match.
+std::vector<std::pair<Named, Named>> matching_rows(const std::vector<Named> (&lists)[2],
+                                                   const std::vector<std::string>& files) {
     std::vector<std::pair<Named, Named>> pairs;
     if (have_distinct_names(lists[0]) && have_distinct_names(lists[1])) {
         std::map<std::string, Named> target;
@@ -92,6 +92,28 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
     require_same_gaps(lists, files);
     for (size_t i = 0; i < lists[0].size(); ++i) pairs.emplace_back(lists[0][i], lists[1][i]);
     warn_of_other_names(pairs, files);
+    return pairs;
+}
+
+}  // namespace
+
+std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
+                                             const std::vector<std::string>& files) {
+    std::vector<std::pair<Named, Named>> pairs;
+    std::vector<std::string> missing;
+    for (auto& pair : matching_rows(lists, files)) {
+        const auto& [source, target] = pair;
+        if (source.vertex != no_vertex && target.vertex != no_vertex)
+            pairs.push_back(std::move(pair));
+        else
+            missing.push_back(source.name.empty()
+                                  ? fmt::format("{} {}", row_of(files[0], source.line).unit, source.line)
+                                  : fmt::format("'{}'", excerpt(source.name)));
+    }
+    if (pairs.empty()) throw InputError(files[0] + ": no landmark is there on both surfaces");
+    if (!missing.empty())
+        warn("{}: {} or switched off on one of the surfaces, and left out: {}", fmt::join(files, " and "),
+             counted(std::ssize(missing), "landmark is missing", "landmarks are missing"), listed(missing));
     return pairs;
 }
 

@@ -40,14 +40,11 @@ std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const st
         defined.push_back({point.line, no_vertex, point.name});
         positions.push_back(in_axes_of(mesh, point, space));
     }
-    if (defined.empty()) throw InputError(path + ": none of its points is defined");
+    if (defined.empty()) throw InputError(path + ": all of its landmarks are missing or switched off");
     place(defined, positions, path, mesh);
     auto next = defined.begin();
     for (const PickedPoint& point : picked)
         list.push_back(point.defined ? *next++ : Named{point.line, no_vertex, point.name});
-    if (defined.size() < picked.size())
-        warn("{}: {} of {} points are not defined, or switched off, and are left out", path,
-             picked.size() - defined.size(), picked.size());
     return list;
 }
 

@@ -7,6 +7,7 @@
 
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
+#include "varimap/core/log.h"
 #include "varimap/landmarks/private/named.h"
 #include "varimap/mesh/topology.h"
 
@@ -23,7 +24,8 @@ std::vector<PickedPoint> points_of_rows(const std::vector<ListRow>& rows, size_t
     std::vector<PickedPoint> points;
     for (const ListRow& row : rows) {
         const double* x = row.numbers.data() + first_number;
-        points.push_back({row.line, row.name, {x[0], x[1], x[2]}});
+        const Vec3 position(x[0], x[1], x[2]);
+        points.push_back({row.line, row.name, position, Space::unstated, !position.hasNaN()});
     }
     return points;
 }
@@ -50,6 +52,23 @@ std::vector<ListRow> read_pair_rows(const std::string& path) {
     else
         require_count(rows, path, {2}, "two vertex numbers, of the source and of the target");
     return rows;
+}
+
+/// Throws where vertex numbers fit the meshes only the other way round.
+void require_source_first(const std::vector<ListRow>& rows, const std::string& path, int first,
+                          const TriangleMesh* const (&meshes)[2]) {
+    if (rows.empty() || rows[0].numbers.size() != 2) return;
+    const auto fit = [&](std::size_t source_column) {
+        return std::ranges::all_of(rows, [&](const ListRow& row) {
+            return !(row.numbers[source_column] - first >= meshes[0]->vertex_count()) &&
+                   !(row.numbers[1 - source_column] - first >= meshes[1]->vertex_count());
+        });
+    };
+    if (!fit(0) && fit(1))
+        throw InputError(
+            path +
+            ": source and target look exchanged: only so are there vertices of all its numbers; the "
+            "source's stand first");
 }
 
 /// One side (0 source, 1 target) of such rows.
@@ -105,6 +124,10 @@ std::vector<PlacedLandmark> read_placed_landmarks(const std::string& path, const
     std::vector<PlacedLandmark> landmarks;
     for (const Named& named : list)
         if (named.vertex != no_vertex) landmarks.push_back({named.name, place_of(named, at_vertex)});
+    if (landmarks.empty()) throw InputError(path + ": all of its landmarks are missing or switched off");
+    if (landmarks.size() < list.size())
+        warn("{}: {} of {} landmarks are missing or switched off, and left out", path,
+             list.size() - landmarks.size(), list.size());
     return landmarks;
 }
 
@@ -128,9 +151,10 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
     if (files.size() != 1 && files.size() != 2)
         throw UsageError(
             "landmarks: give one file of pairs, or a list for the source and one for the target");
-    const TriangleMesh* meshes[] = {&source_input, &target_input};
+    const TriangleMesh* const meshes[] = {&source_input, &target_input};
     const bool are_pairs = files.size() == 1;
     const auto pairs = are_pairs ? read_pair_rows(files[0]) : std::vector<ListRow>{};
+    require_source_first(pairs, files[0], number_of_first(reading.base), meshes);
     std::vector<Named> lists[2];
     for (size_t side : {0, 1}) {
         const std::string& path = files[are_pairs ? 0 : side];
@@ -140,19 +164,15 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
         require_used(lists[side], path, role, *meshes[side], side == 0 ? source_fates : target_fates);
         if (repeats == Repeats::refuse) require_distinct(lists[side], path, role);
     }
-    auto defined = matched(lists, files);
-    std::erase_if(defined, [](const auto& pair) {
-        return pair.first.vertex == no_vertex || pair.second.vertex == no_vertex;
-    });
-    if (defined.empty()) throw InputError(files[0] + ": no landmark is defined on both surfaces");
+    const auto pairs_of_both = matched(lists, files);
     Landmarks landmarks;
-    for (const auto& [source, target] : defined)
+    for (const auto& [source, target] : pairs_of_both)
         landmarks.vertices.emplace_back(InputVertex{source.vertex}, InputVertex{target.vertex});
-    const bool picked = std::any_of(defined.begin(), defined.end(),
-                                    [](const auto& pair) { return pair.first.point || pair.second.point; });
+    const bool picked = std::ranges::any_of(
+        pairs_of_both, [](const auto& pair) { return pair.first.point || pair.second.point; });
     if (!picked) return landmarks;
     const PointMap at_source = points_at_vertices(source_input), at_target = points_at_vertices(target_input);
-    for (const auto& [source, target] : defined)
+    for (const auto& [source, target] : pairs_of_both)
         landmarks.points.emplace_back(place_of(source, at_source), place_of(target, at_target));
     return landmarks;
 }

@@ -16,13 +16,15 @@ namespace varimap {
 /// matched as landmarks are (read_landmarks): a line is a vertex number, which x y z may follow; `#` starts a
 /// comment. Here as in all lists, a line may be split by commas instead of blanks, and all lines by
 /// semicolons or tabs where the first one is; then the first or last field may be a name, and the first line
-/// may hold headings. Automatic base: where the lines carry coordinates, those of the mesh decide; else 0.
-/// Returns 0-based numbers, in the source file's order; a vertex may be that of several. Numbers are checked
-/// against the meshes that are given. Throws IoError; InputError naming file and line (malformed, out of
-/// range), an empty file, or what has no partner.
+/// may hold headings. Automatic base: where the lines carry coordinates, those of the mesh decide; else a 0,
+/// or a number as large as there are vertices (`source_count`, where there is no source) in either list, as
+/// in maps of vertices (map_file.h); else 0, with a warning. Returns 0-based numbers, in the source file's
+/// order; a vertex may be that of several. Numbers are checked against the meshes that are given. Throws
+/// IoError; InputError naming file and line (malformed, out of range), an empty file, or what has no partner.
 std::vector<std::pair<int, int>> read_vertex_pairs(const std::string& source_list,
                                                    const std::string& target_list, IndexBase base,
-                                                   const TriangleMesh* source, const TriangleMesh* target);
+                                                   const TriangleMesh* source, const TriangleMesh* target,
+                                                   int source_count = 0);
 
 /// How the numbers in files of landmarks are meant.
 struct LandmarkReading {

@@ -34,7 +34,7 @@ std::optional<int> base_from_coordinates(const std::vector<ListRow>& rows, const
         const Vec3 point(row.numbers[1], row.numbers[2], row.numbers[3]);
         for (int base : {0, 1}) {
             const double v = row.numbers[0] - base;
-            if (v < 0 || v >= mesh.vertex_count()) continue;
+            if (!(v >= 0 && v < mesh.vertex_count())) continue;  // NaN is missing
             const double distance = (mesh.vertex(int(v)) - point).norm();
             matches[base] += distance <= tolerance;
         }
@@ -52,16 +52,38 @@ bool carries_coordinates(const std::vector<ListRow>& rows) {
     return false;
 }
 
-int first_number(const std::vector<ListRow>& rows, IndexBase base, const TriangleMesh* mesh,
-                 const std::string& path) {
+/// What is said of the first vertex's number, or coordinates tell.
+std::optional<int> told_first(const std::vector<ListRow>& rows, IndexBase base, const TriangleMesh* mesh,
+                              const std::string& path) {
     if (base != IndexBase::automatic) return number_of_first(base);
     const auto found = mesh ? base_from_coordinates(rows, *mesh) : std::nullopt;
-    if (found) return *found;
-    if (carries_coordinates(rows))
-        warn("{}: {}; taking its vertex numbers to start at 0", path,
-             mesh ? "the coordinates are not those of the mesh's vertices"
-                  : "there is no mesh to compare its coordinates with");
+    if (found || !carries_coordinates(rows)) return found;
+    warn("{}: {}; taking its vertex numbers to start at 0", path,
+         mesh ? "the coordinates are not those of the mesh's vertices"
+              : "there is no mesh to compare its coordinates with");
     return 0;
+}
+
+void require_vertex_rows(const std::vector<ListRow>& rows, const std::string& path) {
+    require_count(rows, path, {1, 4}, "a vertex number, alone or followed by x y z");
+}
+
+bool holds_number(const std::vector<ListRow>& rows, double number) {
+    return std::ranges::any_of(rows, [&](const ListRow& row) { return row.numbers[0] == number; });
+}
+
+std::vector<Named> vertices_from(int first, const std::vector<ListRow>& rows, const std::string& path,
+                                 const TriangleMesh* mesh) {
+    std::vector<Named> list;
+    for (const ListRow& row : rows)
+        list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name, {}, first});
+    return list;
+}
+
+std::vector<ListRow> read_vertex_rows(const std::string& path) {
+    std::vector<ListRow> rows = read_list_rows(path);
+    require_vertex_rows(rows, path);
+    return rows;
 }
 
 }  // namespace
@@ -69,6 +91,7 @@ int first_number(const std::vector<ListRow>& rows, IndexBase base, const Triangl
 int to_vertex(const ListRow& row, size_t column, int first, const std::string& path,
               const TriangleMesh* mesh) {
     const double number = row.numbers[column];
+    if (std::isnan(number)) return no_vertex;
     if (number != std::floor(number) || std::abs(number) > 2e9)
         fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
     const int vertex = int(number) - first;
@@ -85,21 +108,30 @@ int to_vertex(const ListRow& row, size_t column, int first, const std::string& p
 
 std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std::string& path, IndexBase base,
                                     const TriangleMesh* mesh) {
-    require_count(rows, path, {1, 4}, "a vertex number, alone or followed by x y z");
-    const int first = first_number(rows, base, mesh, path);
-    std::vector<Named> list;
-    for (const ListRow& row : rows)
-        list.push_back({row.line, to_vertex(row, 0, first, path, mesh), row.name, {}, first});
-    return list;
+    require_vertex_rows(rows, path);
+    return vertices_from(told_first(rows, base, mesh, path).value_or(0), rows, path, mesh);
 }
 
 std::vector<std::pair<int, int>> read_vertex_pairs(const std::string& source_list,
                                                    const std::string& target_list, IndexBase base,
-                                                   const TriangleMesh* source, const TriangleMesh* target) {
-    const auto list = [&](const std::string& path, const TriangleMesh* mesh) {
-        return vertices_of_list(read_list_rows(path), path, base, mesh);
-    };
-    const std::vector<Named> lists[2]{list(source_list, source), list(target_list, target)};
+                                                   const TriangleMesh* source, const TriangleMesh* target,
+                                                   int source_count) {
+    const std::vector<ListRow> rows_A = read_vertex_rows(source_list), rows_B = read_vertex_rows(target_list);
+    const auto told_A = told_first(rows_A, base, source, source_list),
+               told_B = told_first(rows_B, base, target, target_list);
+    int first = 0;  // where nothing is told
+    if ((!told_A || !told_B) && !holds_number(rows_A, 0) && !holds_number(rows_B, 0)) {
+        const bool from_1 = holds_number(rows_A, source ? source->vertex_count() : source_count) ||
+                            (target && holds_number(rows_B, target->vertex_count()));
+        if (!from_1)
+            warn(
+                "{} and {}: nothing tells whether their vertices are counted from 0 or from 1; taking 0, "
+                "which --index-base 0 or 1 decides",
+                source_list, target_list);
+        first = from_1 ? 1 : 0;
+    }
+    const std::vector<Named> lists[2]{vertices_from(told_A.value_or(first), rows_A, source_list, source),
+                                      vertices_from(told_B.value_or(first), rows_B, target_list, target)};
     std::vector<std::pair<int, int>> pairs;
     for (const auto& [a, b] : matched(lists, {source_list, target_list}))
         pairs.emplace_back(a.vertex, b.vertex);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
@@ -84,6 +85,28 @@ const std::map<std::string, NumberType, std::less<>>& types() {
     return table;
 }
 
+/// The numbers that an item is read as.
+struct ItemParts {
+    std::string type;
+    int count = 1;
+    bool reversed = false;  ///< the last one comes first
+};
+
+/// None of types that are not read.
+std::optional<ItemParts> parts_of(const std::string& type, NpyItems items) {
+    const bool parted = items == NpyItems::parted, reversed = type.starts_with('>');
+    if (parted && type.size() > 2 && (type[1] == 'U' || type[1] == 'S')) {
+        constexpr long long most_letters = 1'000'000;
+        long long letters;
+        if (!to_integer(type.substr(2), letters) || letters < 1 || letters > most_letters) return {};
+        return ItemParts{type[1] == 'S' ? "|u1" : reversed ? ">u4" : "<u4", int(letters)};
+    }
+    if (!types().contains(type)) return {};
+    if (parted && (type.ends_with("i8") || type.ends_with("u8")))
+        return ItemParts{reversed ? ">u4" : "<u4", 2, reversed};
+    return ItemParts{type};
+}
+
 /// Rows and columns, or a list, which is flat.
 struct NpyHeader {
     std::string type;
@@ -132,37 +155,35 @@ NpyHeader read_npy_header(std::string_view bytes, const std::string& path) {
     if (type.size() > 2) header.type = type.substr(1, type.size() - 2);
     header.column_major = entry(text, "fortran_order", path).starts_with("True");
     read_shape(entry(text, "shape", path), path, header);
-    if (!types().contains(header.type))
-        throw InputError(fmt::format("{}: has numbers of type {}; save it as float64, float32 or integers",
-                                     path, excerpt(header.type)));
     return header;
 }
 
-bool is_wide(std::string_view type) {
-    return type.ends_with("i8") || type.ends_with("u8");
+ItemParts require_parts(const std::string& type, NpyItems items, const std::string& path) {
+    if (const auto parts = parts_of(type, items)) return *parts;
+    throw InputError(fmt::format("{}: has items of type {}; save it as {}", path, excerpt(type),
+                                 items == NpyItems::parted ? "integers or text, such as array.astype(str)"
+                                                           : "float64, float32 or integers"));
 }
 
 }  // namespace
 
-NpyArray parse_npy(std::string_view bytes, const std::string& path, WideIntegers wide) {
+NpyArray parse_npy(std::string_view bytes, const std::string& path, NpyItems items) {
     const NpyHeader header = read_npy_header(bytes, path);
-    const NumberType& type = types().find(header.type)->second;
-    const auto available = (bytes.size() - header.bytes) / std::size_t(type.bytes);
+    const ItemParts parts = require_parts(header.type, items, path);
+    const NumberType& part = types().find(parts.type)->second;
+    const int item_bytes = parts.count * part.bytes;
+    const auto available = (bytes.size() - header.bytes) / std::size_t(item_bytes);
     if (header.columns == 0 || available / std::size_t(header.columns) < std::size_t(header.rows))
         throw InputError(path + ": the file ends before its last number, or has no columns");
-    const bool halved = wide == WideIntegers::halved && is_wide(header.type);
-    const Eigen::Index parts = halved ? 2 : 1;
-    const bool high_first = halved && header.type.starts_with('>');
-    const NumberType& part = halved ? types().find(high_first ? ">u4" : "<u4")->second : type;
-    NpyArray array{written_type(header.type), header.flat, halved,
-                   Eigen::MatrixXd(header.rows, header.columns * parts)};
+    NpyArray array{written_type(header.type), header.flat, written_type(parts.type), parts.count,
+                   Eigen::MatrixXd(header.rows, header.columns * parts.count)};
     for (Eigen::Index row = 0; row < header.rows; ++row)
         for (Eigen::Index column = 0; column < header.columns; ++column) {
             const auto at = header.column_major ? column * header.rows + row : row * header.columns + column;
-            const char* number = bytes.data() + header.bytes + std::size_t(at) * std::size_t(type.bytes);
-            for (Eigen::Index p = 0; p < parts; ++p)
-                array.values(row, column * parts + p) =
-                    part.read(number + (high_first ? parts - 1 - p : p) * part.bytes);
+            const char* item = bytes.data() + header.bytes + std::size_t(at) * std::size_t(item_bytes);
+            for (int p = 0; p < parts.count; ++p)
+                array.values(row, column * parts.count + p) =
+                    part.read(item + (parts.reversed ? parts.count - 1 - p : p) * part.bytes);
         }
     return array;
 }
@@ -170,8 +191,8 @@ NpyArray parse_npy(std::string_view bytes, const std::string& path, WideIntegers
 std::string to_npy(const NpyArray& array) {
     const Eigen::MatrixXd& values = array.values;
     std::vector<long long> shape{values.rows()};
-    if (!array.flat) shape.push_back(array.halved ? values.cols() / 2 : values.cols());
-    const NumberType& type = types().find(array.halved ? "<u4" : array.type)->second;
+    if (!array.flat) shape.push_back(values.cols() / array.parts);
+    const NumberType& type = types().find(array.part_type)->second;
     std::string bytes = npy_header(array.type, shape);
     for (Eigen::Index row = 0; row < values.rows(); ++row)
         for (Eigen::Index column = 0; column < values.cols(); ++column)

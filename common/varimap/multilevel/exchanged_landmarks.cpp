@@ -16,6 +16,20 @@ Eigen::MatrixXd distances_between(const std::vector<int>& vertices, const Geodes
     return to_all(Eigen::all, vertices);
 }
 
+/// Mean |log| of the ratios of distances. `partner`: per landmark of A, which of B it has.
+double mean_change(const Eigen::MatrixXd& of_A, const Eigen::MatrixXd& of_B,
+                   const std::vector<int>& partner) {
+    constexpr double short_distance = 0.1;  // near landmarks do not count
+    const int count = int(partner.size());
+    double sum = 0;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < i; ++j)
+            sum +=
+                std::abs(std::log((of_A(i, j) + short_distance) /
+                                  (of_B(partner[std::size_t(i)], partner[std::size_t(j)]) + short_distance)));
+    return 2 * sum / (count * (count - 1));
+}
+
 /// Tries all exchanges, pair by pair.
 class ExchangeSearch {
   public:
@@ -48,17 +62,7 @@ class ExchangeSearch {
             std::swap(partner_[std::size_t(next)], partner_[std::size_t(other)]);
         }
     }
-    double change() const {
-        constexpr double short_distance = 0.1;  // near landmarks do not count
-        const int count = int(partner_.size());
-        double sum = 0;
-        for (int i = 0; i < count; ++i)
-            for (int j = 0; j < i; ++j)
-                sum += std::abs(
-                    std::log((of_A_(i, j) + short_distance) /
-                             (of_B_(partner_[std::size_t(i)], partner_[std::size_t(j)]) + short_distance)));
-        return 2 * sum / (count * (count - 1));
-    }
+    double change() const { return mean_change(of_A_, of_B_, partner_); }
 
     Eigen::MatrixXd of_A_, of_B_;
     std::vector<int> partner_;
@@ -75,6 +79,20 @@ Exchange likely_exchange(const PairContext& context, double scale) {
     return ExchangeSearch(scale * distances_between(context.landmarks_A(), context.graph_A()),
                           distances_between(context.landmarks_B(), context.graph_B()))
         .best();
+}
+
+bool distances_fit(const PairContext& context, const VertexPairs<MeshVertex>& other) {
+    constexpr std::size_t few = 4, most = 1000;
+    constexpr double much = 0.5;
+    if (other.size() < few || other.size() > most) return false;
+    const auto change = [&](const VertexPairs<MeshVertex>& landmarks) {
+        std::vector<int> on_A, on_B;
+        for (const auto& [a, b] : landmarks) on_A.push_back(a.index), on_B.push_back(b.index);
+        return mean_change(distances_between(on_A, context.graph_A()),
+                           distances_between(on_B, context.graph_B()),
+                           all_indices(Eigen::Index(on_A.size())));
+    };
+    return change(other) < much * change(context.landmarks());
 }
 
 VertexPairs<MeshVertex> exchanged(VertexPairs<MeshVertex> landmarks, const Exchange& exchange) {

@@ -17,6 +17,10 @@ using Exchange = std::vector<std::pair<int, int>>;
 /// `scale`: what lengths of A's mesh are multiplied with to be those of B's.
 Exchange likely_exchange(const PairContext& context, double scale = 1);
 
+/// Whether distances between other landmarks agree far better than between those of the context: a mean
+/// |log| of less than half. Four landmarks or more tell.
+bool distances_fit(const PairContext& context, const VertexPairs<MeshVertex>& other);
+
 /// The landmarks with these partners exchanged.
 VertexPairs<MeshVertex> exchanged(VertexPairs<MeshVertex> landmarks, const Exchange& exchange);
 

@@ -150,7 +150,7 @@ TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
         {"1\n2.5\n", ":2: 2.5 is not a vertex number"},
         {"-1\n", ":1: vertex -1 is out of range"},
         {"1\n11\n", ":2: vertex 11 is out of range: the mesh has 11"},
-        {"1 0 nan 0\n", ":1: 'nan' is not a number"},
+        {"1 0 inf 0\n", ":1: 'inf' is not a number"},
         {"# nothing\n", "holds no vertex numbers"}};
     for (const auto& [text, message] : cases) {
         const auto path = write("bad.txt", text);
@@ -213,6 +213,20 @@ TEST_F(VertexList, RefusesLandmarksThatCannotBe) {
     EXPECT_THAT(error_of({write("a.csv", "z,y,x\n.4,0,2\n"), write("b.csv", "x,y,z\n2,0,.4\n")}),
                 HasSubstr("in the order x,y,z"));
     EXPECT_THAT(error_of({write("a", "1\n2\n"), write("b", "1\n")}), HasSubstr("names 2 vertices but"));
+}
+
+TEST_F(VertexList, SaysWhereOnlyExchangedColumnsFit) {
+    TriangleMesh small = mesh_;
+    small.vertices.conservativeResize(5, 3);
+    small.faces.conservativeResize(3, 3);
+    EXPECT_THAT(read_landmarks({write("a", "9 4\n1 NA\n")}, mesh_, small).vertices, are({{9, 4}}));
+    for (const char* text : {"4 9\n1 2\n", "4 9\n1 NA\nNA 2\n"}) try {
+            read_landmarks({write("a", text)}, mesh_, small);
+            ADD_FAILURE();
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("source and target look exchanged"));
+        }
+    EXPECT_THAT(error_of({write("a", "1 12\n")}), HasSubstr("vertex 12 is out of range"));
 }
 
 TEST_F(VertexList, SnapsRowsOfCoordinatesToTheSurface) {
@@ -287,18 +301,68 @@ TEST_F(VertexList, ReadsSemicolonsAndTabsWhereTheFirstLineHasThem) {
     // Tabs among numbers alone are blanks, as they ever were.
     EXPECT_THAT(read_landmarks({write("p.txt", "4 \t7\n2 0\n")}, mesh_, mesh_).vertices,
                 are({{4, 7}, {2, 0}}));
-    EXPECT_THAT(error_of({write("c.csv", "name;x;y;z\nnose;0,5;0;0\n"), partners}),
-                HasSubstr("c.csv:2: '0,5' is not a number"));
+}
+
+TEST_F(VertexList, DecimalsMayHaveCommasWhereOthersSeparate) {
+    const auto partners = write("b.csv", "ear;3;1;.7\nnose;0;0;0\n");
+    for (const char* text :
+         {"name;x;y;z\near;2;0;0,4\nnose;1,0;0;0,2\n", "ear;2,0;0;0,4\nnose;1;0;0,2\n",
+          "ear\t2,0\t0\t0,4\nnose\t1\t0\t0,2\n", "ear,2,0,\"0,4\"\nnose,\"1,0\",0,\"0,2\"\n"})
+        EXPECT_THAT(read_landmarks({write("a.csv", text), partners}, mesh_, mesh_).vertices,
+                    are({{4, 7}, {2, 0}}))
+            << text;
+    // Two vertices, and three coordinates with a tab behind every comma.
+    EXPECT_THAT(read_landmarks({write("p.csv", "4,7\n2,0\n")}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
+    const auto tabs = write("t.csv", "2,\t0,\t.4\n");
+    EXPECT_THAT(read_landmarks({tabs, tabs}, mesh_, mesh_).vertices, are({{4, 4}}));
+    EXPECT_THAT(error_of({write("c.csv", "nose;0,5;0.5;0\n"), partners}),
+                HasSubstr("c.csv:1: some numbers have a decimal comma, others a decimal point"));
+    EXPECT_THAT(error_of({write("c.csv", "ear;0,5;0;0\nnose;1.234,5;0;0\n"), partners}),
+                HasSubstr("c.csv:2: '1.234,5' is not a number"));
+}
+
+TEST_F(VertexList, LandmarksThatOneSurfaceLacksAreLeftOut) {
+    const auto left_out = [&](const std::vector<std::string>& files) {
+        const std::size_t before = logged_warnings().size();
+        EXPECT_THAT(read_landmarks(files, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
+        EXPECT_EQ(logged_warnings().size(), before + 1);
+        return logged_warnings().back();
+    };
+    const auto partners = write("b.csv", "name,x,y,z\near,3,1,.7\nnose,0,0,0\ntail,4,1,.9\npaw,NA,NA,NA\n");
+    for (const char* text :
+         {"name,x,y,z\ntail,NA,NA,NA\near,2,0,.4\npaw,4,0,.8\nnose,1,0,.2\n",
+          "tail,?,?,?\near,2,0,.4\npaw,4,0,.8\nnose,1,0,.2\n",
+          "2;0;.4;ear\n;;;tail\n4;0;.8;paw\n1;0;.2;nose\n", "name,vertex\near,4\npaw,8\ntail,\nnose,2\n"})
+        EXPECT_THAT(
+            left_out({write("a.csv", text), partners}),
+            AllOf(HasSubstr("a.csv and "), HasSubstr("b.csv: 2 landmarks are missing or switched off"),
+                  HasSubstr("'tail'"), HasSubstr("'paw'")))
+            << text;
+    EXPECT_THAT(
+        left_out({write("p.txt", "4 7\n5 NA\n2 0\n")}),
+        HasSubstr("1 landmark is missing or switched off on one of the surfaces, and left out: line 2"));
+    EXPECT_THAT(left_out({write("p.csv", "source,target\n4,7\n,5\n2,0\n")}), HasSubstr("left out: line 3"));
+    EXPECT_THAT(left_out({write("p.csv", "2,0,.4,3,1,.7\n4,1,.9,nan,nan,nan\n1,0,.2,0,0,0\n")}),
+                HasSubstr("left out: line 2"));
+    EXPECT_THAT(left_out({write("c.txt", "4\nNA\n2\n"), write("d.txt", "7\n5\n0\n")}),
+                HasSubstr("left out: line 2"));
+    EXPECT_THAT(error_of({write("p.txt", "4 NA\nNA 5\n")}),
+                HasSubstr("no landmark is there on both surfaces"));
+    EXPECT_THAT(error_of({write("c.txt", "NA NA NA\n"), partners}),
+                HasSubstr("c.txt: all of its landmarks are missing"));
+    const auto list = write("e.csv", "ear,4\nnose,NA\n");
+    EXPECT_EQ(read_placed_landmarks(list, mesh_, {}).size(), 1u);
+    EXPECT_THAT(logged_warnings().back(), HasSubstr("e.csv: 1 of 2 landmarks are missing or switched off"));
+    EXPECT_THAT(read_vertex_pairs(list, list, IndexBase::zero, &mesh_, &mesh_), ElementsAre(std::pair(4, 4)));
 }
 
 TEST_F(VertexList, RefusesCommasThatDoNotSeparateNumbers) {
     const auto targets = write("b.txt", "7\n0\n");
     const std::pair<const char*, const char*> cases[] = {
         {"2,0,.4\n1,zero,.2\n", "bad.csv:2: 'zero' is not a number"},
-        {"2,0,.4\n1,,.2\n", "bad.csv:2: '' is not a number"},
         {"2,0,.4\n1,0\n", "bad.csv:2: expected the three"},
         {"2,0,.4\nx,y,z\n", "bad.csv:2: 'y' is not a number"},
-        {"0,5 1,2 3,4\n", "bad.csv:1: '5 1' is not a number"},
+        {"0,5 1,2 3,4\n", "bad.csv:1: '5 1' is not a number; where decimals have commas, semicolons or tabs"},
         {"x,y,z\n", "bad.csv: holds no vertex numbers"}};
     for (const auto& [text, message] : cases)
         EXPECT_THAT(error_of({write("bad.csv", text), targets}), HasSubstr(message)) << text;
@@ -371,7 +435,7 @@ TEST_F(VertexList, ReadsPickedPointsHoweverTheirXmlIsWritten) {
     EXPECT_EQ(points[2].position, Vec3(3, 1, .7));
     EXPECT_EQ(points[2].line, 6);
     EXPECT_THAT(read_landmarks({meshlab, meshlab}, mesh_, mesh_).vertices, are({{4, 4}, {7, 7}}));
-    EXPECT_THAT(logged_warnings().back(), HasSubstr("1 of 3 points are not defined, or switched off"));
+    EXPECT_THAT(logged_warnings().back(), HasSubstr("1 landmark is missing or switched off"));
 }
 
 TEST_F(VertexList, NamesInQuotesMayHoldCommas) {
@@ -471,7 +535,22 @@ TEST_F(VertexList, PointsThatAreNotDefinedAreLeftOutWithTheirPartners) {
     EXPECT_THAT(read_landmarks({rows, named}, mesh_, mesh_).vertices, are({{4, 4}, {9, 9}}));
     const auto none =
         write("d.mrk.json", R"({"markups": [{"controlPoints": [{"positionStatus": "undefined"}]}]})");
-    EXPECT_THAT(error_of({none, none}), HasSubstr("none of its points is defined"));
+    EXPECT_THAT(error_of({none, none}), HasSubstr("all of its landmarks are missing or switched off"));
+}
+
+TEST_F(VertexList, ReadsLandmarkEditorsFiles) {
+    const auto source = write("a.pts", "Version 1.0\r\n3\r\nS000 2 0 .4\r\nS001 3 1 .7\r\nC000 1 0 .2\r\n");
+    const auto target =
+        write("b.pts", "Version 1.0\n3\nS000 3 1 0.7\nS001 9999.0 9999.0 9999.0\nC000 0 0 0\n");
+    EXPECT_THAT(read_landmarks({source, target}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
+    EXPECT_THAT(logged_warnings().back(), HasSubstr("left out: 'S001'"));
+    EXPECT_THAT(error_of({write("c.pts", "Version 1.0\n1\n2 0 .4\n"), target}),
+                HasSubstr("c.pts:3: expected a name and x y z"));
+    EXPECT_THAT(error_of({write("c.pts", "4\n7\n"), target}),
+                HasSubstr("does not begin as Landmark Editor's"));
+    for (const char* name : {"a.tps", "a.dta"})
+        EXPECT_THAT(error_of({write(name, "LM3=1\n2 0 .4\nID=1\n"), target}),
+                    HasSubstr("save the landmarks of each specimen as a .csv"));
 }
 
 }  // namespace

@@ -41,6 +41,16 @@ TEST(ExchangedLandmarks, AreNotLookedForAmongOneOrManyLandmarks) {
     EXPECT_FALSE(tubes.likely_after({}).empty());
 }
 
+TEST(ExchangedLandmarks, OtherLandmarksFitByTheirDistances) {
+    TubePair tubes;
+    const auto right = tubes.pair.landmarks, wrong = exchanged(right, {{0, 3}, {1, 2}});
+    EXPECT_FALSE(distances_fit(tubes.pair.context(), wrong));
+    EXPECT_FALSE(distances_fit(tubes.pair.context(), right));
+    tubes.pair.landmarks = wrong;
+    EXPECT_TRUE(distances_fit(tubes.pair.context(), right));
+    EXPECT_FALSE(distances_fit(tubes.pair.context(), {right[0], right[1], right[2]}));
+}
+
 TEST(ExchangedLandmarks, ExchangedTwiceAreAsTheyWere) {
     const TubePair tubes;
     const Exchange exchange{{0, 2}, {1, 3}};

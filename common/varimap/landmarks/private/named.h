@@ -15,7 +15,7 @@ namespace varimap {
 // What the lists of vertex_list.h name, before it becomes landmarks. All throw InputError naming file and
 // line.
 
-inline constexpr int no_vertex = -1;  ///< of a point that is not defined
+inline constexpr int no_vertex = -1;  ///< of a landmark that is missing, or switched off
 
 /// A vertex that a line of a file names, or a point of one without lines.
 struct Named {
@@ -34,8 +34,8 @@ struct Row {
 };
 Row row_of(const std::string& path, int line);
 
-/// The number in a column of a row, from 0, checked against the mesh where it is given. `first`: that of the
-/// file's first vertex.
+/// The number in a column of a row, from 0, checked against the mesh where it is given; no_vertex where it is
+/// missing. `first`: that of the file's first vertex.
 int to_vertex(const ListRow& row, std::size_t column, int first, const std::string& path,
               const TriangleMesh* mesh);
 /// Rows of vertex numbers, which x y z may follow.
@@ -47,8 +47,8 @@ std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std:
 std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path,
                                 const TriangleMesh& mesh, LandmarkSpace space);
 
-/// The lists of both sides, matched row by row, or by name where all have one; names that only one list has
-/// are left out.
+/// The lists of both sides, matched row by row, or by name where all have one. Names that only one list has,
+/// and landmarks that are missing on a side, are left out with a warning.
 std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
                                              const std::vector<std::string>& files);
 
