@@ -34,8 +34,16 @@ printable() {
     printf '%s\n' "${text//[[:cntrl:]]/?}"
 }
 
+printable_lines() {  # of what is read
+    local line
+    while IFS= read -r line; do printable "$line"; done
+}
+
+# stderr may be closed.
+warn() { printable "$name: warning: $1" >&2 || true; }  # MESSAGE
+
 fail() {  # CODE MESSAGE
-    printable "$name: error: $2" >&2 || true  # stderr may be closed
+    printable "$name: error: $2" >&2 || true
     exit "$1"
 }
 
@@ -44,6 +52,13 @@ say() { printf '%s\n' "$1" 2>/dev/null || fail 6 "cannot write to standard outpu
 
 require() {  # PROGRAM
     command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
+}
+
+# is_tool NAME: whether there is an executable varimap-NAME beside the stages.
+is_tool() { [[ $1 =~ ^[a-z][a-z-]*$ && -x $VARIMAP_BIN/varimap-$1 ]]; }
+
+require_tool() {  # NAME
+    is_tool "$1" || fail 6 "no varimap-$1 in $VARIMAP_BIN; build the project (README.md) or set VARIMAP_BIN"
 }
 
 require_file() {  # FILE that is read: a pipe would be read twice, and wait

@@ -35,7 +35,7 @@ claim_landmarks() {
     mesh_with_landmarks[${landmark_files[0]}]=$2
     others=("${landmark_files[@]:1}")
     ((${#others[@]} == 0)) ||
-        printable "$name: warning: $1: landmarks are read from ${landmark_files[0]##*/}, not from $(handful "${others[@]##*/}")" >&2
+        warn "$1: landmarks are read from ${landmark_files[0]##*/}, not from $(handful "${others[@]##*/}")"
 }
 
 # files_named_in MESH: the files beside it without which it is not whole, as it names them: those of a .gltf.
