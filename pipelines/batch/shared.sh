@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # What the scripts of a batch, `bench` and `register` share, besides script.sh, which is sourced before.
-: "${share:?}" "${varimap:?}"
+: "${share:?}" "${varimap:?}" "${landmark_endings[0]:?}"
 
 # written WHAT: waits for a command that writes files, started in the background just before, since before || bash would let it
 # go on after a failure; where it failed, the script ends with one line.
@@ -18,6 +18,24 @@ handful() {
     text=${text%, }
     (($# <= 5)) || text+=" and $(($# - 5)) more"
     echo "$text"
+}
+
+# named_alike FOLDER MESH...: of meshes without landmarks by their names, files in FOLDER that may be theirs, in words; nothing where
+# there are none.
+named_alike() {
+    local mesh file stem alike=()
+    for mesh in "${@:2}"; do
+        stem=${mesh##*/}
+        for file in "$1/${stem%.*}"[._-]*; do
+            [[ " ${landmark_endings[*]##*.} " != *" ${file##*.} "* || ! -f $file || ${mesh_with_landmarks[$file]:-} ]] || alike+=("${file##*/}")
+        done
+    done
+    ((${#alike[@]} == 0)) || echo "; there are files of other names: $(handful "${alike[@]}")"
+}
+
+# pairs_lacking_landmarks RESULTS: their names, of those that are done.
+pairs_lacking_landmarks() {
+    jq -r "$(words_of_quality)"'select(.status == "done" and any(.warnings[]; is_of_lacking_landmarks)).name' "$1"
 }
 
 # claim_landmarks FOLDER MESH: of a mesh that is new. Landmarks by names are of one mesh alone; other files by its name, which are not

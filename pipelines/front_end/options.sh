@@ -90,7 +90,7 @@ check_arguments() {
     require jq
     require flock
     require_stages
-    require_import
+    require_import "${meshes[@]}"
 }
 
 # What is about a stage that does not run. Parameters may be for several runs, of which some have it.
@@ -124,12 +124,4 @@ warn_of_other_candidates() {
         return 0
     fi
     warn "the map in $out was made with ${before[*]:-no landmarks}: candidate ${settings[diffuse.candidate]} is not of the list found then"
-}
-
-require_import() {
-    local file
-    for file in "${meshes[@]}"; do
-        ! is_foreign "$file" || is_tool import ||
-            fail 6 "$file: this varimap was built without assimp, which reads such files; install it (Debian: apt-get install libassimp-dev) and build again, or save the mesh as OBJ, PLY, OFF or STL"
-    done
 }

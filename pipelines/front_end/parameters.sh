@@ -65,8 +65,8 @@ refuse_parameters() {  # STAGE CODE WHAT IT SAYS
     for key in "${!settings[@]}"; do
         [[ $key == "$1".* ]] || continue
         said=$("$VARIMAP_BIN/varimap-$1" "--${key#*.}=${settings[$key]}" --parameters 2>&1) && continue
-        said=${said#*: error: }
+        said=$(error_in "$said")
         fail 2 "${given_by[$key]}: ${said#"--${key#*.}: "}"
     done
-    fail "$2" "${3#*: error: }"
+    fail "$2" "$(error_in "$3")"
 }

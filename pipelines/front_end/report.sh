@@ -4,6 +4,7 @@
 
 report() {  # OUT [--json]
     local out folders=() typed json='' text
+    tell_failures "$@"
     for typed in "$@"; do
         ! asks_for_help "$typed" || { help_topic report; return; }
         case $typed in

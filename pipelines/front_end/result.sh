@@ -38,7 +38,7 @@ find_result() {  # OUT
 # Why what lies there is no longer what the map in OUT was made from: a line, or nothing.
 changed_since() {  # OUT
     local reason
-    reason=$( (find_result "$1" && require_same_inputs "$1") 2>&1) || printable "${reason#*: error: }"
+    reason=$( (find_result "$1" && require_same_inputs "$1") 2>&1) || printable "$(error_in "$reason")"
 }
 
 require_same_inputs() {  # OUT: as transfer and view do, for what reads no mesh; of `result`, and of landmarks that are there

@@ -35,22 +35,6 @@ close_log() {
     log_fd=''
 }
 
-# What goes wrong is noted in files without a name: the disk of OUT may be full or its folder gone, and a kill leaves
-# nothing behind.
-open_notes() {
-    local folder file note fd
-    for folder in /dev/shm "${TMPDIR:-/tmp}" "$out"; do
-        for note in messages codes ran make_log; do
-            file=$(mktemp -- "$folder/varimap.XXXXXX" 2>/dev/null) || continue 2
-            exec {fd}<>"$file"
-            rm -f -- "$file"
-            printf -v "$note" '/dev/fd/%d' "$fd"
-        done
-        return
-    done
-    fail 6 "no folder for temporary files can be written to: /dev/shm, ${TMPDIR:-/tmp}, $out"
-}
-
 run_make() {
     local code=0
     : >"$messages"
@@ -87,7 +71,7 @@ explain_failure() {
         message="varimap: error: a stage crashed (exit code $code), which is a defect of varimap; what is finished is kept"
         code=70
     fi
-    printable "$(from_outside "$message")" >&2 || true
+    complain "$(from_outside "$message")"
     exit "$code"
 }
 
