@@ -34,6 +34,9 @@ def little_repaired:
         # Specks, as scans have.
         and (.dropped_area_percent // 0) <= .1;
 
+# Of a warning's message: that one surface lacks landmarks of the other. The map is made without these and judged as any other.
+def is_of_lacking_landmarks: test(" in both .*; left out are | points are not defined, or switched off, and are left out$");
+
 def report:
     [(.source_to_target // empty | direction("source to target")), (.target_to_source // empty | direction("target to source")),
         (.part.strain // empty | check("part placed"; "strained by \(fixed(3))"; .; 0.12; 0.12)),
@@ -48,7 +51,9 @@ def report:
     | (.stages // {}) as $stages
     # Every textured mesh is welded at its seams, and faces without area have no form to lose: nothing to look at.
     | [shown_warnings | select(.message | test("^repaired: [0-9]+ vert(ex|ices) welded; ") | not)] as $warnings
-    | [$warnings[] | select(.message | test("^faces without area removed: ") | not)
+    # What an import leaves out, such as colours, is not about the surface.
+    | [$warnings[] | select(.message | test("^faces without area removed: ") | not) | select(.stage | startswith("import ") | not)
+            | select(.message | is_of_lacking_landmarks | not)
         | select((.message | startswith("repaired: ")) and ($stages[.stage] // {} | little_repaired) | not)] as $alarms
     | (($alarms | map(.stage) | unique | map("what \(.) warns of")) + ($checks | map(select(.grade == "look here").what))
         + [$ARGS.named.changed // empty | select(. != "")]) as $look

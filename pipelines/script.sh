@@ -34,8 +34,22 @@ printable() {
     printf '%s\n' "${text//[[:cntrl:]]/?}"
 }
 
+printable_lines() {  # of what is read
+    local line
+    while IFS= read -r line; do printable "$line"; done
+}
+
+# stderr may be closed.
+warn() { printable "$name: warning: $1" >&2 || true; }  # MESSAGE
+
+# complain LINE: what went wrong, in the file `failure_note`, too, where that is set.
+complain() {
+    printable "$1" >&2 || true
+    [[ -z ${failure_note:-} ]] || printable "$1" >"$failure_note"
+}
+
 fail() {  # CODE MESSAGE
-    printable "$name: error: $2" >&2 || true  # stderr may be closed
+    complain "$name: error: $2"
     exit "$1"
 }
 
@@ -44,6 +58,13 @@ say() { printf '%s\n' "$1" 2>/dev/null || fail 6 "cannot write to standard outpu
 
 require() {  # PROGRAM
     command -v "$1" >/dev/null || fail 6 "$1 is missing; install it (Debian: apt-get install $1)"
+}
+
+# is_tool NAME: whether there is an executable varimap-NAME beside the stages.
+is_tool() { [[ $1 =~ ^[a-z][a-z-]*$ && -x $VARIMAP_BIN/varimap-$1 ]]; }
+
+require_tool() {  # NAME
+    is_tool "$1" || fail 6 "no varimap-$1 in $VARIMAP_BIN; build the project (README.md) or set VARIMAP_BIN"
 }
 
 require_file() {  # FILE that is read: a pipe would be read twice, and wait
@@ -93,6 +114,22 @@ meshes_in() {
 # is_foreign MESH: whether it must be imported, being of a format that no stage reads.
 is_foreign() { [[ ${1##*/} == *.* && ! ${1,,} =~ \.(obj|ply|off|stl)$ ]]; }
 
+require_import() {  # FILE...: that those can be read which must be imported
+    local file
+    for file in "$@"; do
+        ! is_foreign "$file" || is_tool import ||
+            fail 6 "$file: this varimap was built without assimp, which reads such files; install it (Debian: apt-get install libassimp-dev) and build again, or save the mesh as OBJ, PLY, OFF or STL"
+    done
+}
+
+# as_stages_read MESH OBJ: the path of MESH, or where no stage reads its format, of OBJ, which is made of it.
+as_stages_read() {
+    is_foreign "$1" || { echo "$1"; return; }
+    require_import "$1"
+    "$VARIMAP_BIN/varimap-import" "$1" "$2" || return
+    echo "$2"
+}
+
 # artifact_stem PATH: the name of a mesh's artifacts: the mesh's own, in letters that make can handle, as many as leave room for those
 # of a pair and their endings.
 artifact_stem() {
@@ -131,13 +168,22 @@ shell_words() {
 words_of_quality() { cat -- "$share/quality_words.jq" "$share/report.jq" && echo; }
 
 # list_landmarks FOLDER MESH: sets landmark_files to those in FOLDER that have the name of that mesh, the one that is read first.
+landmark_endings=(mrk.json fcsv pp pts txt csv vts)
 list_landmarks() {
     local ending stem=${2##*/}
     landmark_files=()
     [[ -n $1 ]] || return 0
-    for ending in mrk.json fcsv pp pts txt csv vts; do
+    for ending in "${landmark_endings[@]}"; do
         [[ ! -f $1/${stem%.*}.$ending ]] || landmark_files+=("$1/${stem%.*}.$ending")
     done
+}
+
+# landmark_name MESH: what they must be called, in words.
+landmark_name() {
+    local stem=${1##*/} text
+    printf -v text ', .%s' "${landmark_endings[@]}"
+    text=${text#, }
+    echo "${stem%.*} with ${text%,*} or${text##*,}"
 }
 
 # find_landmarks FOLDER MESH: the first of these; nothing where there is none.
@@ -173,7 +219,7 @@ interrupted() {  # CODE
 # generate_pair FAMILY SEED FOLDER OPTION...: makes FOLDER and lets varimap-generate write a pair there; prints its kind.
 generate_pair() {
     mkdir -p -- "$3"
-    "$VARIMAP_BIN/varimap-generate" "$@" 2>"$3/log.txt" || fail $? "$(tail -n 1 "$3/log.txt")"
+    "$VARIMAP_BIN/varimap-generate" "$@" 2>"$3/log.txt" || fail $? "$(error_in "$(<"$3/log.txt")")"
 }
 
 # torus_mesh AROUND ACROSS SWELL: vertices along a ring of radius 1, and round the tube, whose radius is 0.4 (1 + SWELL cos u) at the
@@ -208,8 +254,7 @@ map_shape() {
 require_map_options() {
     local code=0 said
     said=$("$varimap" map "$share/batch/job" "$share/batch/job" "$@" -o /dev/null 2>&1 >/dev/null) || code=$?
-    said=${said##*$'\n'}
-    ((code == 0)) || [[ $said == *'/dev/null: is a file'* ]] || fail "$code" "${said#*: error: }"
+    ((code == 0)) || [[ $said == *'/dev/null: is a file'* ]] || fail "$code" "$(error_in "$said")"
     [[ ! $* =~ repair|fill.holes|cut.handles ]] || require_repairs "$@"
 }
 
@@ -228,7 +273,13 @@ try_repairs() {  # FOLDER OPTION...
     shift
     printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >"$folder/a.off"
     said=$("$varimap" map "$folder/a.off" "$folder/a.off" "$@" --until preprocess -q -j 1 -o "$folder/out" 2>&1 >/dev/null) || code=$?
-    ((code != 2)) || fail 2 "${said#*: error: }"
+    ((code != 2)) || fail 2 "$(error_in "$said")"
+}
+
+# error_in TEXT: of what was said on stderr, the last line, without the name of the program.
+error_in() {
+    local line=${1##*$'\n'}
+    printf '%s\n' "${line#*error: }"
 }
 
 reason() {  # FILE of what was said on stderr: the error among it, or the last line

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # What the scripts of a batch, `bench` and `register` share, besides script.sh, which is sourced before.
-: "${share:?}" "${varimap:?}"
+: "${share:?}" "${varimap:?}" "${landmark_endings[0]:?}"
 
 # written WHAT: waits for a command that writes files, started in the background just before, since before || bash would let it
 # go on after a failure; where it failed, the script ends with one line.
@@ -20,6 +20,24 @@ handful() {
     echo "$text"
 }
 
+# named_alike FOLDER MESH...: of meshes without landmarks by their names, files in FOLDER that may be theirs, in words; nothing where
+# there are none.
+named_alike() {
+    local mesh file stem alike=()
+    for mesh in "${@:2}"; do
+        stem=${mesh##*/}
+        for file in "$1/${stem%.*}"[._-]*; do
+            [[ " ${landmark_endings[*]##*.} " != *" ${file##*.} "* || ! -f $file || ${mesh_with_landmarks[$file]:-} ]] || alike+=("${file##*/}")
+        done
+    done
+    ((${#alike[@]} == 0)) || echo "; there are files of other names: $(handful "${alike[@]}")"
+}
+
+# pairs_lacking_landmarks RESULTS: their names, of those that are done.
+pairs_lacking_landmarks() {
+    jq -r "$(words_of_quality)"'select(.status == "done" and any(.warnings[]; is_of_lacking_landmarks)).name' "$1"
+}
+
 # claim_landmarks FOLDER MESH: of a mesh that is new. Landmarks by names are of one mesh alone; other files by its name, which are not
 # read, are told.
 declare -A mesh_with_landmarks=()
@@ -35,7 +53,7 @@ claim_landmarks() {
     mesh_with_landmarks[${landmark_files[0]}]=$2
     others=("${landmark_files[@]:1}")
     ((${#others[@]} == 0)) ||
-        printable "$name: warning: $1: landmarks are read from ${landmark_files[0]##*/}, not from $(handful "${others[@]##*/}")" >&2
+        warn "$1: landmarks are read from ${landmark_files[0]##*/}, not from $(handful "${others[@]##*/}")"
 }
 
 # files_named_in MESH: the files beside it without which it is not whole, as it names them: those of a .gltf.

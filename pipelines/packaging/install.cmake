@@ -16,7 +16,7 @@ install(FILES pipelines/Makefile pipelines/quality.jq pipelines/quality_words.jq
 install(PROGRAMS pipelines/bench pipelines/bench-list pipelines/debian-meshes pipelines/gallery pipelines/plot pipelines/register pipelines/scaling
   pipelines/selftest pipelines/survey pipelines/torus DESTINATION ${share})
 install(DIRECTORY pipelines/experiments DESTINATION ${share} USE_SOURCE_PERMISSIONS)
-install(DIRECTORY pipelines/help DESTINATION ${share})
+install(DIRECTORY pipelines/front_end pipelines/help DESTINATION ${share})
 foreach(stage IN LISTS stages)
   string(REPLACE "varimap-" "" name ${stage})
   install(FILES stages/${name}/README.md DESTINATION ${share}/stages RENAME ${name}.md)

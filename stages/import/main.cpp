@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
         auto [warnings, files] = unpacked(text);
         for (const std::string& warning : warnings) warn("{}: {}", in, warning);
         stage.record_file("scene", in);
+        stage.record_finding(content_hash(in + "\n" + text));
         files[0].first = path.filename().string();
         for (const auto& [name, bytes] : files) {
             const std::string file = (path.parent_path() / name).string();

@@ -413,10 +413,21 @@ done
 mkdir named
 cp one.txt named/nobody.txt
 expect_exit 3 "$varimap" batch --all-pairs meshes -o none --landmarks-from named
+grep -q 'named: no landmarks by the name of any of the 3 surfaces; name those of a.off a with .mrk.json, .fcsv, .pp, .txt, .csv or .vts$' log ||
+    fail "what landmarks are to be called is not said: $(<log)"
 [[ ! -e none ]] || fail "a refused batch left files"
 cp one.txt named/a.txt
 "$varimap" batch --all-pairs meshes -o planned --plan --landmarks-from named >out.txt 2>log || fail "--plan with landmarks"
 grep -q 'no landmarks for . of . surfaces' log || fail "who has no landmarks is not said"
+! grep -q 'files of other names' log || fail "files are named that begin as no mesh does: $(<log)"
+# Those that may be a mesh's, though called otherwise; not another's, nor what holds no landmarks.
+touch named/b_left.txt named/b-right.csv named/b_skin.png named/bc.txt
+"$varimap" batch --all-pairs meshes -o planned --plan --landmarks-from named >out.txt 2>log || fail "--plan with landmarks"
+grep -q 'no landmarks for 2 of 3 surfaces (b, c);.*; there are files of other names: b-right.csv, b_left.txt$' log ||
+    fail "landmarks of other names are not said: $(<log)"
+printf 'mesh,landmarks\nmeshes/a.off,one.txt\nmeshes/b.off,one.txt\nmeshes/a.off,three.txt\n' >twice_picked.csv
+expect_exit 3 "$varimap" batch twice_picked.csv -o none --plan
+grep -q 'meshes/a.off: is listed with two files of landmarks, .*/one.txt and .*/three.txt; list it with one$' log || fail "two files of landmarks: $(<log)"
 "$varimap" batch --all-pairs meshes -o planned --plan >out.txt 2>log || fail "--plan"
 grep -q 'core-hours for 3 surfaces and 3 pairs' out.txt || fail "what a batch will cost"
 [[ -z $(ls planned/pairs) ]] || fail "--plan runs something"

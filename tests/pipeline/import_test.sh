@@ -38,23 +38,24 @@ fbx() {
         }' "$1"
 }
 
-# glb FILE.OFF: as binary glTF.
+# glb FILE.OFF [ATTRIBUTES]: as binary glTF.
 glb() {
     perl -e '
         local $/;
+        my $more = splice @ARGV, 1, 1;
         my (undef, $n, $f, undef, @word) = split " ", <>;
         my @face = splice @word, 3 * $n;
         my $places = pack "f<*", @word;
         my $corners = pack "V*", map { @face[4 * $_ + 1 .. 4 * $_ + 3] } 0 .. $f - 1;
         my ($p, $c) = (length $places, length $corners);
         my $json = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
-            . "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"buffers\":[{\"byteLength\":"
+            . "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0$more},\"indices\":1}]}],\"buffers\":[{\"byteLength\":"
             . ($p + $c) . "}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":$p},{\"buffer\":0,\"byteOffset\":$p,\"byteLength\":$c}],"
             . "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":$n,\"type\":\"VEC3\",\"min\":[-9,-9,-9],"
             . "\"max\":[9,9,9]},{\"bufferView\":1,\"componentType\":5125,\"count\":" . 3 * $f . ",\"type\":\"SCALAR\"}]}";
         $json .= " " x (-length($json) % 4);
         print pack("a4VV", "glTF", 2, 28 + length($json) + $p + $c), pack("Va4", length $json, "JSON"), $json,
-            pack("Va4", $p + $c, "BIN\0"), $places, $corners;' "$1"
+            pack("Va4", $p + $c, "BIN\0"), $places, $corners;' "$1" "${2:-}"
 }
 
 map a.off b.off -o plain
@@ -121,12 +122,27 @@ jq '.extensionsRequired = ["FOO_bar"]' colours.gltf >needs.gltf
 expect_exit 3 "$VARIMAP_BIN/varimap-import" needs.gltf needs.obj
 grep -q "error: needs.gltf: .*FOO_bar" log || fail "FOO_bar is not named"
 
+# It stands among the warnings of the map, without making that doubtful, and a run that finds nothing else changes nothing.
+glb a.off ',"COLOR_0":0' >coloured.glb
+map coloured.glb b.off -o coloured --until preprocess
+grep -q "^warning  import coloured: $PWD/coloured.glb: colours of vertices are left out$" out.txt || fail "--until does not show what an import warns of"
+map coloured.glb b.off -o coloured
+grep -q "^warning  import coloured: $PWD/coloured.glb: colours of vertices are left out$" out.txt || fail "the summary does not show what an import warns of"
+jq -e '.warnings[] | select(.stage == "import coloured" and (.message | endswith(": colours of vertices are left out")))' \
+    coloured/quality.json >/dev/null || fail "quality.json does not hold what an import warns of"
+report_on <coloured/quality.json | jq -e '.alarms | index("import coloured") == null' >/dev/null || fail "colours make a map doubtful"
+cp coloured/quality.json before.json
+map coloured.glb b.off -o coloured
+same coloured/quality.json before.json
+
 # Built without assimp: one line that says so.
 mkdir without
 ln -s "$VARIMAP_BIN"/varimap-* without/
 rm without/varimap-import
 VARIMAP_BIN=$PWD/without expect_exit 6 "$varimap" map a.dae b.off -o refused
 grep -q "assimp" log || fail "assimp is not named"
+VARIMAP_BIN=$PWD/without "$varimap" survey a.dae >out.txt 2>log && fail "survey takes what it cannot read"
+grep -q '^"a.dae",refused,.*assimp' out.txt || fail "survey does not name assimp: $(<out.txt)"
 
 # Quads stay quads in the exported meshes, but for those that lost a corner.
 awk 'function vertex(x, y, z,    l, r, key) {

@@ -57,6 +57,25 @@ for option in -q -v ''; do
     tail -n 1 log | grep -q "$PWD/text.off" || fail "the last line does not name the file: $(tail -n 1 log)"
 done
 
+# With --json also as an object, whoever said it.
+fails_in_json() {  # CODE TEXT COMMAND...
+    expect_exit "$1" "${@:3}" --json
+    jq -es --argjson code "$1" --arg text "$2" 'length == 1 and (.[0] | .code == $code and (.error | contains($text)))' out.txt >/dev/null ||
+        fail "--json of what fails: $(<out.txt)"
+    grep -Fq -- "$2" log || fail "a failure with --json is not on stderr: $(<log)"
+}
+odd=$'say "a\\b"\xff.off'
+fails_in_json 6 'say "a\b"' "$varimap" map "$odd" b.off -o bad
+fails_in_json 2 'eigen.cuont' "$varimap" map a.off b.off -o bad --set eigen.cuont=3
+fails_in_json 2 '--no-such-option' "$varimap" map a.off b.off -o bad --no-such-option
+fails_in_json 3 "$PWD/text.off" "$varimap" map text.off b.off -o bad
+fails_in_json 6 'nowhere: no such folder' "$varimap" report nowhere
+fails_in_json 2 'takes one folder' "$varimap" report
+fails_in_json 6 'nothing.csv' "$varimap" verify a.off b.off nothing.csv
+fails_in_json 2 'is required' "$varimap" evaluate a.off
+expect_exit 6 "$varimap" map a.off absent.off -o bad
+[[ ! -s out.txt ]] || fail "a failure without --json says something on stdout"
+
 # bench names the reason, and takes two files of landmarks.
 mkdir list
 seq 0 2 >a.list.txt

@@ -206,6 +206,14 @@ for mesh in template other meshes/s1; do
 done
 register template.off meshes/s1.off meshes/s2.off -o placed "${coarse[@]}" --landmarks-from places --templates other.off
 [[ $(cut -d , -f 2 placed/landmarks.csv | sed -n 2p) == "tip $(head -n 1 points/template.txt)" ]] || fail "names of landmarks that are points"
+# A specimen that lacks some is named, and its map judged as any other.
+mkdir lacking
+cp places/template.csv lacking
+sed 3d places/s1.csv >lacking/s1.csv
+register template.off meshes/s1.off meshes/s2.off -o lacks --landmarks-from lacking
+grep -q '^lacking     some landmarks: s1, .*; which: lacks/maps/status.csv$' out.txt || fail "who lacks landmarks: $(<out.txt)"
+! grep -q '^doubtful' out.txt || fail "who lacks landmarks is called doubtful: $(<out.txt)"
+grep -q '^"template--s1".*left out are .tip ' lacks/maps/status.csv || fail "which landmarks are lacking: $(<lacks/maps/status.csv)"
 cut -d , -f 2-4 places/template.csv | tail -n +2 | tr , ' ' >wrong/template.txt
 register template.off meshes/s1.off meshes/s2.off -o placed "${coarse[@]}" --landmarks-from places --points-from wrong --templates other.off
 grep -q '5 done already' log || fail "points to carry make maps anew"

@@ -106,7 +106,7 @@ grep -q 'survey: error: empty: no mesh there' log || fail "a folder without mesh
 mkdir -p prefix/bin prefix/share/varimap/help elsewhere
 cp "$VARIMAP_SOURCE/pipelines/varimap" "$VARIMAP_BIN"/varimap-* prefix/bin
 cp "$VARIMAP_SOURCE"/pipelines/{Makefile,quality.jq,quality_words.jq,report.jq,summary.jq,script.sh,plain_text.awk,progress.sh,bench,bench-list,debian-meshes,gallery,plot,register,scaling,selftest,survey,torus} prefix/share/varimap
-cp -r "$VARIMAP_SOURCE/pipelines/batch" prefix/share/varimap
+cp -r "$VARIMAP_SOURCE"/pipelines/{batch,front_end} prefix/share/varimap
 cp "$VARIMAP_SOURCE"/pipelines/help/*.md prefix/share/varimap/help
 ln -s ../prefix/bin/varimap elsewhere/varimap
 (

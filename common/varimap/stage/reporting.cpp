@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "varimap/core/error.h"
@@ -28,6 +29,10 @@ int say(const ErrorReport& report, ExitCode code, const std::string& message) {
     const std::string text = fmt::format("{}: error: {}\n", report.program, printable(message));
     if (report.file.empty() || !append(report.file, fmt::format("{} {}", int(code), text)))
         std::fputs(text.c_str(), stderr);
+    if (report.json) {
+        const nlohmann::ordered_json told{{"error", printable(message)}, {"code", int(code)}};
+        std::puts(told.dump().c_str());
+    }
     return int(code);
 }
 

@@ -16,6 +16,7 @@ void print_result(const std::string& text);
 struct ErrorReport {
     std::string program;
     const std::string& file;  ///< known only once the command line is read
+    bool json = false;        ///< on stdout, too, as {"error": MESSAGE, "code": EXIT CODE}
 };
 
 /// Runs `run` and returns the exit code: the one place where failures become exit codes. `report` is read

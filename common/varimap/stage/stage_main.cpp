@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -71,11 +72,13 @@ struct Stage::State {
     bool artifact_is_current(const KnownHashes& known, const Header& now) const;
     bool stamp_is_current(const KnownHashes& known, const Header& now) const;
     std::string run_file() const { return *output_path + ".run.json"; }
+    bool run_file_tells_of(const std::string& hash) const;
     std::vector<std::string> outputs() const;
     void require_possible_files() const;
     void require_possible_output(const std::string& path) const;
     void log_parameters() const;
     void note_run() const;
+    bool asks_for_json(int argc, char** argv) const;
 };
 
 Header Stage::State::header(std::string kind, std::vector<InputRecord> from) const {
@@ -128,11 +131,17 @@ bool Stage::State::is_current() const {
     }
 }
 
+bool Stage::State::run_file_tells_of(const std::string& hash) const {
+    std::error_code ignored;
+    return fs::exists(run_file(), ignored) &&
+           read_file(run_file()).find("\"artifact\": \"" + hash + "\"") != std::string::npos;
+}
+
 /// The side file is written last: it tells that the stage was not killed before.
 bool Stage::State::artifact_is_current(const KnownHashes& known, const Header& now) const {
     const InputRecord there = known.identify("", *output_path);
     return there.kind == output_kind && would_be_written(now, read_header(*output_path)) &&
-           read_file(run_file()).find("\"artifact\": \"" + there.hash + "\"") != std::string::npos;
+           run_file_tells_of(there.hash);
 }
 
 bool Stage::State::stamp_is_current(const KnownHashes& known, const Header& now) const {
@@ -186,6 +195,13 @@ void Stage::State::note_run() const {
     if (line.ran_file.empty()) return;
     std::ofstream notes(line.ran_file, std::ios::app);
     if (!(notes << line.stage << std::endl)) throw IoError("cannot write '" + line.ran_file + "'");
+}
+
+/// Also of a command line that is refused.
+bool Stage::State::asks_for_json(int argc, char** argv) const {
+    return std::any_of(line.flags.begin(), line.flags.end(),
+                       [](const auto& flag) { return flag.name == "json"; }) &&
+           std::find(argv, argv + argc, std::string("--json")) != argv + argc;
 }
 
 Stage::Stage(const std::string& name, const std::string& summary) : state_(std::make_unique<State>()) {
@@ -264,7 +280,8 @@ const bool& Stage::flag(const std::string& name, const std::string& help) {
 int Stage::main(int argc, char** argv, const std::function<void()>& body) {
     open_standard_descriptors();
     std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead, which is reported
-    const ErrorReport report{"varimap-" + state_->line.stage, state_->line.error_file};
+    const ErrorReport report{"varimap-" + state_->line.stage, state_->line.error_file,
+                             state_->asks_for_json(argc, argv)};
     return guarded(report, [&] {
         if (const auto text = state_->line.parse(argc, argv)) return print_result(*text);
         state_->require_possible_files();
@@ -347,6 +364,10 @@ void Stage::require_lineage(const Header& child, const std::string& child_path, 
     if (child.input_hash(role) == parent.payload_hash) return;
     throw ArtifactError(fmt::format("'{}' was not made from '{}' ({}); rerun {}", child_path, parent_path,
                                     role, child.stage));
+}
+
+void Stage::record_finding(const std::string& hash) {
+    if (!state_->run_file_tells_of(hash)) state_->written_hash = hash;
 }
 
 void Stage::record_number(const std::string& name, double value) {

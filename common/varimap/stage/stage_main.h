@@ -109,6 +109,9 @@ class Stage {
     }
     /// Writes a file that is no artifact, atomically, and notes it for --stamp.
     void write_file(const std::string& path, const std::string& bytes);
+    /// The output is no artifact but gets a side file all the same, with the hash of what the stage has found
+    /// out; a side file with that hash stays as it is.
+    void record_finding(const std::string& hash);
     /// A number for the side file <artifact>.run.json (levels, iterations, ...). Last value wins.
     void record_number(const std::string& name, double value);
     /// Number of threads of this run.

@@ -588,6 +588,21 @@ TEST_F(StageRun, TheSideFileHoldsTheWarningsAndTheInputs) {
     EXPECT_EQ(run["inputs"]["source"], content_hash("input"));
 }
 
+TEST_F(StageRun, AFindingHasASideFileThatStaysWhileItIsTheSame) {
+    const auto find = [&](const std::string& hash, const std::string& warning) {
+        const Outcome run = run_sample({in, out}, [&](Stage& stage) {
+            warn("{}", warning);
+            stage.record_finding(hash);
+        });
+        EXPECT_EQ(run.code, 0);
+        return nlohmann::json::parse(read_file(out + ".run.json"))["warnings"]
+            .get<std::vector<std::string>>();
+    };
+    EXPECT_THAT(find("one", "first"), testing::Contains("first"));
+    EXPECT_THAT(find("one", "second"), testing::Not(testing::Contains("second")));
+    EXPECT_THAT(find("two", "third"), testing::Contains("third"));
+}
+
 TEST_F(StageRun, AnErrorFileTakesTheMessage) {
     const std::string errors = folder / "errors";
     const Outcome run =
