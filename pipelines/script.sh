@@ -42,10 +42,11 @@ printable_lines() {  # of what is read
 # stderr may be closed.
 warn() { printable "$name: warning: $1" >&2 || true; }  # MESSAGE
 
-# complain LINE: what went wrong, in the file `failure_note`, too, where that is set.
+# complain LINE: what went wrong, in the file `failure_note`, too, where a script sets that.
+failure_note=''
 complain() {
     printable "$1" >&2 || true
-    [[ -z ${failure_note:-} ]] || printable "$1" >"$failure_note"
+    [[ -z $failure_note ]] || printable "$1" >"$failure_note"
 }
 
 fail() {  # CODE MESSAGE

@@ -19,7 +19,6 @@ open_notes() {
 
 # tell_failures ARGUMENT...: of a command that takes --json. Where that is among them, a failure is told on stdout as well; what is
 # said may come from a shell within this one, so it is noted.
-failure_note=''
 tell_failures() {
     local word
     trap ended EXIT

@@ -589,18 +589,26 @@ TEST_F(StageRun, TheSideFileHoldsTheWarningsAndTheInputs) {
 }
 
 TEST_F(StageRun, AFindingHasASideFileThatStaysWhileItIsTheSame) {
-    const auto find = [&](const std::string& hash, const std::string& warning) {
-        const Outcome run = run_sample({in, out}, [&](Stage& stage) {
-            warn("{}", warning);
-            stage.record_finding(hash);
-        });
-        EXPECT_EQ(run.code, 0);
-        return nlohmann::json::parse(read_file(out + ".run.json"))["warnings"]
-            .get<std::vector<std::string>>();
+    const std::string copy = folder / "copy";
+    const auto find = [&](const std::string& hash, double level) {
+        std::string program = "varimap-copy", from = in, to = copy;
+        std::array<char*, 3> argv{program.data(), from.data(), to.data()};
+        Stage stage("copy", "A stage for tests");
+        stage.input("source", "any file");
+        stage.output("copy", 0, "file to write");
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(stage.main(3, argv.data(),
+                             [&] {
+                                 stage.record_finding(hash);
+                                 stage.record_number("level", level);
+                             }),
+                  0);
+        testing::internal::GetCapturedStderr();
+        return nlohmann::json::parse(read_file(copy + ".run.json"))["level"].get<double>();
     };
-    EXPECT_THAT(find("one", "first"), testing::Contains("first"));
-    EXPECT_THAT(find("one", "second"), testing::Not(testing::Contains("second")));
-    EXPECT_THAT(find("two", "third"), testing::Contains("third"));
+    EXPECT_EQ(find("one", 1), 1);
+    EXPECT_EQ(find("one", 2), 1);
+    EXPECT_EQ(find("two", 3), 3);
 }
 
 TEST_F(StageRun, AnErrorFileTakesTheMessage) {
