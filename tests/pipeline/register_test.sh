@@ -200,20 +200,23 @@ expect_exit 2 "$varimap" register template.off meshes/s1.off -o none --templates
 # Landmarks may be points, of the template and of the specimens, by their names; whatever could not be carried is refused before a map
 # is made.
 mkdir places wrong
-for mesh in template other meshes/s1; do
-    { echo name,x,y,z
-        while read -r v; do echo "tip $v,$(vertices $mesh.off | sed -n "$((v + 1))p" | tr ' ' ,)"; done <points/template.txt; } >"places/${mesh##*/}.csv"
-done
+tips() {  # MESH
+    echo name,x,y,z
+    while read -r v; do echo "tip $v,$(vertices "$1" | sed -n "$((v + 1))p" | tr ' ' ,)"; done <points/template.txt
+}
+for mesh in template other meshes/s1; do tips $mesh.off >"places/${mesh##*/}.csv"; done
 register template.off meshes/s1.off meshes/s2.off -o placed "${coarse[@]}" --landmarks-from places --templates other.off
 [[ $(cut -d , -f 2 placed/landmarks.csv | sed -n 2p) == "tip $(head -n 1 points/template.txt)" ]] || fail "names of landmarks that are points"
 # A specimen that lacks some is named, and its map judged as any other.
 mkdir lacking
 cp places/template.csv lacking
 sed 3d places/s1.csv >lacking/s1.csv
+tips meshes/s2.off | sed '3s/,.*/,NA,NA,NA/' >lacking/s2.csv
 register template.off meshes/s1.off meshes/s2.off -o lacks --landmarks-from lacking
-grep -q '^lacking     some landmarks: s1, .*; which: lacks/maps/status.csv$' out.txt || fail "who lacks landmarks: $(<out.txt)"
+grep -q '^lacking     some landmarks: s1, s2, .*; which: lacks/maps/status.csv$' out.txt || fail "who lacks landmarks: $(<out.txt)"
 ! grep -q '^doubtful' out.txt || fail "who lacks landmarks is called doubtful: $(<out.txt)"
 grep -q '^"template--s1".*left out are .tip ' lacks/maps/status.csv || fail "which landmarks are lacking: $(<lacks/maps/status.csv)"
+grep -q '^"template--s2".*on one of the surfaces, and left out: .tip ' lacks/maps/status.csv || fail "which landmarks are missing: $(<lacks/maps/status.csv)"
 cut -d , -f 2-4 places/template.csv | tail -n +2 | tr , ' ' >wrong/template.txt
 register template.off meshes/s1.off meshes/s2.off -o placed "${coarse[@]}" --landmarks-from places --points-from wrong --templates other.off
 grep -q '5 done already' log || fail "points to carry make maps anew"
