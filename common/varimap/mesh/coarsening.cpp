@@ -26,6 +26,10 @@ constexpr double least_cosine = 0.3;
 /// 4 sqrt(3) area / sum of squared sides, 1 if equilateral: least of a new face, unless the old ones were
 /// worse.
 constexpr double least_quality = 0.25;
+/// Where all faces are equally thin, as marching cubes make them along planes, no vertex can go by that.
+/// Faces half as good, but no worse than this, are allowed there once others cost so many times as much: else
+/// such places would keep their vertices, and limbs lose theirs.
+constexpr double least_loose_quality = 0.05, patience = 100;
 /// Of a new face in the plane: least share of the mean of the old ones' areas.
 constexpr double least_share = 1e-3;
 constexpr int most_neighbours = 11;
@@ -71,6 +75,7 @@ struct Disc {
 struct Entry {
     double cost;
     int vertex;
+    bool loose = false;  ///< half as good faces are allowed
     /// The cheapest first, among equals the lowest vertex.
     bool operator<(const Entry& other) const {
         return cost != other.cost ? cost > other.cost : vertex > other.vertex;
@@ -101,10 +106,10 @@ class Coarsener {
     Disc lay_out(VertexHandle v) const;
     Vec3 mean_normal(const Disc& disc) const;
     double worst_quality(const Disc& disc) const;
-    int cheapest_target(const Disc& disc);
-    bool is_allowed(const Disc& disc, int target);
+    int cheapest_target(const Disc& disc, bool loose);
+    bool is_allowed(const Disc& disc, int target, double least);
     bool leaves_enough_faces(const Disc& disc, int target) const;
-    bool is_upright(const Disc& disc, int target) const;
+    bool is_upright(const Disc& disc, int target, double least) const;
     void collapse(const Disc& disc, int target);
     double area_lost(const Disc& disc, int target) const;
     void move_points(const Disc& disc, int target);
@@ -223,10 +228,9 @@ double Coarsener::worst_quality(const Disc& disc) const {
     return worst;
 }
 
-/// In space: no new face stands on edge, or is thinner than it need be.
-bool Coarsener::is_upright(const Disc& disc, int target) const {
+/// In space: no new face stands on edge, or has less than the least quality.
+bool Coarsener::is_upright(const Disc& disc, int target, double least) const {
     const Vec3 up = mean_normal(disc), apex = position(disc.spokes[std::size_t(target)].to());
-    const double least = std::min(least_quality, worst_quality(disc));
     for (int i = 0; i < disc.faces(); ++i) {
         if (i == target || disc.next(i) == target) continue;
         const Vec3 a = position(disc.spokes[std::size_t(i)].to()),
@@ -248,7 +252,7 @@ bool Coarsener::leaves_enough_faces(const Disc& disc, int target) const {
            ((last && !disc.closed) || has_enough(disc.next(target)));
 }
 
-bool Coarsener::is_allowed(const Disc& disc, int target) {
+bool Coarsener::is_allowed(const Disc& disc, int target, double least) {
     const auto collapsed = disc.spokes[std::size_t(target)];
     if (!may_collapse(collapsed) || disc.faces() < 2) return false;  // a face must be left to its points
     if (int(mesh_.valence(collapsed.to())) + disc.size() - 4 > most_neighbours) return false;
@@ -261,7 +265,8 @@ bool Coarsener::is_allowed(const Disc& disc, int target) {
             !(cross(disc.at[std::size_t(i)] - apex, disc.at[std::size_t(disc.next(i))] - apex) >
               least_share * area / disc.faces()))
             return false;
-    return leaves_enough_faces(disc, target) && is_upright(disc, target) && mesh_.is_collapse_ok(collapsed);
+    return leaves_enough_faces(disc, target) && is_upright(disc, target, least) &&
+           mesh_.is_collapse_ok(collapsed);
 }
 
 void Coarsener::put(int point, int face, const Vec3& barycentric) {
@@ -370,12 +375,15 @@ void Coarsener::collapse(const Disc& disc, int target) {
 }
 
 /// The spoke along which the centre goes at the least cost; -1 where it may go along none.
-int Coarsener::cheapest_target(const Disc& disc) {
+int Coarsener::cheapest_target(const Disc& disc, bool loose) {
     int best = -1;
+    double worst = worst_quality(disc);
+    if (loose) worst = std::min(worst, std::max(least_loose_quality, worst / 2));
+    const double least_allowed = std::min(least_quality, worst);
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < disc.size(); ++i) {
         const double here = rounded(measured(disc.spokes[std::size_t(i)]));
-        if (here < least && is_allowed(disc, i)) least = here, best = i;
+        if (here < least && is_allowed(disc, i, least_allowed)) least = here, best = i;
     }
     return best;
 }
@@ -390,8 +398,13 @@ void Coarsener::reduce_to(int vertices, int vertices_if_thin, double most_lost) 
         if (mesh_.status(v).deleted() || entry.cost != queued) continue;
         queued = no_entry;
         const Disc disc = lay_out(v);
-        // One that cannot go now is asked again when its surroundings change.
-        if (const int target = cheapest_target(disc); target >= 0) collapse(disc, target);
+        // One that cannot go now is asked again when its surroundings change, or all others cost far more.
+        if (const int target = cheapest_target(disc, entry.loose); target >= 0) {
+            collapse(disc, target);
+        } else if (!entry.loose) {
+            queued = patience * entry.cost;
+            queue_.push({queued, entry.vertex, true});
+        }
     }
 }
 
