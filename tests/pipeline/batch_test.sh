@@ -413,7 +413,7 @@ done
 mkdir named
 cp one.txt named/nobody.txt
 expect_exit 3 "$varimap" batch --all-pairs meshes -o none --landmarks-from named
-grep -q 'named: no landmarks by the name of any of the 3 surfaces; name those of a.off a with .mrk.json, .fcsv, .pp, .txt, .csv or .vts$' log ||
+grep -q 'named: no landmarks by the name of any of the 3 surfaces; name those of a.off a with .mrk.json, .fcsv, .pp, .pts, .txt, .csv or .vts$' log ||
     fail "what landmarks are to be called is not said: $(<log)"
 [[ ! -e none ]] || fail "a refused batch left files"
 cp one.txt named/a.txt
