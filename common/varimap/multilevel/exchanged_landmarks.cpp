@@ -82,7 +82,7 @@ Exchange likely_exchange(const PairContext& context, double scale) {
 }
 
 bool distances_fit(const PairContext& context, const VertexPairs<MeshVertex>& other) {
-    constexpr std::size_t few = 4, most = 1000;
+    constexpr std::size_t few = 4, most = 100;
     constexpr double much = 0.5;
     if (other.size() < few || other.size() > most) return false;
     const auto change = [&](const VertexPairs<MeshVertex>& landmarks) {

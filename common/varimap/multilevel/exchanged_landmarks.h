@@ -18,7 +18,7 @@ using Exchange = std::vector<std::pair<int, int>>;
 Exchange likely_exchange(const PairContext& context, double scale = 1);
 
 /// Whether distances between other landmarks agree far better than between those of the context: a mean
-/// |log| of less than half. Four landmarks or more tell.
+/// |log| of less than half. Four to a hundred landmarks tell.
 bool distances_fit(const PairContext& context, const VertexPairs<MeshVertex>& other);
 
 /// The landmarks with these partners exchanged.
