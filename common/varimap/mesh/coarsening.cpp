@@ -26,10 +26,10 @@ constexpr double least_cosine = 0.3;
 /// 4 sqrt(3) area / sum of squared sides, 1 if equilateral: least of a new face, unless the old ones were
 /// worse.
 constexpr double least_quality = 0.25;
-/// Where all faces are equally thin, as marching cubes make them along planes, no vertex can go by that.
-/// Faces half as good, but no worse than this, are allowed there once others cost so many times as much: else
-/// such places would keep their vertices, and limbs lose theirs.
-constexpr double least_loose_quality = 0.05, patience = 100;
+/// Where all faces are equally thin, as marching cubes make them along planes, no vertex can go by that. Half
+/// as good ones are allowed there once others cost so many times as much: else such places would keep their
+/// vertices, and limbs lose theirs.
+constexpr double patience = 100;
 /// Of a new face in the plane: least share of the mean of the old ones' areas.
 constexpr double least_share = 1e-3;
 constexpr int most_neighbours = 11;
@@ -377,9 +377,7 @@ void Coarsener::collapse(const Disc& disc, int target) {
 /// The spoke along which the centre goes at the least cost; -1 where it may go along none.
 int Coarsener::cheapest_target(const Disc& disc, bool loose) {
     int best = -1;
-    double worst = worst_quality(disc);
-    if (loose) worst = std::min(worst, std::max(least_loose_quality, worst / 2));
-    const double least_allowed = std::min(least_quality, worst);
+    const double least_allowed = std::min(least_quality, worst_quality(disc) / (loose ? 2 : 1));
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < disc.size(); ++i) {
         const double here = rounded(measured(disc.spokes[std::size_t(i)]));

@@ -78,14 +78,14 @@ TEST(Coarsen, IsExactOnAPlane) {
     EXPECT_LT(farthest(square, coarse), 1e-12) << "all discs are flat already";
 }
 
-/// As where marching cubes cut a plane: between lines at distances of 1 and 8 by turns every vertex has thin
+/// As where marching cubes cut a plane: between lines at distances of 1 and 49 by turns every vertex has thin
 /// faces, and any that goes makes one a little thinner.
 TEST(Coarsen, LeavesNoVerticesWhereAllFacesAreThin) {
     constexpr int lines = 40;
     TriangleMesh square = shapes::square(lines);
     for (double& x : square.vertices.leftCols(2).reshaped()) {
         const int line = int(std::lround(x * lines));
-        if (line % 2 == 1) x = (line - 1 + 2. / 9) / lines;
+        if (line % 2 == 1) x = (line - 1 + .04) / lines;
     }
     const Coarsening coarse = coarsen(square, 200);
     EXPECT_EQ(coarse.mesh.vertex_count(), 200);
