@@ -1,5 +1,5 @@
-# Joins quality.json: the numbers of varimap-remesh, then what the stages recorded of their runs, what they warned of, and
-# where everything comes from. Area and scale are those of the surface that was mapped: of a whole, of what was cut from it.
+# Joins quality.json: the numbers of varimap-remesh, then what the stages recorded of their runs, what they noted and warned
+# of, and where everything comes from. Area and scale are those of the surface that was mapped: of a whole, of what was cut from it.
 #   jq -n -R -f quality.jq --slurpfile numbers FILE --arg source MESH --arg target MESH
 #       --arg source_import FILE --arg target_import FILE (what a mesh was imported from, or nothing) --arg landmarks_1 FILE
 #       --arg landmarks_2 FILE --arg initial_map FILE --arg command TEXT --argjson options LIST --arg part (source, target or nothing) RUN_FILE...
@@ -7,6 +7,7 @@ def stage_and_artifact($file): .stage + " " + ($file | sub(".*/"; "") | sub("[.]
 def of_stage($stage): map(.value | select(.stage == $stage));
 def mesh($file; $origin): {file: $file, hash: .inputs.mesh, area: (1 / (.scale * .scale)), scale}
     + if $origin == "" then {} else {imported_from: $origin} end;
+def said($how): [.[] | .key as $file | .value | stage_and_artifact($file) as $stage | .[$how][]? | {stage: $stage, message: .}];
 def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
 
 # Line by line, so that one damaged run file costs its own entry alone.
@@ -17,9 +18,9 @@ def list($role; $file): .inputs[$role] // empty | {file: $file, hash: .};
 | $numbers[0]
 + ([$runs | of_stage("locate")[] | {part: ({is: $part} + {area_percent, scale, strain} + if has("lead") then {lead} else {} end)}] | add // {})
 + {stages: [$runs[] | {key: (.key as $file | .value | stage_and_artifact($file)),
-        value: (.value | del(.stage, .version, .warnings, .artifact, .inputs))}] | from_entries,
-    warnings: ([$runs[] | .key as $file | .value | stage_and_artifact($file) as $stage | .warnings[]?
-            | {stage: $stage, message: .}]
+        value: (.value | del(.stage, .version, .notes, .warnings, .artifact, .inputs))}] | from_entries,
+    notes: ($runs | said("notes")),
+    warnings: (($runs | said("warnings"))
         + [$all[] | select(.value == null or (.value | type != "object" or (has("stage") | not)))
             | {stage: "quality.json", message: "the run file \(.key) is damaged: that stage's times are missing"}]),
     provenance: ({

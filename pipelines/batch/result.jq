@@ -14,4 +14,4 @@ def digits($n): if . == null then null else fixed($n) end;
     strain: ($q.part.strain | digits(4)),
     probability: ($first.probability | if . == null then null else rounded_down(3) end), sure: $first.confident, sure_when_found: $q.exploration.confident_when_found,
     candidate: $candidate,
-    warnings: $r.warnings, message: null}
+    landmarks_left_out: ([$q.stages[].landmarks_left_out? // 0] | max), warnings: $r.warnings, notes: $r.notes, message: null}

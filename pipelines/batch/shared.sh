@@ -35,7 +35,7 @@ named_alike() {
 
 # pairs_lacking_landmarks RESULTS: their names, of those that are done.
 pairs_lacking_landmarks() {
-    jq -r "$(words_of_quality)"'select(.status == "done" and any(.warnings[]; is_of_lacking_landmarks)).name' "$1"
+    jq -r 'select(.status == "done" and .landmarks_left_out > 0).name' "$1"
 }
 
 # claim_landmarks FOLDER MESH: of a mesh that is new. Landmarks by names are of one mesh alone; other files by its name, which are not

@@ -27,6 +27,7 @@ report_lines() {  # OUT, and as the user wrote it
         def pad($n): . + " " * ([$n - length, 1] | max);
         verdict_line,
         (.warnings[] | gsub("\n"; " ") | "warning  \(.)"),
+        (.notes[] | gsub("\n"; " ") | "note     \(.)"),
         (.checks[] | "  \(.what | pad(44)) \(.value | pad(28)) \(.grade)"),
         "command  \(.command)", "version  \(.version)",
         (.times[] | "  \(.stage | pad(44)) \(.seconds * 10 | round / 10) s, \(.megabytes | round) MB")' | printable_lines

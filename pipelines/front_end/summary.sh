@@ -2,8 +2,8 @@
 # What varimap map ends with. To be sourced.
 # shellcheck disable=SC2154  # what other files of the front end set
 
-# What the stages warned of, where a run ends before there is a quality.json: a JSON object for each, and twice what two files tell of.
-warnings_so_far() {
+# What the stages said, where a run ends before there is a quality.json: a JSON object for each, and twice what two files tell of.
+said_so_far() {  # notes|warnings
     local begun=() stage last=$until
     [[ $last != sketches ]] || last=hierarchy
     for stage in "${progress_stages[@]}"; do  # later ones may be of another run
@@ -11,14 +11,17 @@ warnings_so_far() {
         [[ $stage != "$last" ]] || break
     done
     find "$out/artifacts/" -maxdepth 1 \( -name "$source.*run.json" -o -name "$target.*run.json" -o \
-        -name "$source--$target.*run.json" \) -exec jq -c --arg stages "${begun[*]}" '(input_filename | sub(".*/"; "") | sub("[.].*"; "")) as $of
-            | .stage as $stage | select(any($stages | splits(" "); . == $stage)) | .warnings[] | {stage: "\($stage) \($of)", message: gsub("\n"; " ")}' {} + | sort -u
+        -name "$source--$target.*run.json" \) -exec jq -c --arg how "$1" --arg stages "${begun[*]}" '(input_filename | sub(".*/"; "") | sub("[.].*"; "")) as $of
+            | .stage as $stage | select(any($stages | splits(" "); . == $stage)) | .[$how][]? | {stage: "\($stage) \($of)", message: gsub("\n"; " ")}' {} + | sort -u
 }
-print_warnings_so_far() { printable_lines < <(warnings_so_far | jq -r '"warning  \(.stage): \(.message)"'); }
+print_said_so_far() {
+    printable_lines < <(said_so_far warnings | jq -r '"warning  \(.stage): \(.message)"'; said_so_far notes | jq -r '"note     \(.stage): \(.message)"')
+}
 
-print_warnings() {  # of all stages, those that ran earlier too
+print_said() {  # by all stages, those that ran earlier too
     printable_lines < <(jq -r "$(words_of_quality)"'
-        shown_warnings | "warning  \(.stage): \(.message | gsub("\n"; " "))"' "$out/quality.json")
+        (shown_warnings | "warning  \(.stage): \(.message | gsub("\n"; " "))"),
+        (.notes[]? | "note     \(.stage): \(.message | gsub("\n"; " "))")' "$out/quality.json")
 }
 
 print_doubtful_verdict() {
@@ -28,7 +31,7 @@ print_doubtful_verdict() {
 summary() {  # OUT as the user wrote it
     local shown made
     shown=$(printable "$1")
-    print_warnings
+    print_said
     print_doubtful_verdict
     echo "map      $shown/source_to_target.csv  $shown/target_to_source.csv"
     echo "meshes   $shown/source_on_target.ply  $shown/target_on_source.ply"

@@ -23,32 +23,32 @@ Limits limits_for(const std::string& path) {
 
 // What the process that reads a scene hands on: names and sizes in a line each, before the bytes.
 
-std::vector<std::string> warnings_of(const ImportedScene& scene) {
-    std::vector<std::string> warnings;
+std::vector<std::string> left_out_of(const ImportedScene& scene) {
+    std::vector<std::string> left_out;
     for (const std::string& image : scene.missing_images)
-        warnings.push_back(fmt::format("the image {} of a material is not there", printable(image)));
-    warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());
-    return warnings;
+        left_out.push_back(fmt::format("the image {} of a material is not there", printable(image)));
+    left_out.insert(left_out.end(), scene.left_out.begin(), scene.left_out.end());
+    return left_out;
 }
 
 std::string packed(const ImportedScene& scene, const std::string& name) {
-    const std::vector<std::string> warnings = warnings_of(scene);
-    std::string text = fmt::format("{}\n", warnings.size());
-    for (const std::string& warning : warnings) text += warning + "\n";
+    const std::vector<std::string> left_out = left_out_of(scene);
+    std::string text = fmt::format("{}\n", left_out.size());
+    for (const std::string& what : left_out) text += what + "\n";
     for (const auto& [file, bytes] : to_files(scene, name))
         text += fmt::format("{}\n{}\n", file, bytes.size()) + bytes;
     return text;
 }
 
 struct Unpacked {
-    std::vector<std::string> warnings;
+    std::vector<std::string> left_out;
     SceneFiles files;
 };
 
 Unpacked unpacked(std::string_view text) {
     const auto line = [&] { return std::string(split_off_line(text)); };
     Unpacked result;
-    for (int left = std::stoi(line()); left > 0; --left) result.warnings.push_back(line());
+    for (int left = std::stoi(line()); left > 0; --left) result.left_out.push_back(line());
     while (!text.empty()) {
         std::string name = line();
         const std::size_t size = std::stoull(line());
@@ -76,8 +76,8 @@ int main(int argc, char** argv) {
         const fs::path path(out);
         const std::string text = run_isolated(
             [&] { return packed(read_scene(in), printable(path.stem().string())); }, limits_for(in), in);
-        auto [warnings, files] = unpacked(text);
-        for (const std::string& warning : warnings) warn("{}: {}", in, warning);
+        auto [left_out, files] = unpacked(text);
+        for (const std::string& what : left_out) note("{}: {}", in, what);
         stage.record_file("scene", in);
         stage.record_finding(content_hash(in + "\n" + text));
         files[0].first = path.filename().string();

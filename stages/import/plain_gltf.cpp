@@ -81,7 +81,7 @@ class Writer {
             part_skinned_meshes();
             write_bind_matrices();
         }
-        return std::move(warnings_);
+        return std::move(left_out_);
     }
 
   private:
@@ -89,15 +89,15 @@ class Writer {
         for (const Json& texture : member(json_, "textures"))
             if (!texture.contains("source"))
                 for (const auto& item : member(texture, "extensions").items())
-                    warnings_.insert(fmt::format("a texture has only an image that is not read ({})",
+                    left_out_.insert(fmt::format("a texture has only an image that is not read ({})",
                                                  printable(item.key())));
     }
 
     void make_plain(Json& primitive) {
         const Json& given = primitive.at("attributes");
         for (const auto& item : given.items())
-            if (item.key().starts_with("COLOR_")) warnings_.insert("colours of vertices are left out");
-        if (primitive.erase("targets") > 0) warnings_.insert("blend shapes are left out");
+            if (item.key().starts_with("COLOR_")) left_out_.insert("colours of vertices are left out");
+        if (primitive.erase("targets") > 0) left_out_.insert("blend shapes are left out");
         const UvUse use = uv_use_of(material_of(primitive));
         if (is_packed(primitive)) return leave_packed(primitive, use);
         primitive.erase("extensions");
@@ -110,7 +110,7 @@ class Writer {
         if (given.contains(uv))
             attributes["TEXCOORD_0"] = floats(given[uv], use);
         else if (use.set != 0)
-            warnings_.insert("a mesh lacks the texture coordinates that its material uses");
+            left_out_.insert("a mesh lacks the texture coordinates that its material uses");
         primitive["attributes"] = std::move(attributes);
         require_vertices(primitive);
     }
@@ -137,7 +137,7 @@ class Writer {
     /// Assimp unpacks such meshes by itself: their numbers are not to be had here.
     void leave_packed(const Json& primitive, const UvUse& use) {
         if (use.set != 0 || !use.is_plain())
-            warnings_.insert(
+            left_out_.insert(
                 fmt::format("texture coordinates are the first set as it stands, since meshes are "
                             "compressed ({}): {} and texCoord are not honoured",
                             draco_extension, transform_extension));
@@ -198,7 +198,7 @@ class Writer {
 
     GltfDocument& document_;
     Json& json_;
-    std::set<std::string> warnings_;
+    std::set<std::string> left_out_;
     std::map<std::tuple<std::size_t, std::array<double, 2>, std::array<double, 2>, double>, std::size_t>
         written_;
 };
@@ -209,8 +209,8 @@ PlainGltf plain_gltf(const std::string& path) {
     try {
         auto document = read_gltf(path);
         if (!document) return {};
-        const std::set<std::string> warnings = Writer(*document).write();
-        return {to_glb(*document), {warnings.begin(), warnings.end()}};
+        const std::set<std::string> left_out = Writer(*document).write();
+        return {to_glb(*document), {left_out.begin(), left_out.end()}};
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", path, error.what()));
     } catch (const Json::exception&) {

@@ -8,7 +8,7 @@ namespace varimap {
 /// A glTF file as assimp reads it right.
 struct PlainGltf {
     std::string glb;                    ///< empty where the file may be read as it is: it is of glTF 1
-    std::vector<std::string> warnings;  ///< what of the file is left out
+    std::vector<std::string> left_out;  ///< what of the file is left out
 };
 
 /// Assimp takes all numbers of vertices for floats, the first set of texture coordinates for the one that is

@@ -103,12 +103,12 @@ class SceneReader {
 
 /// Assimp's, which lives as long as `importer`; as assimp reads it right.
 const aiScene* assimp_scene(const std::string& path, Assimp::Importer& importer,
-                            std::vector<std::string>& warnings) {
+                            std::vector<std::string>& left_out) {
     // Else a file of nodes alone gets a mesh that stands for them.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     if (!is_gltf(ending_of(path))) return importer.ReadFile(path, 0);
     PlainGltf plain = plain_gltf(path);
-    warnings = std::move(plain.warnings);
+    left_out = std::move(plain.left_out);
     if (plain.glb.empty()) return importer.ReadFile(path, 0);
     return importer.ReadFileFromMemory(plain.glb.data(), plain.glb.size(), 0, "glb");
 }
@@ -141,11 +141,11 @@ bool is_importable(const std::string& path) {
 ImportedScene read_scene(const std::string& path) {
     refuse_other_parts(path);
     Assimp::Importer importer;
-    std::vector<std::string> warnings;
-    const aiScene* scene = assimp_scene(path, importer, warnings);
+    std::vector<std::string> left_out;
+    const aiScene* scene = assimp_scene(path, importer, left_out);
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw InputError(fmt::format("{}: cannot be read: {}", path, importer.GetErrorString()));
-    if (has_colours(*scene)) warnings.emplace_back("colours of vertices are left out");
+    if (has_colours(*scene)) left_out.emplace_back("colours of vertices are left out");
     ImportedScene result;
     try {
         result = SceneReader(*scene, path).read();
@@ -153,10 +153,10 @@ ImportedScene read_scene(const std::string& path) {
         throw InputError(path + ": " + error.what());
     }
     if (result.uv.empty() && has_texture_coordinates(*scene))
-        warnings.emplace_back(
+        left_out.emplace_back(
             "texture coordinates are left out, since a part of the scene has none; give it some, or export "
             "it without that part");
-    result.warnings = std::move(warnings);
+    result.left_out = std::move(left_out);
     if (result.soup.ends.empty()) throw InputError(path + ": the file holds no faces");
     return result;
 }

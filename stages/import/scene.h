@@ -29,7 +29,7 @@ struct ImportedScene {
     std::vector<SceneMaterial> materials;  ///< with names of their own
     std::vector<SceneImage> images;
     std::vector<std::string> missing_images;  ///< as the file names them
-    std::vector<std::string> warnings;        ///< what else is left out, in words
+    std::vector<std::string> left_out;        ///< what else is left out, in words
     int objects = 0;
 };
 

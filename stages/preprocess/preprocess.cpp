@@ -74,7 +74,7 @@ ThinFaceRemoval repaired(Normalised& normalised, const FileLink& link) {
     const int gone = normalised.mesh.vertex_count() - repair.mesh.vertex_count();
     if (gone > 0)
         done.push_back(counted(gone, "vertex is mapped as another is", "vertices are mapped as others are"));
-    warn("faces without area removed: {}", fmt::join(done, ", "));
+    note("faces without area removed: {}", fmt::join(done, ", "));  // they have no form to lose
     for (int& vertex : normalised.vertex_of_input)
         if (vertex >= 0) vertex = repair.vertex[vertex];
     return repair;
@@ -155,11 +155,13 @@ bool any_unasked(RepairCounts counts, const PreprocessParams& params) {
     return !in_words(counts).empty();
 }
 
-/// A repair may leave out parts that the user wants: it is said loudly.
-void report(const RepairCounts& counts, const PreprocessParams& params) {
-    if (!in_words(counts).empty())
-        warn("repaired: {}{}", in_words(counts),
-             any_unasked(counts, params) ? "; varimap help meshes says how to do without" : "");
+/// A repair that may have changed the surface's form, or left out parts that the user wants, is said loudly.
+void report(const RepairedMesh& mesh, const PreprocessParams& params) {
+    const RepairCounts& counts = mesh.counts;
+    if (const std::string done = in_words(counts); !done.empty())
+        (keeps_the_form(counts, mesh.mesh.face_count(), params) ? log_note : log_warning)(
+            "repaired: " + done +
+            (any_unasked(counts, params) ? "; varimap help meshes says how to do without" : ""));
     constexpr double much = 0.01;
     if (counts.dropped_area > much)
         warn(
@@ -173,6 +175,19 @@ void report(const RepairCounts& counts, const PreprocessParams& params) {
 
 int asked_cuts(const RepairCounts& counts, const PreprocessParams& params) {
     return params.cut_handles == "auto" ? 0 : counts.cut_handles;
+}
+
+bool keeps_the_form(const RepairCounts& counts, int faces, const PreprocessParams& params) {
+    const auto few = [&](int count, double share) { return count <= std::max(10.0, share * faces); };
+    const int elements =
+        counts.not_finite + counts.degenerate + counts.duplicates + counts.cut_edges + counts.closed_slits;
+    return few(elements, .003) &&
+           counts.bridges <= 10
+           // Turning faces changes no form; nor does parting what touches in a point, as around the ragged
+           // holes of a scan.
+           && few(counts.turned, .01) && few(counts.split_vertices, .03) &&
+           counts.cut_handles == asked_cuts(counts, params) && counts.opened_edges == 0 &&
+           counts.unfilled_holes == 0 && counts.dropped_area <= .001;  // specks, as scans have
 }
 
 double target_edge_length(const PreprocessParams& params, int used_vertices) {
@@ -193,7 +208,7 @@ Surface preprocess(const TriangleMesh& input, const PreprocessParams& params) {
 }
 
 Surface preprocess(RepairedMesh repaired_input, const PreprocessParams& params) {
-    report(repaired_input.counts, params);
+    report(repaired_input, params);
     Surface surface;
     surface.input = std::move(repaired_input.mesh);
     surface.link = std::move(repaired_input.link);

@@ -117,18 +117,18 @@ triangle='{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0
     "meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":0}}]}]}'
 echo "$triangle" >colours.gltf
 "$VARIMAP_BIN/varimap-import" colours.gltf colours.obj 2>log || fail "colours.gltf: $(tail -n 1 log)"
-grep -q "warning: colours.gltf: colours of vertices are left out" log || fail "colours are left out without a word"
+grep -q "note: colours.gltf: colours of vertices are left out" log || fail "colours are left out without a word"
 jq '.extensionsRequired = ["FOO_bar"]' colours.gltf >needs.gltf
 expect_exit 3 "$VARIMAP_BIN/varimap-import" needs.gltf needs.obj
 grep -q "error: needs.gltf: .*FOO_bar" log || fail "FOO_bar is not named"
 
-# It stands among the warnings of the map, without making that doubtful, and a run that finds nothing else changes nothing.
+# It stands among the notes of the map, which make nothing doubtful, and a run that finds nothing else changes nothing.
 glb a.off ',"COLOR_0":0' >coloured.glb
 map coloured.glb b.off -o coloured --until preprocess
-grep -q "^warning  import coloured: $PWD/coloured.glb: colours of vertices are left out$" out.txt || fail "--until does not show what an import warns of"
+grep -q "^note     import coloured: $PWD/coloured.glb: colours of vertices are left out$" out.txt || fail "--until does not show what an import warns of"
 map coloured.glb b.off -o coloured
-grep -q "^warning  import coloured: $PWD/coloured.glb: colours of vertices are left out$" out.txt || fail "the summary does not show what an import warns of"
-jq -e '.warnings[] | select(.stage == "import coloured" and (.message | endswith(": colours of vertices are left out")))' \
+grep -q "^note     import coloured: $PWD/coloured.glb: colours of vertices are left out$" out.txt || fail "the summary does not show what an import warns of"
+jq -e '.notes[] | select(.stage == "import coloured" and (.message | endswith(": colours of vertices are left out")))' \
     coloured/quality.json >/dev/null || fail "quality.json does not hold what an import warns of"
 report_on <coloured/quality.json | jq -e '.alarms | index("import coloured") == null' >/dev/null || fail "colours make a map doubtful"
 cp coloured/quality.json before.json

@@ -10,7 +10,7 @@
 #include "fixtures/surface_data.h"
 #include "stages/diffuse/check_landmarks.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/surface/input_locator.h"

@@ -8,7 +8,7 @@
 #include "fixtures/shapes.h"
 #include "fixtures/temporary_folder.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/mesh_files/mesh_file.h"
 #include "varimap/results/map_table.h"
 

@@ -134,9 +134,9 @@ TEST(Import, SaysWhereTextureCoordinatesAreLeftOut) {
     const TemporaryFolder folder;
     const ImportedScene scene = import(folder, "a.glb", painted_glb("image", 2));
     EXPECT_TRUE(scene.uv.empty());
-    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("texture coordinates are left out")));
-    EXPECT_THAT(import(folder, "b.glb", painted_glb("image")).warnings, IsEmpty());
-    EXPECT_THAT(import(folder, "c.glb", painted_glb("image", 0)).warnings, IsEmpty());
+    EXPECT_THAT(scene.left_out, ElementsAre(HasSubstr("texture coordinates are left out")));
+    EXPECT_THAT(import(folder, "b.glb", painted_glb("image")).left_out, IsEmpty());
+    EXPECT_THAT(import(folder, "c.glb", painted_glb("image", 0)).left_out, IsEmpty());
 }
 
 TEST(Import, MaterialsAndImagesBecomeFilesBesideTheObj) {
@@ -380,11 +380,11 @@ TEST(Import, SaysThatColoursBlendShapesAndOtherImagesAreLeftOut) {
     Gltf gltf = triangle();
     gltf.attribute("COLOR_0", std::vector<std::uint8_t>(12, 128), "VEC4", of_bytes, true);
     gltf.json["textures"] = nlohmann::json::parse(R"([{"extensions":{"KHR_texture_basisu":{"source":0}}}])");
-    EXPECT_THAT(import(folder, "a.glb", gltf.bytes()).warnings,
+    EXPECT_THAT(import(folder, "a.glb", gltf.bytes()).left_out,
                 ElementsAre(HasSubstr("KHR_texture_basisu"), "colours of vertices are left out"));
     Gltf smiling = triangle();
     smiling.primitive()["targets"] = {{{"POSITION", 0}}};
-    EXPECT_THAT(import(folder, "b.glb", smiling.bytes()).warnings, ElementsAre("blend shapes are left out"));
+    EXPECT_THAT(import(folder, "b.glb", smiling.bytes()).left_out, ElementsAre("blend shapes are left out"));
 }
 
 TEST(Import, RefusesGltfThatNeedsWhatIsNotRead) {
@@ -467,7 +467,7 @@ TEST(Import, NamesTheParts3mfHasInFilesOfTheirOwn) {
     EXPECT_EQ(model_parts_in_3mf(whole), 1);
     const ImportedScene scene = import(folder, "a.3mf", whole);
     EXPECT_EQ(scene.soup.ends.size(), 1u);
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.left_out.empty());
     const std::string part =
         R"(<object id="1" type="model"><components><component p:path="/3D/Objects/o.model" objectid="1"/></components></object>)";
     const std::string parts = zip({{"_rels/.rels", links},

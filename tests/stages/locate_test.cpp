@@ -10,7 +10,7 @@
 #include "stages/coarsen/coarsen.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {

@@ -11,7 +11,7 @@
 #include "stages/explore/landmark_spread.h"
 #include "stages/explore/pool.h"
 #include "stages/explore/self_maps.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/results/choice.h"
 
 namespace varimap {

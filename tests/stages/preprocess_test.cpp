@@ -176,6 +176,38 @@ TEST(Preprocess, EndsBisectionOfSliversInProportion) {
         EXPECT_LE((fine.mesh.vertex(a) - fine.mesh.vertex(b)).norm(), .5 * (1 + 1e-9));
 }
 
+TEST(Preprocess, ToldRepairsOfAFewElementsKeepTheForm) {
+    struct Case {
+        int faces;
+        RepairCounts counts;
+        bool keeps;
+    };
+    for (const auto& [faces, counts, keeps] : std::vector<Case>{
+             {13800, {.cut_edges = 1, .split_vertices = 1}, true},
+             {5000, {.cut_edges = 9, .split_vertices = 15}, true},
+             {5000, {.cut_edges = 16, .split_vertices = 16}, false},
+             {5000, {.split_vertices = 150}, true},
+             {5000, {.split_vertices = 151}, false},
+             {200, {.degenerate = 10}, true},
+             {200, {.degenerate = 11}, false},
+             {200, {.not_finite = 4, .duplicates = 4, .closed_slits = 3}, false},
+             {13800, {.welded = 5000, .turned = 138}, true},
+             {13800, {.turned = 139}, false},
+             {13800, {.cut_edges = 1, .dropped_components = 1, .dropped_area = .002}, false},
+             {13800, {.cut_edges = 1, .dropped_components = 1, .dropped_area = .0005}, true},
+             {13800, {.opened_edges = 1}, false},
+             {13800, {.filled_holes = 2, .filling_faces = 50}, true},
+             {13800, {.filled_holes = 2, .unfilled_holes = 1}, false},
+             {13800, {.bridges = 10}, true},
+             {13800, {.bridges = 11}, false},
+             {13800, {.cut_handles = 1}, false},
+         })
+        EXPECT_EQ(keeps_the_form(counts, faces, {}), keeps) << faces << ": " << in_words(counts);
+    PreprocessParams asked;
+    asked.cut_handles = ".1";
+    EXPECT_TRUE(keeps_the_form({.cut_handles = 1}, 13800, asked));
+}
+
 TEST(Preprocess, ServesTetrahedraAndPlacesFarFromTheOrigin) {
     const TriangleMesh tetrahedron = shapes::make_mesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
                                                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});

@@ -10,7 +10,7 @@
 #include "stages/locate/covered.h"
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/mesh/closest_point.h"
 
 namespace varimap {

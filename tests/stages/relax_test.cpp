@@ -11,7 +11,7 @@
 #include "stages/relax/placed_part.h"
 #include "stages/relax/prolongation.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/quality/quality.h"
 #include "varimap/verification/verification.h"

@@ -14,7 +14,7 @@
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/warnings.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {

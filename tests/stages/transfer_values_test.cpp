@@ -11,7 +11,7 @@
 #include "stages/transfer/values.h"
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/mesh_files/mesh_file.h"
 #include "varimap/mesh_files/ply_columns.h"
 

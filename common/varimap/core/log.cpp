@@ -6,8 +6,8 @@
 #include <memory>
 #include <mutex>
 
+#include "varimap/core/logged.h"
 #include "varimap/core/printable.h"
-#include "varimap/core/warnings.h"
 
 namespace varimap {
 namespace {
@@ -24,13 +24,28 @@ spdlog::logger& logger() {
     return *instance;
 }
 
-struct Warnings {
-    std::mutex mutex;
-    std::vector<std::string> list;
+class Kept {
+  public:
+    void add(const std::string& message) {
+        const std::lock_guard lock(mutex_);
+        messages_.push_back(message);
+    }
+    std::vector<std::string> messages() {
+        const std::lock_guard lock(mutex_);
+        return messages_;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::string> messages_;
 };
 
-Warnings& warnings() {
-    static Warnings instance;
+Kept& notes() {
+    static Kept instance;
+    return instance;
+}
+Kept& warnings() {
+    static Kept instance;
     return instance;
 }
 
@@ -44,15 +59,22 @@ void log_message(const std::string& message) {
     logger().info(printable(message));
 }
 
+void log_note(const std::string& message) {
+    logger().info("note: {}", printable(message));
+    notes().add(message);
+}
+
 void log_warning(const std::string& message) {
     logger().warn("warning: {}", printable(message));
-    const std::lock_guard lock(warnings().mutex);
-    warnings().list.push_back(message);
+    warnings().add(message);
+}
+
+std::vector<std::string> logged_notes() {
+    return notes().messages();
 }
 
 std::vector<std::string> logged_warnings() {
-    const std::lock_guard lock(warnings().mutex);
-    return warnings().list;
+    return warnings().messages();
 }
 
 }  // namespace varimap

@@ -82,7 +82,7 @@ std::vector<std::pair<Named, Named>> matching_rows(const std::vector<Named> (&li
         if (pairs.empty())
             throw InputError(fmt::format("{} and {} have no name in common", files[0], files[1]));
         if (pairs.size() < std::max(lists[0].size(), lists[1].size()))
-            warn("{} in both {} and {}; left out are {}", counted(std::ssize(pairs), "name is", "names are"),
+            note("{} in both {} and {}; left out are {}", counted(std::ssize(pairs), "name is", "names are"),
                  files[0], files[1], names_in_one(lists));
         return pairs;
     }
@@ -97,11 +97,11 @@ std::vector<std::pair<Named, Named>> matching_rows(const std::vector<Named> (&li
 
 }  // namespace
 
-std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
-                                             const std::vector<std::string>& files) {
-    std::vector<std::pair<Named, Named>> pairs;
+MatchedLists matched(const std::vector<Named> (&lists)[2], const std::vector<std::string>& files) {
+    std::vector<std::pair<Named, Named>> rows = matching_rows(lists, files), pairs;
+    const std::ptrdiff_t of_both_lists = std::ssize(lists[0]) + std::ssize(lists[1]) - std::ssize(rows);
     std::vector<std::string> missing;
-    for (auto& pair : matching_rows(lists, files)) {
+    for (auto& pair : rows) {
         const auto& [source, target] = pair;
         if (source.vertex != no_vertex && target.vertex != no_vertex)
             pairs.push_back(std::move(pair));
@@ -112,9 +112,10 @@ std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2
     }
     if (pairs.empty()) throw InputError(files[0] + ": no landmark is there on both surfaces");
     if (!missing.empty())
-        warn("{}: {} or switched off on one of the surfaces, and left out: {}", fmt::join(files, " and "),
+        note("{}: {} or switched off on one of the surfaces, and left out: {}", fmt::join(files, " and "),
              counted(std::ssize(missing), "landmark is missing", "landmarks are missing"), listed(missing));
-    return pairs;
+    const int left_out = int(of_both_lists - std::ssize(pairs));
+    return {std::move(pairs), left_out};
 }
 
 }  // namespace varimap

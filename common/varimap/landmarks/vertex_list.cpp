@@ -164,8 +164,9 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
         require_used(lists[side], path, role, *meshes[side], side == 0 ? source_fates : target_fates);
         if (repeats == Repeats::refuse) require_distinct(lists[side], path, role);
     }
-    const auto pairs_of_both = matched(lists, files);
+    const auto [pairs_of_both, left_out] = matched(lists, files);
     Landmarks landmarks;
+    landmarks.left_out = left_out;
     for (const auto& [source, target] : pairs_of_both)
         landmarks.vertices.emplace_back(InputVertex{source.vertex}, InputVertex{target.vertex});
     const bool picked = std::ranges::any_of(

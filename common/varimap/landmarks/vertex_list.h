@@ -60,6 +60,7 @@ bool holds_points(const std::string& path);
 struct Landmarks {
     VertexPairs<InputVertex> vertices;  ///< they are, or are nearest to the points
     PointPairs points;                  ///< where they are, if a file holds points; else empty
+    int left_out = 0;                   ///< others, which one of the surfaces lacks
 };
 
 /// Where landmarks are on the meshes that they were read for, row by row: their points, or else those at

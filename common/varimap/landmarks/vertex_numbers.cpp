@@ -133,7 +133,7 @@ std::vector<std::pair<int, int>> read_vertex_pairs(const std::string& source_lis
     const std::vector<Named> lists[2]{vertices_from(told_A.value_or(first), rows_A, source_list, source),
                                       vertices_from(told_B.value_or(first), rows_B, target_list, target)};
     std::vector<std::pair<int, int>> pairs;
-    for (const auto& [a, b] : matched(lists, {source_list, target_list}))
+    for (const auto& [a, b] : matched(lists, {source_list, target_list}).pairs)
         pairs.emplace_back(a.vertex, b.vertex);
     return pairs;
 }

@@ -222,6 +222,7 @@ Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, co
         A, B);
     for (size_t i = 0; i < files.size(); ++i)
         stage.record_file(files.size() == 1 ? "landmarks" : i == 0 ? "landmarks.A" : "landmarks.B", files[i]);
+    if (landmarks.left_out > 0) stage.record_number("landmarks_left_out", landmarks.left_out);
     return landmarks;
 }
 

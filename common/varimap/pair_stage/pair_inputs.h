@@ -55,7 +55,7 @@ class PairInputs {
 /// Landmarks whose vertices have their files' numbers as those of the inputs. Throws InputError for a vertex
 /// that is not on the surface.
 Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B);
-/// Reads landmarks (vertex_list.h) and records their files as inputs.
+/// Reads landmarks (vertex_list.h) and records their files as inputs, and how many one surface lacks.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, const LandmarkReading& reading);
 /// The vertices that stand for landmarks on the surfaces' meshes: those at them, or else corners of the faces

@@ -16,9 +16,9 @@
 #include <system_error>
 
 #include "varimap/artifact/temporaries.h"
+#include "varimap/core/logged.h"
 #include "varimap/core/printable.h"
 #include "varimap/core/timing.h"
-#include "varimap/core/warnings.h"
 #include "varimap/stage/command_line.h"
 #include "varimap/stage/file_lock.h"
 #include "varimap/stage/known_hashes.h"
@@ -46,6 +46,16 @@ namespace {
 
 }  // namespace
 #endif
+
+namespace {
+
+nlohmann::ordered_json printable_list(const std::vector<std::string>& messages) {
+    auto list = nlohmann::ordered_json::array();
+    for (const std::string& message : messages) list.push_back(printable(message));
+    return list;
+}
+
+}  // namespace
 
 struct Stage::State {
     CommandLine line;
@@ -409,8 +419,8 @@ void Stage::write_run_file() const {
     run["threads"] = threads();
     for (const auto& [name, value] : state_->numbers) run[name] = value;
     for (const auto& [part, seconds] : timed_parts()) run["seconds"][part] = seconds;
-    run["warnings"] = nlohmann::ordered_json::array();
-    for (const auto& warning : logged_warnings()) run["warnings"].push_back(printable(warning));
+    run["notes"] = printable_list(logged_notes());
+    run["warnings"] = printable_list(logged_warnings());
     run["artifact"] = state_->written_hash;
     for (const auto& input : state_->inputs) run["inputs"][input.role] = input.hash;
     write_file_atomically(state_->run_file(), run.dump(2) + "\n");

@@ -26,6 +26,7 @@ export function drawReport(element, report) {
   if (!report) return;
   add(element, 'p', verdictWords[report.verdict] + report.look.join('; '), 'verdict');
   for (const warning of report.warnings) add(element, 'p', `Warning: ${warning}`, 'warning');
+  for (const note of report.notes) add(element, 'p', `Note: ${note}`);
   addTable(element, report.checks.map(({ what, value, grade }) => [what, value, grade]));
   add(element, 'h2', 'What was done');
   if (report.command) add(element, 'code', report.command);

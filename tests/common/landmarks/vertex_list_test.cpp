@@ -10,7 +10,7 @@
 #include "fixtures/temporary_folder.h"
 #include "varimap/artifact/artifact.h"
 #include "varimap/core/error.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 
 namespace varimap {
 namespace {
@@ -323,10 +323,12 @@ TEST_F(VertexList, DecimalsMayHaveCommasWhereOthersSeparate) {
 
 TEST_F(VertexList, LandmarksThatOneSurfaceLacksAreLeftOut) {
     const auto left_out = [&](const std::vector<std::string>& files) {
-        const std::size_t before = logged_warnings().size();
-        EXPECT_THAT(read_landmarks(files, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
-        EXPECT_EQ(logged_warnings().size(), before + 1);
-        return logged_warnings().back();
+        const std::size_t before = logged_notes().size();
+        const Landmarks landmarks = read_landmarks(files, mesh_, mesh_);
+        EXPECT_THAT(landmarks.vertices, are({{4, 7}, {2, 0}}));
+        EXPECT_GT(landmarks.left_out, 0);
+        EXPECT_EQ(logged_notes().size(), before + 1);
+        return logged_notes().back();
     };
     const auto partners = write("b.csv", "name,x,y,z\near,3,1,.7\nnose,0,0,0\ntail,4,1,.9\npaw,NA,NA,NA\n");
     for (const char* text :
@@ -411,7 +413,8 @@ TEST_F(VertexList, MatchesPickedPointsByName) {
                                   "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
                                   "1,1,0,.2,0,0,0,1,1,1,0,tail,,\r\n2,0,1,.1,0,0,0,1,1,1,0,nose,,\n");
     EXPECT_THAT(read_landmarks({meshlab, slicer}, mesh_, mesh_).vertices, are({{4, 9}, {7, 2}}));
-    EXPECT_THAT(logged_warnings().back(), HasSubstr("left out are 'ear', 'off'"));
+    EXPECT_THAT(logged_notes().back(), HasSubstr("left out are 'ear', 'off'"));
+    EXPECT_EQ(read_landmarks({meshlab, slicer}, mesh_, mesh_).left_out, 2);
     EXPECT_THAT(read_landmarks({meshlab, old_slicer}, mesh_, mesh_).vertices, are({{4, 1}, {7, 2}}));
     const auto capitals = write("C.FCSV", read_file(old_slicer));
     EXPECT_THAT(read_landmarks({meshlab, capitals}, mesh_, mesh_).vertices, are({{4, 1}, {7, 2}}));
@@ -435,7 +438,7 @@ TEST_F(VertexList, ReadsPickedPointsHoweverTheirXmlIsWritten) {
     EXPECT_EQ(points[2].position, Vec3(3, 1, .7));
     EXPECT_EQ(points[2].line, 6);
     EXPECT_THAT(read_landmarks({meshlab, meshlab}, mesh_, mesh_).vertices, are({{4, 4}, {7, 7}}));
-    EXPECT_THAT(logged_warnings().back(), HasSubstr("1 landmark is missing or switched off"));
+    EXPECT_THAT(logged_notes().back(), HasSubstr("1 landmark is missing or switched off"));
 }
 
 TEST_F(VertexList, NamesInQuotesMayHoldCommas) {
@@ -543,7 +546,7 @@ TEST_F(VertexList, ReadsLandmarkEditorsFiles) {
     const auto target =
         write("b.pts", "Version 1.0\n3\nS000 3 1 0.7\nS001 9999.0 9999.0 9999.0\nC000 0 0 0\n");
     EXPECT_THAT(read_landmarks({source, target}, mesh_, mesh_).vertices, are({{4, 7}, {2, 0}}));
-    EXPECT_THAT(logged_warnings().back(), HasSubstr("left out: 'S001'"));
+    EXPECT_THAT(logged_notes().back(), HasSubstr("left out: 'S001'"));
     EXPECT_THAT(error_of({write("c.pts", "Version 1.0\n1\n2 0 .4\n"), target}),
                 HasSubstr("c.pts:3: expected a name and x y z"));
     EXPECT_THAT(error_of({write("c.pts", "4\n7\n"), target}),

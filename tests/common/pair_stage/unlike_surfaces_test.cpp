@@ -7,7 +7,7 @@
 #include "stages/preprocess/preprocess.h"
 #include "tests/fixtures/shapes.h"
 #include "tests/fixtures/together.h"
-#include "varimap/core/warnings.h"
+#include "varimap/core/logged.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {

@@ -581,10 +581,15 @@ TEST_F(StageRun, AnInputThatChangesWhileItIsReadIsRefused) {
     EXPECT_THAT(run.err, HasSubstr("changed while it was read"));
 }
 
-TEST_F(StageRun, TheSideFileHoldsTheWarningsAndTheInputs) {
-    ASSERT_EQ(run_sample({in, out}, [](Stage&) { warn("look at {}", "this"); }).code, 0);
+TEST_F(StageRun, TheSideFileHoldsTheNotesTheWarningsAndTheInputs) {
+    const auto says = [](Stage&) {
+        note("know of {}", "this");
+        warn("look at {}", "this");
+    };
+    ASSERT_EQ(run_sample({in, out}, says).code, 0);
     const auto run = nlohmann::json::parse(read_file(out + ".run.json"));
     EXPECT_THAT(run["warnings"].get<std::vector<std::string>>(), testing::Contains("look at this"));
+    EXPECT_THAT(run["notes"].get<std::vector<std::string>>(), testing::Contains("know of this"));
     EXPECT_EQ(run["inputs"]["source"], content_hash("input"));
 }
 

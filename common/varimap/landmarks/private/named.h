@@ -47,9 +47,13 @@ std::vector<Named> vertices_of_list(const std::vector<ListRow>& rows, const std:
 std::vector<Named> snapped_list(const std::vector<PickedPoint>& picked, const std::string& path,
                                 const TriangleMesh& mesh, LandmarkSpace space);
 
+/// Those of both sides, and how many only one side has.
+struct MatchedLists {
+    std::vector<std::pair<Named, Named>> pairs;
+    int left_out = 0;
+};
 /// The lists of both sides, matched row by row, or by name where all have one. Names that only one list has,
-/// and landmarks that are missing on a side, are left out with a warning.
-std::vector<std::pair<Named, Named>> matched(const std::vector<Named> (&lists)[2],
-                                             const std::vector<std::string>& files);
+/// and landmarks that are missing on a side, are left out with a note.
+MatchedLists matched(const std::vector<Named> (&lists)[2], const std::vector<std::string>& files);
 
 }  // namespace varimap

@@ -5,7 +5,8 @@
 
 namespace varimap {
 
-/// What this process warned of so far (log.h), in order.
+/// What this process noted and warned of so far (log.h), in order.
+std::vector<std::string> logged_notes();
 std::vector<std::string> logged_warnings();
 
 }  // namespace varimap
