@@ -203,8 +203,9 @@ ByMirrorImages MapSearch::found_by_mirror_images(const ExplorationProgress& coar
     log("as mirror images: score {:.2f}, as they are {:.2f}", score, as_they_are);
     const bool are_much_alike = score < much_alike;
     if (score + better > as_they_are || (!are_much_alike && sure)) return {};
-    ByMirrorImages result{mirror.mirrored_back()};
-    if (are_much_alike) result.score = score;
+    auto [maps, are_their_own] = mirror.mirrored_back();
+    ByMirrorImages result{std::move(maps)};
+    if (are_much_alike && !are_their_own) result.score = score;
     return result;
 }
 

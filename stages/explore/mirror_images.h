@@ -26,8 +26,16 @@ class MirrorImages {
                  const FinishingOptions& finishing, std::size_t most);
 
     const Candidate& best() const { return best_.candidate; }
-    /// The best map after, or followed by, the maps of either surface onto its own mirror image.
-    std::vector<PooledMap> mirrored_back() const;
+
+    struct MirroredBack {
+        /// The best map after, or followed by, the maps of either surface onto its own mirror image.
+        std::vector<PooledMap> maps;
+        /// Whether each surface fits its own mirror image far better than that of the other: then neither is
+        /// a left or a right one, and that the pair fits better mirrored is a matter of poses and
+        /// proportions.
+        bool are_their_own = false;
+    };
+    MirroredBack mirrored_back() const;
 
   private:
     const PairContext& context_;

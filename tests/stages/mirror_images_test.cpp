@@ -7,10 +7,12 @@
 
 #include "fixtures/explored.h"
 #include "fixtures/known_pair.h"
+#include "fixtures/surface_data.h"
 #include "stages/explore/finishing.h"
 #include "stages/explore/landmark_spread.h"
 #include "stages/explore/pool.h"
 #include "stages/explore/self_maps.h"
+#include "stages/preprocess/preprocess.h"
 #include "varimap/core/logged.h"
 #include "varimap/results/choice.h"
 
@@ -76,17 +78,21 @@ TEST(MirrorImages, AreTheSameOnCoarseLevels) {
         EXPECT_EQ(coarse.pool[n].energy(), mirror.pool[n].energy());
 }
 
+MirrorImages of_pair(const PairContext& context, const ExploreParams& params,
+                     const FinishingOptions& finishing) {
+    return {context, coarsely_explored(context, params.exploration, params), params, finishing, 10};
+}
+
 TEST(MirrorImages, OfBodiesThatAreTheirOwnLeadToMapsAsTheyAre) {
     const KnownPair pair = person();
     const PairContext context(pair.A, pair.B, {});
     FinishingOptions options;
     options.gap = options.gap_at_first = 1000;
     const ExploreParams params;
-    const MirrorImages mirror(context, coarsely_explored(context, params.exploration, params), params,
-                              options, 10);
+    const MirrorImages mirror = of_pair(context, params, options);
     EXPECT_LT(mirror.best().score, -30);
     std::vector<VertexImages> starts;
-    for (const PooledMap& map : mirror.mirrored_back()) {
+    for (const PooledMap& map : mirror.mirrored_back().maps) {
         EXPECT_TRUE(map.origin.mirrored_back);
         starts.push_back(map.images);
     }
@@ -94,6 +100,19 @@ TEST(MirrorImages, OfBodiesThatAreTheirOwnLeadToMapsAsTheyAre) {
     for (const FinishedMap& map : finish_from(context, starts, options))
         least = std::min(least, shapes::mean_error(map.maps, pair));
     EXPECT_LT(least, .05);
+}
+
+TEST(MirrorImages, TellBodiesThatAreTheirOwnFromALeftAndARightOne) {
+    const ExploreParams params;
+    const SurfaceData body = person().A;
+    TriangleMesh with_long_legs = body.surface.mesh;
+    for (int v = 0; v < with_long_legs.vertex_count(); ++v)
+        if (double& z = with_long_legs.vertices(v, 2); z < 0) z *= 1.5;
+    const PairContext unlike(body, shapes::surface_data(preprocess(with_long_legs, {}), 60), {});
+    EXPECT_TRUE(of_pair(unlike, params, params.quick_finishing()).mirrored_back().are_their_own);
+    const KnownPair pair = reflected(shapes::figure_pair(.5, false, 1000));
+    const PairContext context(pair.A, pair.B, {});
+    EXPECT_FALSE(of_pair(context, params, params.quick_finishing()).mirrored_back().are_their_own);
 }
 
 }  // namespace
