@@ -130,6 +130,14 @@ std::string with_positions(const std::string& path, const std::string& file,
                                        : slicer_fcsv(bytes, points);
 }
 
+const TextRow& first_complete(const TextRows& rows) {
+    const auto lacks_something = [](const TextRow& row) {
+        return std::ranges::any_of(row.words, [](const std::string& word) { return is_missing(word); });
+    };
+    const auto complete = std::ranges::find_if_not(rows.rows, lacks_something);
+    return complete == rows.rows.end() ? rows.rows[0] : *complete;
+}
+
 std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const TextRows& rows,
                                                                       const std::string& path) {
     std::array<std::size_t, 3> columns{};
@@ -139,14 +147,20 @@ std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const Text
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (names_axis(first[c], axis)) columns[axis] = c, ++named;
     if (named == 3 && rows.rows.size() > 1) return {columns, 1};
-    for (std::size_t c = 0; c < first.size(); ++c)
-        if (is_number(first[c]) && numbers++ < 3) columns[numbers - 1] = c;
+    const std::vector<std::string>& words = first_complete(rows).words;
+    for (std::size_t c = 0; c < words.size(); ++c)
+        if (is_number(words[c]) && numbers++ < 3) columns[numbers - 1] = c;
     if (numbers != 3)
         throw InputError(
             fmt::format("{}:{}: expected a vertex number, three coordinates, or a first line "
                         "that names columns x, y and z",
                         path, rows.rows[0].line));
     return {columns, 0};
+}
+
+bool lacks_point(const TextRow& row, const std::array<std::size_t, 3>& columns) {
+    return std::ranges::all_of(
+        columns, [&](std::size_t c) { return c < row.words.size() && is_missing(row.words[c]); });
 }
 
 Vec3 coordinates(const TextRow& row, const std::array<std::size_t, 3>& columns, const std::string& path) {

@@ -22,10 +22,14 @@ bool names_coordinates(const std::vector<std::string>& headings);
 /// it.
 bool names_normal(std::string_view heading);
 
+/// The first row in which nothing is missing (csv_fields.h), which tells what columns hold; else the first.
+const TextRow& first_complete(const TextRows& rows);
 /// Which columns hold x, y and z: those that the first row names so, or in each row three numbers beside
-/// words that are none. Also the first row that holds a point. Throws InputError.
+/// words that are none. Also the first row of points. Throws InputError.
 std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const TextRows& rows,
                                                                       const std::string& path);
+/// Whether the row names a point and says that it is missing ("NA", "?" or nothing; csv_fields.h).
+bool lacks_point(const TextRow& row, const std::array<std::size_t, 3>& columns);
 /// Throws InputError naming the line where a column is missing or no finite number.
 Vec3 coordinates(const TextRow& row, const std::array<std::size_t, 3>& columns, const std::string& path);
 

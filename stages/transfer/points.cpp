@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 
 #include "stages/transfer/point_files.h"
 #include "stages/transfer/text_rows.h"
 #include "varimap/artifact/artifact.h"
+#include "varimap/core/counted.h"
 #include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/listed.h"
@@ -15,6 +17,7 @@
 #include "varimap/core/lower_case.h"
 #include "varimap/core/parallel.h"
 #include "varimap/core/printable.h"
+#include "varimap/landmarks/csv_fields.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh_files/text_scanner.h"
@@ -65,6 +68,13 @@ std::vector<Vec3> require_images(const std::vector<std::optional<Vec3>>& images,
     return positions;
 }
 
+/// Of points, or vertices, that are missing, switched off, or not defined.
+void warn_of_those_that_stay(std::ptrdiff_t missing, std::ptrdiff_t all, const std::string& path) {
+    if (missing > 0)
+        warn("{}: {} of {} are missing, not defined, or switched off; they stay as they are", path, missing,
+             counted(all, "point", "points"));
+}
+
 std::string carry_picked(const std::string& path, const std::string& bytes, LandmarkSpace space,
                          const Correspondence& map, const PointCarrier& there) {
     std::vector<PickedPoint> points = parse_picked_points(bytes, path);
@@ -72,9 +82,7 @@ std::string carry_picked(const std::string& path, const std::string& bytes, Land
     for (const PickedPoint& point : points)
         if (point.defined) positions.push_back(in_axes_of(map.from, point, space));
     if (positions.empty()) throw InputError(path + ": none of its points is defined");
-    if (positions.size() < points.size())
-        warn("{}: {} of {} points are not defined, or switched off; they stay as they are", path,
-             points.size() - positions.size(), points.size());
+    warn_of_those_that_stay(std::ssize(points) - std::ssize(positions), std::ssize(points), path);
     auto next = carried(positions, path, map, there);
     const std::vector<Vec3> images = require_images(next, path);
     auto image = images.begin();
@@ -129,7 +137,7 @@ struct VertexColumn {
 std::optional<VertexColumn> vertex_column(const TextRows& rows) {
     if (std::ranges::all_of(rows.rows, [](const TextRow& row) { return row.words.size() == 1; }))
         return VertexColumn{0, has_name(rows) ? 1u : 0u};
-    const std::vector<std::string>& first = rows.rows[0].words;
+    const std::vector<std::string>& first = first_complete(rows).words;
     const auto place = [&](const auto& found) { return std::size_t(found - first.begin()); };
     if (const auto number = std::ranges::find_if(first, is_number); number != first.end())
         return std::ranges::count_if(first, is_number) == 1 ? std::optional(VertexColumn{place(number), 0})
@@ -145,11 +153,14 @@ std::string carry_vertices(TextRows rows, const std::string& path, const VertexC
     const PointMap at_vertex = points_at_vertices(map.from);
     std::string text;
     std::vector<std::string> without;
+    std::ptrdiff_t missing = 0;
     for (std::size_t i = 0; i < rows.rows.size(); ++i) {
         TextRow& row = rows.rows[i];
         if (row.words.size() > rows.rows[0].words.size())
             fail_at(path, row.line, "holds more than a vertex and what the first line holds besides");
-        if (i >= at.first_row) {
+        if (at.column < row.words.size() && is_missing(row.words[at.column])) {
+            ++missing;
+        } else if (i >= at.first_row) {
             const int v = number_of(row, at.column, path, first, map.from.vertex_count(), "vertices");
             const SurfacePoint image = there(at_vertex[std::size_t(v)]);
             if (image.face < 0)
@@ -160,6 +171,7 @@ std::string carry_vertices(TextRows rows, const std::string& path, const VertexC
         text += row.before + with_comment(join(row.words, rows.separator), row);
     }
     refuse_those_without_image(without, path, "vertex", "vertices");
+    warn_of_those_that_stay(missing, std::ssize(rows.rows) - std::ptrdiff_t(at.first_row), path);
     return text + rows.behind;
 }
 
@@ -181,16 +193,23 @@ std::string carry_rows(TextRows rows, const std::string& path, const Corresponde
         fail_at(path, rows.rows[0].line,
                 "the numbers of the column 'vertex' are those of this mesh, not of the other one; leave out "
                 "that column, or the coordinates");
+    std::vector<TextRow*> points;
     std::vector<Vec3> positions;
-    for (std::size_t i = first; i < rows.rows.size(); ++i)
-        positions.push_back(coordinates(rows.rows[i], columns, path));
-    const std::vector<Vec3> images = require_images(carried(positions, path, map, there), path);
-    std::string text;
-    for (std::size_t i = 0; i < rows.rows.size(); ++i) {
-        for (std::size_t axis = 0; axis < 3 && i >= first; ++axis)
-            rows.rows[i].words[columns[axis]] = fmt::format("{}", images[i - first][Eigen::Index(axis)]);
-        text += rows.rows[i].before + with_comment(join(rows.rows[i].words, rows.separator), rows.rows[i]);
+    for (TextRow& row : rows.rows | std::views::drop(std::ptrdiff_t(first))) {
+        if (lacks_point(row, columns)) continue;
+        points.push_back(&row);
+        positions.push_back(coordinates(row, columns, path));
     }
+    if (points.empty()) throw InputError(path + ": all of its points are missing");
+    warn_of_those_that_stay(std::ssize(rows.rows) - std::ptrdiff_t(first) - std::ssize(points),
+                            std::ssize(rows.rows) - std::ptrdiff_t(first), path);
+    const std::vector<Vec3> images = require_images(carried(positions, path, map, there), path);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            points[i]->words[columns[axis]] = fmt::format("{}", images[i][Eigen::Index(axis)]);
+    std::string text;
+    for (const TextRow& row : rows.rows)
+        text += row.before + with_comment(join(row.words, rows.separator), row);
     return text + rows.behind;
 }
 

@@ -100,7 +100,30 @@ TEST_F(Transfer, SaysWhichPointsStayAsTheyAre) {
                                   "<point x=\"7\" y=\"8\" z=\"9\" active=\"0\" name=\"b\"/>\n",
                                   p[0], p[1], p[2]))};
     EXPECT_THAT(warnings_of(request, identity_onto(ball_)),
-                HasSubstr("1 of 2 points are not defined, or switched off"));
+                HasSubstr("1 of 2 points are missing, not defined, or switched off"));
+}
+
+TEST_F(Transfer, MissingPointsStayAsTheyAre) {
+    const Vec3 p = ball_.vertex(5);
+    const std::string point = fmt::format("{},{},{}", p[0], p[1], p[2]);
+    TransferRequest request;
+    for (const std::string& text : std::vector<std::string>{
+             "name,x,y,z\nnose,NA,NA,NA\near," + point + "\n", "nose,,,\near," + point + "\n",
+             "NA,nan,?\n" + point + "\n", "nose,NA\ntail,7\n", "5\nNA\n"}) {
+        request.points = {write("a.csv", text)};
+        const std::string carried = carry(request, identity_onto(ball_)).at("a.csv");
+        std::istringstream before(text), after(carried);
+        for (std::string was, is; std::getline(before, was);) {
+            ASSERT_TRUE(std::getline(after, is)) << text;
+            EXPECT_EQ(std::count(is.begin(), is.end(), ','), std::count(was.begin(), was.end(), ','));
+            EXPECT_TRUE(is == was || was.find(point) != std::string::npos) << is;
+        }
+        EXPECT_THAT(warnings_of(request, identity_onto(ball_)), HasSubstr("1 of 2 points are missing"));
+    }
+    request.points = {write("a.csv", "x,y,z\nNA,NA,NA\n")};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("a.csv: all of its points are missing"));
+    request.points = {write("a.csv", "x,y,z\nNA,NA,1\n" + point + "\n")};
+    EXPECT_THAT(refusal(request, identity_onto(ball_)), HasSubstr("a.csv:2: 'NA' is not a coordinate"));
 }
 
 TEST_F(Transfer, FindsThePlacesOfPointsHoweverTheirXmlIsWritten) {
