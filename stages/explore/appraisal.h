@@ -22,7 +22,8 @@ struct Cues {
     double relief = 0, alignment = 0, stretch = 0;
 };
 
-/// Fills in the cues, and the score: by these, and by the strain that is there already.
+/// Fills in the cues, and the score: by these, and by the strain and the missed landmarks that are there
+/// already.
 void set_cues(Candidate& candidate, const Cues& cues);
 /// The score of an isometry with these cues: of a map that is not finished, strain tells nothing.
 double rough_score(const Cues& cues);
@@ -47,6 +48,8 @@ class Appraisal {
     const ShapeAgreement& agreement() const { return agreement_; }
 
   private:
+    int landmarks_missed(const MapPair& maps) const;
+
     const PairContext& context_;
     const PairHandedness handedness_;
     const SurfaceComponents components_A_, components_B_;

@@ -30,11 +30,10 @@ void report(const Candidates& found, bool has_landmarks, const PairContext& cont
     const std::vector<Candidate>& candidates = found.list;
     for (size_t k = 0; k < candidates.size(); ++k)
         log("candidate {} ({}): energy {:.6g}, Dirichlet energy {:.3f}, relief {:.3f}, alignment {:.3f}, "
-            "stretch "
-            "{:.3f}, score {:.2f}, {:.1f}% reversed; {}",
+            "stretch {:.3f}, {} landmarks missed, score {:.2f}, {:.1f}% reversed; {}",
             k + 1, origin(candidates[k]), candidates[k].energy, candidates[k].dirichlet, candidates[k].relief,
-            candidates[k].alignment, candidates[k].stretch, candidates[k].score,
-            100 * candidates[k].reversed_mass, relation(candidates[k]));
+            candidates[k].alignment, candidates[k].stretch, candidates[k].landmarks_missed,
+            candidates[k].score, 100 * candidates[k].reversed_mass, relation(candidates[k]));
     const Confidence confidence = confidence_of(candidates);
     log("the first is {}", probability_in_words(confidence));
     if (const std::string cue = decided_by(candidates); !cue.empty())

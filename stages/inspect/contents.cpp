@@ -112,15 +112,17 @@ std::string trace_csv(const Trace& trace) {
 
 std::string candidates_csv(const std::vector<Candidate>& candidates) {
     std::string text =
-        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,alignment,stretch,score,reversed_"
-        "mass,"
+        "candidate,explored,self_map_A,self_map_B,energy,dirichlet,relief,alignment,stretch,landmarks_missed,"
+        "score,"
+        "reversed_mass,"
         "moved_mass,mirrored_back,turned_about_axis,turned_by_half,mirror_gain,turn\n";
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored,
-                            c.self_map_A, c.self_map_B, c.energy, c.dirichlet, c.relief, c.alignment,
-                            c.stretch, c.score, c.reversed_mass, c.moved_mass, int(c.mirrored_back),
-                            int(c.turned_about_axis), int(c.turned_by_half), c.mirror_gain, c.turn);
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", k + 1, c.explored,
+                        c.self_map_A, c.self_map_B, c.energy, c.dirichlet, c.relief, c.alignment, c.stretch,
+                        c.landmarks_missed, c.score, c.reversed_mass, c.moved_mass, int(c.mirrored_back),
+                        int(c.turned_about_axis), int(c.turned_by_half), c.mirror_gain, c.turn);
     }
     return text;
 }

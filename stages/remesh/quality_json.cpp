@@ -115,6 +115,7 @@ Json to_json(const std::vector<Candidate>& candidates) {
                         {"relief_agreement", c.relief},
                         {"alignment", c.alignment},
                         {"stretch", c.stretch},
+                        {"landmarks_missed", c.landmarks_missed},
                         {"score", c.score},
                         {"reversed_percent", 100 * c.reversed_mass},
                         {"moved_percent", 100 * c.moved_mass},

@@ -12,13 +12,14 @@ double strain(const Candidate& candidate) {
 }
 
 ScoreParts score_parts(const Candidate& candidate) {
-    return {120 * candidate.stretch, -25 * candidate.alignment, -20 * candidate.relief,
-            3 * strain(candidate)};
+    const int missed = candidate.landmarks_missed > 1 ? candidate.landmarks_missed : 0;
+    return {120 * candidate.stretch, -25 * candidate.alignment, -20 * candidate.relief, 3 * strain(candidate),
+            5. * missed};
 }
 
 double score_of(const Candidate& candidate) {
     const ScoreParts parts = score_parts(candidate);
-    return parts.stretch + parts.alignment + parts.relief + parts.strain;
+    return parts.stretch + parts.alignment + parts.relief + parts.strain + parts.landmarks;
 }
 
 bool is_mirrored(const Candidate& candidate) {

@@ -14,6 +14,7 @@ struct Candidate {
     double relief = 0;         ///< how well relief agrees, a correlation (stages/explore/shape_agreement.h)
     double alignment = 0;      ///< how well patches can be laid onto their images, 1 at best (the same)
     double stretch = 0;        ///< how much distances along the surfaces change, 0 at best (the same)
+    int landmarks_missed = 0;  ///< landmarks all around which it is elsewhere, so that it meets them alone
     double score = 0;          ///< score_of
     double reversed_mass = 0;  ///< share of the surfaces that the map reverses
     double moved_mass = 0;     ///< share of A with another image than the best candidate gives it
@@ -28,16 +29,18 @@ struct Candidate {
     double turn = 0;  ///< degrees of the best rotation of A from those parts to what has their images
 };
 
-/// 120 stretch - 25 alignment - 20 relief + 3 log dirichlet: minus the logarithm of how probable a map is, up
-/// to a constant, so that of two candidates that with a score less by 3 is 20 times as probable. None of
-/// these cues tells the right map from a wrong one everywhere: of bodies turned front to back distances say
-/// little and alignment much; of limbs exchanged, often the converse. Strain counts where symmetry makes the
-/// others alike, and landmarks are on the wrong side. The plan's energy tells no more than these. The weights
-/// are half of those fitted (stages/explore/README.md), for pairs that are unlike the fitted ones.
+/// 120 stretch - 25 alignment - 20 relief + 3 log dirichlet, and more: minus the logarithm of how probable a
+/// map is, up to a constant, so that of two candidates that with a score less by 3 is 20 times as probable.
+/// None of these cues tells the right map from a wrong one everywhere: of bodies turned front to back
+/// distances say little and alignment much; of limbs exchanged, often the converse. Strain counts where
+/// symmetry makes the others alike, and landmarks are on the wrong side. The plan's energy tells no more than
+/// these. The weights are half of those fitted (stages/explore/README.md), for pairs that are unlike the
+/// fitted ones. And 5 for
+/// each landmark that it misses, where these are several: one may be wrong, but hardly several of them.
 double score_of(const Candidate& candidate);
-/// Its four terms.
+/// Its five terms.
 struct ScoreParts {
-    double stretch, alignment, relief, strain;
+    double stretch, alignment, relief, strain, landmarks;
 };
 ScoreParts score_parts(const Candidate& candidate);
 

@@ -15,7 +15,7 @@ bool is_finite(const Candidate& c) {
     for (const double number : {c.energy, c.dirichlet, c.relief, c.alignment, c.stretch, c.score,
                                 c.reversed_mass, c.moved_mass, c.mirror_gain, c.turn})
         if (!std::isfinite(number)) return false;
-    return c.explored >= 0 && c.self_map_A >= 0 && c.self_map_B >= 0;
+    return c.explored >= 0 && c.landmarks_missed >= 0 && c.self_map_A >= 0 && c.self_map_B >= 0;
 }
 
 PointMap column(const PointPairs& pairs, bool second) {

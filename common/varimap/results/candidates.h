@@ -37,7 +37,7 @@ template <>
 struct ArtifactType<Candidates> {
     static constexpr const char* kind = "candidates";
     static constexpr const char* stage = "varimap-explore";
-    static constexpr int schema = 9;
+    static constexpr int schema = 10;
 };
 std::string encode(const Candidates& candidates);
 /// Throws ArtifactError unless sizes fit each other, numbers are finite, and points are points.

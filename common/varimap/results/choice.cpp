@@ -230,7 +230,8 @@ std::string decided_by(const std::vector<Candidate>& candidates) {
     } cues[] = {{"alignment", of_rival.alignment - of_best.alignment},
                 {"relief", of_rival.relief - of_best.relief},
                 {"stretch", of_rival.stretch - of_best.stretch},
-                {"strain", of_rival.strain - of_best.strain}};
+                {"strain", of_rival.strain - of_best.strain},
+                {"landmarks", of_rival.landmarks - of_best.landmarks}};
     constexpr double little = 0.1;
     std::string with, against;
     for (const auto& [name, gain] : cues) {

@@ -19,7 +19,7 @@ template <>
 struct ArtifactType<Diffusion> {
     static constexpr const char* kind = "diffusion";
     static constexpr const char* stage = "varimap-diffuse";
-    static constexpr int schema = 12;
+    static constexpr int schema = 13;
 };
 std::string encode(const Diffusion& diffusion);
 /// Throws ArtifactError unless sizes fit each other, indices are in range, and numbers are finite.

@@ -18,7 +18,7 @@ template <>
 struct ArtifactType<Plan> {
     static constexpr const char* kind = "plan";
     static constexpr const char* stage = "varimap-refine";
-    static constexpr int schema = 12;
+    static constexpr int schema = 13;
 };
 std::string encode(const Plan& plan);
 /// Throws ArtifactError unless sizes fit each other, indices are in range, and numbers are finite.

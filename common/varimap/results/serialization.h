@@ -25,8 +25,8 @@ void serialize(Archive& archive, LandmarkCheck& check) {
 template <class Archive>
 void serialize(Archive& archive, Candidate& c) {
     archive(c.explored, c.self_map_A, c.self_map_B, c.energy, c.dirichlet, c.relief, c.alignment, c.stretch,
-            c.score, c.reversed_mass, c.moved_mass, c.mirrored_back, c.turned_about_axis, c.turned_by_half,
-            c.mirror_gain, c.turn);
+            c.landmarks_missed, c.score, c.reversed_mass, c.moved_mass, c.mirrored_back, c.turned_about_axis,
+            c.turned_by_half, c.mirror_gain, c.turn);
 }
 
 template <class Archive>
