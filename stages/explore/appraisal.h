@@ -36,8 +36,10 @@ class Appraisal {
     Appraisal(const Appraisal&) = delete;
     Appraisal& operator=(const Appraisal&) = delete;
 
-    /// Fills in what is known of the map by itself, and its score.
-    void measure(const FinishedMap& map, Candidate& candidate) const;
+    /// Fills in what is known of the map by itself, and its score. `landmarks`: those that it is to meet,
+    /// which need not be the context's.
+    void measure(const FinishedMap& map, const VertexPairs<MeshVertex>& landmarks,
+                 Candidate& candidate) const;
     /// What can be measured of a map that is not finished, too: energy, strain and what it reverses tell
     /// nothing as long as it has folds.
     Cues cues(const MapPair& maps) const;
@@ -48,8 +50,6 @@ class Appraisal {
     const ShapeAgreement& agreement() const { return agreement_; }
 
   private:
-    int landmarks_missed(const MapPair& maps) const;
-
     const PairContext& context_;
     const PairHandedness handedness_;
     const SurfaceComponents components_A_, components_B_;

@@ -49,7 +49,7 @@ void FinishedPool::add(std::span<const PooledMap> added) {
     for (FinishedMap& map : finish(context_, appraisal_, starts, options_, maps_)) {
         map.start += int(before);
         measured_.push_back(origins_[std::size_t(map.start)]);
-        appraisal_.measure(map, measured_.back());
+        appraisal_.measure(map, context_.landmarks(), measured_.back());
         maps_.push_back(std::move(map));
     }
 }

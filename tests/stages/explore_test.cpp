@@ -183,6 +183,25 @@ VertexImages true_images(const KnownPair& pair) {
     return images;
 }
 
+TEST(Explore, CountsTheLandmarksThatAMapMeetsAlone) {
+    const KnownPair pair = person();
+    const PairContext context = pair.context();
+    const FinishedMap map = finish_from(context, {true_images(pair)}, FinishingOptions()).front();
+    const Appraisal appraisal(context);
+    Candidate right, one_wrong, two_wrong;
+    appraisal.measure(map, pair.landmarks, right);
+    EXPECT_EQ(right.landmarks_missed, 0);
+    VertexPairs<MeshVertex> landmarks = pair.landmarks;  // hand, foot; hand, foot
+    landmarks[0].second = landmarks[1].second;
+    appraisal.measure(map, landmarks, one_wrong);
+    EXPECT_EQ(one_wrong.landmarks_missed, 1);
+    EXPECT_EQ(one_wrong.score, right.score) << "it may be wrong";
+    landmarks[1].second = pair.landmarks[0].second;
+    appraisal.measure(map, landmarks, two_wrong);
+    EXPECT_EQ(two_wrong.landmarks_missed, 2);
+    EXPECT_NEAR(two_wrong.score, right.score + 10, 1e-12);
+}
+
 /// A shaft with a hexagonal head, of which one side is cut off further in.
 KnownPair bolt() {
     // Rounded: at sharp edges the mesh's vertices would go to and fro between two planes.
@@ -298,13 +317,13 @@ TEST(Finishing, IsBestForTheRightMap) {
     EXPECT_LT(shapes::mean_error(finished.front().maps.A_to_B, B.mesh, pair.A_on_B), .03);
     const Appraisal appraisal(context);
     Candidate best, other;
-    appraisal.measure(finished.front(), best);
+    appraisal.measure(finished.front(), {}, best);
     EXPECT_LT(best.reversed_mass, .01);
     EXPECT_GT(best.relief, .8);
     EXPECT_GT(best.alignment, .8);
     EXPECT_LT(best.stretch, .1);
     if (finished.size() > 1) {
-        appraisal.measure(finished.back(), other);
+        appraisal.measure(finished.back(), {}, other);
         EXPECT_GT(other.score, best.score);
     }
 }
@@ -375,7 +394,7 @@ TEST(Finishing, PlacesAMirroredLimbAnew) {
     const VertexImages start = with_a_mirrored_limb(true_images(pair), context.A().surface.mesh);
     const auto reversed = [&](const FinishingOptions& options) {
         Candidate candidate;
-        Appraisal(context).measure(finish_from(context, {start}, options).front(), candidate);
+        Appraisal(context).measure(finish_from(context, {start}, options).front(), {}, candidate);
         return candidate.reversed_mass;
     };
     FinishingOptions options;
