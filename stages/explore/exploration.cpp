@@ -246,12 +246,25 @@ ExplorationProgress Exploration::coarse_levels() {
     return progress_;
 }
 
+void Exploration::resume_below(int levels) {
+    if (levels == 0) return;
+    const Levels last = context_.diffusion_cells(levels - 1);
+    descent_.resume(last.A.samples, last.B.samples, "varimap-explore");
+}
+
+std::vector<Trial> Exploration::from_axes() {
+    progress_.pool.clear();
+    int level = 0;
+    while (!is_last(level)) ++level;
+    resume_below(level);
+    enter(level);
+    add_axes_starts();
+    return progress_.pool;
+}
+
 std::vector<Trial> Exploration::go_on(ExplorationProgress progress) {
     progress_ = std::move(progress);
-    if (const int done = progress_.levels; done > 0) {
-        const Levels levels = context_.diffusion_cells(done - 1);
-        descent_.resume(levels.A.samples, levels.B.samples, "varimap-explore");
-    }
+    resume_below(progress_.levels);
     explore_next_level();
     while (!is_last(progress_.levels - 1)) explore_next_level();
     if (options_.axes_maps > 0) add_axes_starts();

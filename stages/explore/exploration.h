@@ -55,6 +55,8 @@ class Exploration {
     /// Goes on from there. Distinct maps at the last level, the one of least energy first, mirrored ones
     /// last.
     std::vector<Trial> go_on(ExplorationProgress progress);
+    /// Those from principal axes alone (axes_maps of them), at the last level, where they begin.
+    std::vector<Trial> from_axes();
     /// The map that landmarks lead to from the coarsest level on, as in varimap-diffuse.
     Trial follow_landmarks();
     /// The level pair they live on.
@@ -64,6 +66,8 @@ class Exploration {
 
   private:
     bool is_last(int level) const;
+    /// Begins below so many levels.
+    void resume_below(int levels);
     void explore_next_level();
     void enter(int level);
     void add_starts();

@@ -70,11 +70,12 @@ bool is_isometry_of_sheets(const Candidate& there, const PairContext& context) {
 }
 
 /// Whether nothing else need be looked for than the map that landmarks lead to: it is plausible, not
-/// strained, and they decide it. Chosen by hand on half of the known pairs.
+/// strained, meets them (soft ones it may miss), and they decide it. Chosen by hand on half of the known
+/// pairs.
 bool landmarks_suffice(const Appraised& led, const PairContext& context) {
     constexpr double suffices = 0.995;
     return logged_plausibility(led.candidate) >= suffices && is_good(led.candidate, true) &&
-           landmarks_span(context);
+           led.candidate.landmarks_missed == 0 && landmarks_span(context);
 }
 
 /// The first alone, which landmarks lead to. It is to be continued: solved for anew from the coarsest level,
@@ -114,6 +115,7 @@ class MapSearch {
                                           const std::vector<Candidate>& found) const;
     std::vector<Appraised> thoroughly_found();
     std::vector<Appraised> with_turns(FinishedPool& finished) const;
+    std::vector<Appraised> with_maps_from_axes(const std::vector<Appraised>& found);
     bool are_undisputed(const std::vector<Appraised>& led_first) const;
 
     const PairContext& context_;
@@ -209,6 +211,19 @@ ByMirrorImages MapSearch::found_by_mirror_images(const ExplorationProgress& coar
     return result;
 }
 
+/// Starts that end at tips, or by which coarse levels cost least, may miss the right map: of a mug, which has
+/// no limbs but a handle, all had the handle on the wall.
+std::vector<Appraised> MapSearch::with_maps_from_axes(const std::vector<Appraised>& found) {
+    constexpr int count = 2;
+    int known = 0;
+    for (const Appraised& one : found) known = std::max(known, one.candidate.explored);
+    std::vector<PooledMap> maps = from_axes(context_, count, params_);
+    for (PooledMap& map : maps) map.origin.explored += known;
+    finished_.add(maps);
+    std::vector<Appraised> list = finished_.appraised();
+    return list.front().candidate.explored > known ? with_turns(finished_) : list;
+}
+
 /// For shapes that differ much, of which energies of coarse levels prefer wrong maps: explorations with the
 /// area bound and with exact areas, that give more maps and more alike ones a chance, more compositions, and
 /// maps finished with care. Chosen by hand on two hippopotamuses.
@@ -255,6 +270,8 @@ Candidates MapSearch::run() {
             "further",
             plausibility(best), best.dirichlet);
         list = thoroughly_found();
+    } else if (self_maps_.exist() && !confidence_of(ratings(list)).confident) {
+        list = with_maps_from_axes(list);
     }
     if (exchange_) warn_of(*exchange_, list.front().candidate, context_);
     if (good && only_if_needed() && are_undisputed(list)) {

@@ -15,9 +15,9 @@ std::vector<int> nearest_vertices(const PointMap& map, const TriangleMesh& to) {
     return vertices;
 }
 
-std::vector<PooledMap> pool_of(Exploration& exploration, ExplorationProgress coarse) {
+std::vector<PooledMap> pool_of(const Exploration& exploration, const std::vector<Trial>& trials) {
     std::vector<PooledMap> pool;
-    for (const Trial& trial : exploration.go_on(std::move(coarse)))
+    for (const Trial& trial : trials)
         if (pool.empty() || !trial.is_mirrored())
             pool.push_back(
                 {exploration.images(trial), {.explored = int(pool.size()) + 1, .energy = trial.energy()}});
@@ -45,14 +45,22 @@ std::vector<PooledMap> explored(const PairContext& context, const ExplorationOpt
                                 const ExploreParams& params) {
     const Timer timer("exploration");
     Exploration exploration(context, options, params.alternation, params.ironing);
-    return pool_of(exploration, exploration.coarse_levels());
+    return pool_of(exploration, exploration.go_on(exploration.coarse_levels()));
 }
 
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationProgress& coarse,
                                 const ExplorationOptions& options, const ExploreParams& params) {
     const Timer timer("exploration");
     Exploration exploration(context, options, params.alternation, params.ironing);
-    return pool_of(exploration, coarse);
+    return pool_of(exploration, exploration.go_on(coarse));
+}
+
+std::vector<PooledMap> from_axes(const PairContext& context, int count, const ExploreParams& params) {
+    const Timer timer("exploration");
+    ExplorationOptions options = params.exploration;
+    options.axes_maps = count;
+    Exploration exploration(context, options, params.alternation, params.ironing);
+    return pool_of(exploration, exploration.from_axes());
 }
 
 std::vector<PooledMap> led_by_landmarks(const PairContext& context, const ExploreParams& params) {

@@ -29,6 +29,9 @@ std::vector<PooledMap> explored(const PairContext& context, const ExplorationPro
 std::vector<PooledMap> explored(const PairContext& context, const ExplorationOptions& options,
                                 const ExploreParams& params);
 
+/// Maps from principal axes alone, `count` at most.
+std::vector<PooledMap> from_axes(const PairContext& context, int count, const ExploreParams& params);
+
 /// The map that landmarks lead to; none without landmarks.
 std::vector<PooledMap> led_by_landmarks(const PairContext& context, const ExploreParams& params);
 

@@ -47,6 +47,19 @@ void warn_of_missed(const DoubtedLandmarks& missed) {
             in_words(missed), missed.farthest);
 }
 
+/// Soft ones may be a little off, not elsewhere.
+void warn_of_soft_landmarks(const LandmarkQuality& landmarks) {
+    constexpr double elsewhere = 0.2;
+    DoubtedLandmarks far;
+    for (std::size_t k = 0; k < landmarks.residuals.size(); ++k)
+        if (landmarks.residuals[k] > elsewhere) far.add(k, landmarks.residuals[k]);
+    if (far.numbers.empty()) return;
+    warn(
+        "{}, soft, {} far from met: off by up to {:.2f} sqrt(area). Look at the picture; where landmarks are "
+        "right, leave out --landmark-weight, or make it larger",
+        in_words(far), far.is_one() ? "is" : "are", far.farthest);
+}
+
 void warn_of_spikes(const DoubtedLandmarks& spikes) {
     if (spikes.is_one())
         warn(
@@ -256,7 +269,10 @@ void warn_of_opposed_components(const ComponentImages& components) {
 }  // namespace
 
 void warn_of(const MapQuality& quality, const PairRecord& record) {
-    if (record.pins_landmarks()) warn_of_landmarks(quality.landmarks);
+    if (record.pins_landmarks())
+        warn_of_landmarks(quality.landmarks);
+    else
+        warn_of_soft_landmarks(quality.landmarks);
     if (quality.choice) warn_of_choice(*quality.choice, record);
     const std::string slivers = slivers_in_words(quality);
     warn_of_tears(quality.A_to_B, "source to target", slivers, record);

@@ -54,6 +54,15 @@ class Remesh : public ::testing::Test {
 /// The corners of the icosahedron that the spheres are made of, no two in a row adjacent.
 const std::vector<int> far_corners{0, 3, 1, 2, 5, 6, 4, 7, 11, 9, 10, 8};
 
+TEST_F(Remesh, SaysWhichSoftLandmarksAreFarFromMet) {
+    pair_.plan.record.landmark_weight = .2;
+    pair_.plan.record.landmarks = {{{far_corners[0]}, {far_corners[0]}}};
+    EXPECT_TRUE(warnings("far from met").empty());
+    pair_.plan.record.landmarks.push_back({{far_corners[1]}, {far_corners[2]}});
+    EXPECT_THAT(warnings("far from met"),
+                testing::ElementsAre(testing::HasSubstr("landmark 2, soft, is far from met")));
+}
+
 TEST_F(Remesh, CrossRemeshingMovesTheSourceOntoTheTarget) {
     pair_.A.input.space = Space::lps;
     pair_.B.input.space = Space::ras;
