@@ -118,7 +118,8 @@ std::optional<Candidates> found_candidates(const PairContext& surfaces, const Su
     params.only_if_needed = !options.explore;
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
     const PairContext context =
-        pair_context(std::move(sketch_A), std::move(sketch_B), given, options.landmark_weight);
+        sketch_context(std::move(sketch_A), std::move(sketch_B), given, options.landmark_weight);
+    params.landmarks_given = int(given.vertices.size());
     OnDemand ask;
     ask.surfaces = [&] { return surfaces; };
     if (options.landmarks.empty()) ask.self_maps = find_when_asked(context, params);

@@ -140,7 +140,9 @@ std::optional<std::vector<Appraised>> MapSearch::found_by_landmarks_alone() {
     mirrored_score_ = doubts.score_if_mirrored(alone.front());
     if (std::isfinite(mirrored_score_)) return {};
     if (of_sheets) return alone;
-    exchange_ = doubts.better_exchange(alone.front());
+    // Landmarks are named by their rows, which change where some are left out.
+    if (params_.landmarks_given <= int(context_.landmarks().size()))
+        exchange_ = doubts.better_exchange(alone.front());
     if (exchange_ || !landmarks_suffice(alone.front(), context_)) return {};
     return alone;
 }
@@ -298,8 +300,9 @@ void warn_of_mirrored_landmarks(const PairContext& context) {
 }  // namespace
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
-    if (params.only_if_needed && int(context.landmarks().size()) > params.few_landmarks) {
-        log("{} landmarks: nothing else is looked for", context.landmarks().size());
+    const int landmarks = std::max(int(context.landmarks().size()), params.landmarks_given);
+    if (params.only_if_needed && landmarks > params.few_landmarks) {
+        log("{} landmarks: nothing else is looked for", landmarks);
         warn_of_mirrored_landmarks(context);
         return {};
     }

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
         const auto landmarks =
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_reading);
         const PairContext context =
-            pair_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
+            sketch_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
+        params.landmarks_given = int(landmarks.vertices.size());
         OnDemand ask;
         if (given.of_A)
             ask.self_maps = given;

@@ -79,6 +79,7 @@ void warn_of_strain(double strain, PartSide part, bool has_landmarks) {
 void warn_of_exchange(double strain, const PairContext& sketches, const Surface& A, const Surface& B,
                       const VertexPairs<MeshVertex>& landmarks, double share, LocateParams params) {
     const double scale = params.part == PartSide::source ? std::sqrt(share) : 1 / std::sqrt(share);
+    if (sketches.landmarks().size() < landmarks.size()) return;  // their rows differ
     const Exchange exchange = likely_exchange(sketches, scale);
     if (exchange.empty()) return;
     const PairContext other(sketches.A(), sketches.B(), exchanged(sketches.landmarks(), exchange),

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
                       B = read_surface(stage, sketches, "B", surface_B);
         const Landmarks landmarks = read_landmarks(stage, landmark_files, A, B, params.landmark_reading);
         const auto at_vertices = to_mesh_vertices(landmarks.vertices, A, B);
-        const PairContext context = pair_context(std::move(sketch_A), std::move(sketch_B), landmarks, 1);
+        const PairContext context = sketch_context(std::move(sketch_A), std::move(sketch_B), landmarks, 1);
         const Located located = locate(context, A, B, at_vertices, params);
         report(located, params.part);
         stage.record_number("area_percent", 100 * located.share);

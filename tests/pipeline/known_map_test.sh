@@ -22,3 +22,9 @@ for table in source_to_target target_to_source; do
         $1 != NR - 2 || $2 < 0 || $3 < 0 || $4 < 0 || $5 < 0 || ($3 + $4 + $5 - 1) ^ 2 > 1e-18 { bad = 1 }
         END { exit bad || NR != n + 1 }' out/$table.csv || fail "$table.csv is malformed"
 done
+
+# More landmarks than the sketches have vertices for.
+figure dense.off 30
+awk 'NR == 2 { for (v = 0; v < $1; v += 4) print v, v }' dense.off >many.txt
+map dense.off dense.off -o many --landmarks many.txt --until diffuse
+grep -q 'landmarks are too many or too near to others for the sketches' many/log.txt || fail "all landmarks are on the sketches"

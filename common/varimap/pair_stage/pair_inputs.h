@@ -59,8 +59,8 @@ Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B);
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, const LandmarkReading& reading);
 /// The vertices that stand for landmarks on the surfaces' meshes: those at them, or else corners of the faces
-/// they lie on, a different one for each. Throws InputError for those no face uses, for two that became one,
-/// and where there are not enough.
+/// they lie on or, of many close together, vertices around it, a different one for each. Throws InputError
+/// for those no face uses, for two that became one, and where vertices are too few.
 VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
                                          const Surface& B);
 /// Landmarks as points of the inputs, where they lie between vertices of the preprocessed or coarsened
@@ -75,5 +75,11 @@ PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVer
                          const PointPairs& points, double landmark_weight);
 /// The same with landmarks of the inputs; throws as to_mesh_vertices.
 PairContext pair_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight);
+/// So few landmarks may be named by their rows in what is said of a pair of sketches.
+constexpr std::size_t most_named_landmarks = 10;
+/// The pair to look for a map on, of sketches, which are too coarse to hold any number of landmarks apart:
+/// of more than `most_named_landmarks` those beyond a hundred, and those that find no vertex of their own,
+/// are left out, so that the rest has other rows. Throws as to_mesh_vertices.
+PairContext sketch_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight);
 
 }  // namespace varimap

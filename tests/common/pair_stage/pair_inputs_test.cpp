@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "fixtures/shapes.h"
 #include "stages/coarsen/coarsen.h"
 #include "stages/preprocess/preprocess.h"
@@ -53,10 +55,55 @@ TEST_F(PairLandmarks, StandAtDifferentCornersOfTheirFace) {
     EXPECT_EQ(landmark_points({pairs, {}}, surface(), surface()).size(), 3u);
 }
 
-TEST_F(PairLandmarks, FourOnOneFaceAreTooNear) {
+TEST_F(PairLandmarks, OfFourOnOneFaceOneIsBesideIt) {
     const auto pairs = onto_themselves(inside_one_face(4));
     ASSERT_EQ(pairs.size(), 4u);
-    EXPECT_THROW(to_mesh_vertices(pairs, surface(), surface()), InputError);
+    std::set<int> distinct;
+    for (const auto& [a, b] : to_mesh_vertices(pairs, surface(), surface())) distinct.insert(a.index);
+    EXPECT_EQ(distinct.size(), 4u);
+}
+
+TEST_F(PairLandmarks, AreTooNearWhereNoVertexIsFreeAround) {
+    std::vector<InputVertex> all;
+    for (int v = 0; v < surface().input.vertex_count(); ++v) all.push_back({v});
+    EXPECT_THROW(to_mesh_vertices(onto_themselves(all), surface(), surface()), InputError);
+}
+
+TEST_F(PairLandmarks, LeaveACornerToOneThatHasNoOther) {
+    const auto inside = inside_one_face(3);
+    ASSERT_EQ(inside.size(), 3u);
+    const int face = surface().on_mesh[std::size_t(inside[0].index)].face;
+    for (int v = 0; v < surface().input.vertex_count(); ++v) {
+        const SurfacePoint& at = surface().on_mesh[std::size_t(v)];
+        if (at.face == face || vertex_of(surface().mesh, at) >= 0) continue;
+        // One beside the face may take its corner first.
+        std::vector<InputVertex> vertices{{v}};
+        vertices.insert(vertices.end(), inside.begin(), inside.end());
+        std::set<int> distinct;
+        for (const auto& [a, b] : to_mesh_vertices(onto_themselves(vertices), surface(), surface()))
+            distinct.insert(a.index);
+        ASSERT_EQ(distinct.size(), vertices.size());
+    }
+}
+
+/// As many landmarks as the input has vertices, of which the coarse mesh has fewer.
+TEST_F(PairLandmarks, AreLeftOutWhereASketchHasNoVertexForThem) {
+    SurfaceData data;
+    data.surface = surface();
+    data.basis.functions = RowMatrix::Ones(surface().mesh.vertex_count(), 2);
+    std::vector<InputVertex> all;
+    for (int v = 0; v < surface().input.vertex_count(); ++v) all.push_back({v});
+    const Landmarks landmarks{onto_themselves(all), {}};
+    EXPECT_THROW(pair_context(data, data, landmarks, 1), InputError);
+    const PairContext context = sketch_context(data, data, landmarks, 1);
+    EXPECT_LT(context.landmarks().size(), all.size());
+    EXPECT_GT(context.landmarks().size(), 80u);
+    std::set<int> distinct;
+    for (const auto& [a, b] : context.landmarks()) {
+        EXPECT_EQ(a, b);
+        distinct.insert(a.index);
+    }
+    EXPECT_EQ(distinct.size(), context.landmarks().size());
 }
 
 TEST_F(PairLandmarks, AtVerticesAreNoPoints) {
