@@ -2,17 +2,35 @@
 
 #include "stages/remesh/export.h"
 #include "stages/remesh/quality_json.h"
+#include "varimap/core/error.h"
 #include "varimap/results/diffusion.h"
+#include "varimap/results/map_file.h"
 #include "varimap/results/quality_numbers.h"
 #include "varimap/stage/stage_main.h"
 
 using namespace varimap;
 
+namespace {
+
+/// Between the files, as varimap-diffuse reads it; empty where there is none.
+PointMap read_initial_map(Stage& stage, const std::string& path, IndexBase base, const Surface& A,
+                          const Surface& B) {
+    if (path.empty()) return {};
+    const TriangleMesh source = in_numbers_of_file(A.input, A.link);
+    PointMap map = read_map_file(path, base, file_of(B), &source);
+    stage.record_file("initial-map", path);
+    return map;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     Stage stage("remesh", "Tables of the map, cross-remeshed surfaces and quality numbers");
     bool ascii = false;
+    IndexBase map_base = IndexBase::automatic;
     stage.parameters([&](ParameterList& list) {
         list.add("ascii_ply", ascii, "surfaces as PLY that is text, for programs that read no other");
+        list.add("map_base", map_base, "number of the first vertex in --initial-map: 0, 1, or auto");
     });
     const std::string& surface_A =
         stage.input("A.surface", "artifact of varimap-coarsen or varimap-preprocess: the source");
@@ -29,8 +47,12 @@ int main(int argc, char** argv) {
                      "target_vertices.csv");
     const auto& meshes = stage.input_list_option(
         "meshes", "the files of source and target, whose polygons the exported surfaces keep", 2, 2);
+    const std::string& initial_map_file = stage.input_option(
+        "initial-map", "the map that varimap-diffuse began from, to measure how far this one is from it");
     const std::string& json_file = stage.output_option("numbers", "JSON file for the quality numbers");
     return stage.main(argc, argv, [&] {
+        if (map_base != IndexBase::automatic && initial_map_file.empty())
+            throw UsageError("--map_base says how --initial-map counts vertices: give that, too");
         const auto A = stage.read<Surface>("A.surface", surface_A);
         const auto B = stage.read<Surface>("B.surface", surface_B);
         const Header plan = read_header(plan_file);
@@ -50,7 +72,8 @@ int main(int argc, char** argv) {
             stage.record_file("meshes.A", meshes[0]);
             stage.record_file("meshes.B", meshes[1]);
         }
-        const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair)};
+        const PointMap initial_map = read_initial_map(stage, initial_map_file, map_base, A.value, B.value);
+        const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair, initial_map)};
         if (!folder.empty())
             export_map(stage, folder, map.value, pair.plan, A.value, B.value, polygons,
                        ascii ? PlyFormat::ascii : PlyFormat::binary);

@@ -149,8 +149,8 @@ double median_thinness(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surface& B,
-                           const SolvedPair& pair) {
+MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
+                           const PointMap& initial_map) {
     const PointMap A_to_B = from_file(map.A_to_B, A, B), B_to_A = from_file(map.B_to_A, B, A);
     const double bound = pair.plan.area_bound;
     MapQuality quality;
@@ -167,6 +167,8 @@ MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surfac
         quality.in_the_end.many_handles = has_many_handles(A.input) || has_many_handles(B.input);
         quality.choice = measure_choice(pair.record, quality.in_the_end);
     }
+    if (!initial_map.empty())
+        quality.initial_map = measure_initial_map(from_file(initial_map, A, B), A_to_B, A.input, B.input);
     quality.median_thinness_A = median_thinness(A.input);
     quality.median_thinness_B = median_thinness(B.input);
     return quality;

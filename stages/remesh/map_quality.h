@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "stages/remesh/initial_map.h"
 #include "varimap/quality/components.h"
 #include "varimap/quality/quality.h"
 #include "varimap/quality/twist.h"
@@ -55,16 +56,19 @@ struct ChoiceQuality {
 /// How good a map between two surfaces is.
 struct MapQuality {
     MeasuredDirection A_to_B, B_to_A;
-    FinishedQuality in_the_end;           ///< of both directions together
-    RoundTrip round_trip;                 ///< A to B to A
-    ComponentImages components;           ///< their vertices by the numbers in the files
-    LandmarkQuality landmarks;            ///< empty without landmarks
-    std::optional<ChoiceQuality> choice;  ///< where exploration chose the map
+    FinishedQuality in_the_end;                    ///< of both directions together
+    RoundTrip round_trip;                          ///< A to B to A
+    ComponentImages components;                    ///< their vertices by the numbers in the files
+    LandmarkQuality landmarks;                     ///< empty without landmarks
+    std::optional<ChoiceQuality> choice;           ///< where exploration chose the map
+    std::optional<InitialMapQuality> initial_map;  ///< where one was given
     /// Of half its input's area, faces are no rounder than this: thinness (thin_faces.h).
     double median_thinness_A = 0, median_thinness_B = 0;
 };
 
-/// `map` between the files of A and B; `pair`: what it was made from. The same for any number of threads.
-MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
+/// `map` between the files of A and B; `pair`: what it was made from, `initial_map`: what it was begun from,
+/// between the files too, or empty. The same for any number of threads.
+MapQuality measure_quality(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
+                           const PointMap& initial_map = {});
 
 }  // namespace varimap

@@ -76,6 +76,10 @@ Json to_json(const MeasuredDirection& quality, const UntanglingReport& untanglin
     return json;
 }
 
+Json to_json(const InitialMapQuality& q) {
+    return {{"mean", q.mean}, {"p50", q.p50}, {"p95", q.p95}, {"step", q.step}};
+}
+
 /// Extremes of the transported masses in units of the surface's own.
 Json mass_ratios(const Eigen::VectorXd& transported, const Eigen::VectorXd& mass) {
     const Eigen::ArrayXd ratio = transported.array() / mass.array();
@@ -179,8 +183,9 @@ void remove_not_finite(Json& json) {
 
 }  // namespace
 
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair) {
-    const MapQuality quality = measure_quality(map, A, B, pair);
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
+                         const PointMap& initial_map) {
+    const MapQuality quality = measure_quality(map, A, B, pair, initial_map);
     warn_of(quality, pair.record);
     const SamplePlan& plan = pair.plan;
     const PairRecord& record = pair.record;
@@ -201,6 +206,7 @@ std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface&
     if (const ComponentImages& components = quality.components; components.are_several())
         json["components"] = {{"source", to_json(components.of_source)},
                               {"target", to_json(components.of_target)}};
+    if (quality.initial_map) json["initial_map"] = to_json(*quality.initial_map);
     json["source"] = sizes(A);
     json["target"] = sizes(B);
     json["levels"] = levels(pair.trace);

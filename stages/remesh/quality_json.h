@@ -43,9 +43,12 @@ namespace varimap {
 ///   components        where a surface has several, of source and target, each: vertex of the file,
 ///                     area_percent, onto (the number of that in the other list, from 0; absent if it
 ///                     has no image), on_that_percent, taken_percent, has_partner (definitions: components.h)
+///   initial_map       where one was given: mean, p50, p95, step (definitions: initial_map.h)
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
+/// `initial_map`: what the map was begun from, between the files of A and B, or empty.
 /// Warns of what a map that is right does not have (warnings.h).
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair);
+std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
+                         const PointMap& initial_map = {});
 
 }  // namespace varimap

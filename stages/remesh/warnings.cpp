@@ -136,6 +136,15 @@ void warn_of_landmarks(const LandmarkQuality& landmarks) {
     warn_of_shift(is_off, is_exchanged);
 }
 
+void warn_of_departure(const InitialMapQuality& moved) {
+    if (moved_far(moved))
+        warn(
+            "the map is far from the initial one: {:.3f} sqrt(area) in the mean. Where shapes differ much, a "
+            "good map may become worse: compare both, and to stay nearer give landmarks all over the surface "
+            "besides, or a larger --area-bound",
+            moved.mean);
+}
+
 /// What to give where the map is doubtful.
 const char* landmarks_to_give(const PairRecord& record) {
     return record.landmarks.empty() ? "landmarks" : "more landmarks";
@@ -273,6 +282,7 @@ void warn_of(const MapQuality& quality, const PairRecord& record) {
         warn_of_landmarks(quality.landmarks);
     else
         warn_of_soft_landmarks(quality.landmarks);
+    if (quality.initial_map) warn_of_departure(*quality.initial_map);
     if (quality.choice) warn_of_choice(*quality.choice, record);
     const std::string slivers = slivers_in_words(quality);
     warn_of_tears(quality.A_to_B, "source to target", slivers, record);

@@ -9,6 +9,7 @@ namespace varimap {
 /// one. In this order:
 ///   pinned landmarks  that are not met, look exchanged, or around which the map is elsewhere; a list of them
 ///                     that looks one row off
+///   initial map       from which the finished one is far (initial_map.h)
 ///   exploration       which was sure of its candidate and is not of the finished map
 ///   tears             of either direction: much is reversed, on several faces, or uncovered
 ///   strain            where neither tears

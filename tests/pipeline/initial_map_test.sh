@@ -34,6 +34,9 @@ echo "mean error: given $given, made of it $made"
 is_below "$given" .1 || fail "the map that is given is too far off"
 is_below .04 "$given" || fail "the map that is given leaves nothing to do"
 is_below "$made" .03 || fail "the map was not refined"
+moved=$(jq -c .initial_map out/quality.json)
+jq -en "$moved | .mean > .03 and .mean < .1 and .step > .02" >/dev/null || fail "how far it moved: $moved"
+! jq -r '.warnings[].message' out/quality.json | grep -q 'from the initial one' || fail "a coarse map is meant to move"
 [[ $(jq -r '.provenance.initial_map.file' out/quality.json) == "$PWD/right.txt" ]] || fail "where it came from"
 jq -e '.exploration == null' out/quality.json >/dev/null || fail "explored all the same"
 map a.off b.off -o out --initial-map right.txt
@@ -41,6 +44,7 @@ expect_ran ""
 map a.off b.off -o out --initial-map right.txt --map-base 1
 same_as_before=$(mean out/source_to_target.csv)
 [[ $same_as_before == "$made" ]] || fail "the base was not found"
+[[ $(jq -c .initial_map out/quality.json) == "$moved" ]] || fail "the base was not passed on"
 map a.off b.off -o out --initial-map turned.txt
 is_below .1 "$(mean out/source_to_target.csv)" || fail "the map that was given was not followed"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -369,6 +370,33 @@ TEST(RemeshWarnings, AreOfLandmarksMostOfWhichAreMetAlone) {
         said[0].find("most landmarks are met alone: around landmarks 1, 3, 4 and 6 the map is off by up "
                      "to 0.04 sqrt(area)"),
         std::string::npos);
+}
+
+TEST_F(Remesh, TellsHowFarTheMapIsFromTheInitialOne) {
+    const SurfaceMap map = pair_.as_planned();
+    EXPECT_FALSE(quality().contains("initial_map"));
+    const Json same = Json::parse(quality_json(map, pair_.A, pair_.B, pair_.plan, map.A_to_B))["initial_map"];
+    for (const char* key : {"mean", "p50", "p95"}) EXPECT_NEAR(same[key], 0, 1e-12);
+    PointMap constant = map.A_to_B;
+    for (SurfacePoint& image : constant)
+        if (image.face >= 0) image = map.A_to_B[1];
+    const Json other = Json::parse(quality_json(map, pair_.A, pair_.B, pair_.plan, constant))["initial_map"];
+    EXPECT_NEAR(other["mean"], 4. / 3 / std::sqrt(4 * std::numbers::pi), .02) << "of chords from one point";
+    EXPECT_EQ(other["step"], 0);
+    EXPECT_GT(same["step"], 0);
+}
+
+TEST(RemeshWarnings, AreOfAnInitialMapThatWasFineAndIsLeft) {
+    MapQuality quality;
+    quality.A_to_B.coverage.share = quality.B_to_A.coverage.share = 1;
+    quality.median_thinness_A = quality.median_thinness_B = .5;
+    quality.initial_map = InitialMapQuality{.mean = .07, .p50 = .066, .p95 = .14, .step = .02};
+    EXPECT_THAT(said_of(quality, {}),
+                testing::ElementsAre(testing::HasSubstr("far from the initial one: 0.070 sqrt(area)")));
+    quality.initial_map->step = .07;
+    EXPECT_TRUE(said_of(quality, {}).empty()) << "it was coarse";
+    quality.initial_map = InitialMapQuality{.mean = .056, .p50 = .014, .p95 = .4, .step = .02};
+    EXPECT_TRUE(said_of(quality, {}).empty()) << "single images were wrong";
 }
 
 TEST(RemeshWarnings, AreOfComponentsWithoutAPartner) {
