@@ -16,6 +16,7 @@
 #include "stages/relax/relax.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/manifold.h"
+#include "varimap/pair_stage/landmark_vertices.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/results/map_table.h"
 #include "varimap/results/surface_map.h"

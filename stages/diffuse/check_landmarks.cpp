@@ -7,7 +7,7 @@
 #include "varimap/core/parallel.h"
 #include "varimap/multilevel/descent.h"
 #include "varimap/multilevel/exchanged_landmarks.h"
-#include "varimap/pair_stage/pair_inputs.h"
+#include "varimap/pair_stage/landmark_vertices.h"
 
 namespace varimap {
 

@@ -3,6 +3,7 @@
 #include "stages/diffuse/check_landmarks.h"
 #include "stages/diffuse/diffuse.h"
 #include "stages/diffuse/inputs.h"
+#include "varimap/pair_stage/landmark_vertices.h"
 #include "varimap/pair_stage/unlike_surfaces.h"
 #include "varimap/stage/stage_main.h"
 

@@ -2,6 +2,7 @@
 
 #include "stages/locate/locate.h"
 #include "varimap/core/log.h"
+#include "varimap/pair_stage/landmark_vertices.h"
 #include "varimap/pair_stage/pair_inputs.h"
 #include "varimap/stage/stage_main.h"
 

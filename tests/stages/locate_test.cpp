@@ -11,6 +11,7 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
 #include "varimap/core/logged.h"
+#include "varimap/pair_stage/landmark_vertices.h"
 #include "varimap/pair_stage/pair_inputs.h"
 
 namespace varimap {

@@ -58,14 +58,6 @@ Landmarks on_inputs(Landmarks landmarks, const Surface& A, const Surface& B);
 /// Reads landmarks (vertex_list.h) and records their files as inputs, and how many one surface lacks.
 Landmarks read_landmarks(Stage& stage, const std::vector<std::string>& files, const Surface& A,
                          const Surface& B, const LandmarkReading& reading);
-/// The vertices that stand for landmarks on the surfaces' meshes: those at them, or else corners of the faces
-/// they lie on or, of many close together, vertices around it, a different one for each. Throws InputError
-/// for those no face uses, for two that became one, and where vertices are too few.
-VertexPairs<MeshVertex> to_mesh_vertices(const VertexPairs<InputVertex>& landmarks, const Surface& A,
-                                         const Surface& B);
-/// Landmarks as points of the inputs, where they lie between vertices of the preprocessed or coarsened
-/// meshes; else none.
-PointPairs landmark_points(const Landmarks& landmarks, const Surface& A, const Surface& B);
 /// A map from elsewhere, between the FILES of the surfaces (map_file.h), as what a map may begin from: both
 /// ways the same pairs. Throws InputError where no vertex that is mapped has an image.
 Correspondences correspondences_of(const PointMap& map, const Surface& A, const Surface& B);

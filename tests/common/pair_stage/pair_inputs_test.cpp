@@ -9,6 +9,7 @@
 #include "stages/preprocess/preprocess.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/pair_stage/landmark_vertices.h"
 
 namespace varimap {
 namespace {
