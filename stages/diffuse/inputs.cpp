@@ -56,6 +56,10 @@ std::optional<Candidates> read_candidates(Stage& stage, const PairInputs& inputs
 
 std::optional<Correspondences> read_initial_map(Stage& stage, const StartFiles& files, IndexBase base,
                                                 const Surface& A, const Surface& B) {
+    if (!files.initial_map.empty() && !(A.is_surface() && B.is_surface()))
+        throw UsageError(
+            "--initial-map is for meshes: points and graphs have no faces to map onto; give "
+            "--landmarks instead");
     return files.placed.empty() ? read_foreign_map(stage, files.initial_map, base, A, B)
                                 : read_placed(stage, files.placed, A, B);
 }

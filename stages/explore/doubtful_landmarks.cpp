@@ -56,6 +56,7 @@ double LandmarkDoubts::score_between_mirror_images() const {
 
 double LandmarkDoubts::score_if_mirrored(const Appraised& led) const {
     constexpr double much = 2, none = std::numeric_limits<double>::infinity();
+    if (is_own_mirror_image(context_)) return none;
     if (!landmarks_look_mirrored(context_, appraisal_.handedness().are_opposite())) return none;
     const Timer timer("mirror images");
     const double score = score_between_mirror_images();

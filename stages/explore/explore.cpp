@@ -198,6 +198,7 @@ ByMirrorImages MapSearch::found_by_mirror_images(const ExplorationProgress& coar
     // Chosen by hand. Bodies in other poses, which are their own mirror images, differ by .2, and fit by -36
     // at best; left bones and hands fit right ones by -39.
     constexpr double better = 0.35, much_alike = -36, unlike = -32;
+    if (is_own_mirror_image(context_)) return {};
     const bool sure = confidence_of(found).confident;
     if (sure && found.front().score > unlike) return {};  // too far from what could tell them apart
     // A left and a right one are isometric as mirror images, so that the right map has little energy.
@@ -289,6 +290,7 @@ Candidates MapSearch::run() {
 
 /// So many landmarks decide; all that can be wrong is that they fit mirror images.
 void warn_of_mirrored_landmarks(const PairContext& context) {
+    if (is_own_mirror_image(context)) return;
     const PairHandedness handedness(context.A().surface, context.B().surface);
     if (landmarks_look_mirrored(context, handedness.are_opposite()))
         warn(

@@ -53,6 +53,16 @@ PairContext with_mirror_image(const PairContext& context) {
     return {context.A(), mirror_image(context.B()), context.landmarks(), context.landmark_weight()};
 }
 
+bool is_own_mirror_image(const PairContext& context) {
+    const Surface &A = context.A().surface, &B = context.B().surface;
+    if (A.mirrored == B.mirrored) return false;
+    const TriangleMesh of_A = input_as_read(A), of_B = input_as_read(B);
+    const auto same = [](const auto& one, const auto& other) {
+        return one.rows() == other.rows() && one == other;
+    };
+    return same(of_A.vertices, of_B.vertices) && same(of_A.faces, of_B.faces);
+}
+
 std::string mirror_advice(const PairContext& context) {
     const bool opposed = context.A().surface.mirrored != context.B().surface.mirrored;
     return opposed ? "leave --mirror out" : "give --mirror";

@@ -12,6 +12,10 @@ namespace varimap {
 /// onto a right one.
 PairContext with_mirror_image(const PairContext& context);
 
+/// Whether both are one surface, which is mirrored on one side: then the maps sought are its reflections, and
+/// that it fits itself better as it is, by the identity, tells nothing.
+bool is_own_mirror_image(const PairContext& context);
+
 /// What to do where the surfaces are a left and a right one: "give --mirror", or leave it out.
 std::string mirror_advice(const PairContext& context);
 

@@ -127,21 +127,27 @@ std::string candidates_csv(const std::vector<Candidate>& candidates) {
     return text;
 }
 
-void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor& visitor) {
+void visit_confidence(const std::vector<Candidate>& candidates, ContentsVisitor& visitor) {
     if (candidates.empty()) return;
     const Confidence confidence = confidence_of(candidates);
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-        visitor.fact(fmt::format("candidate {}", k + 1),
-                     fmt::format("{}; {}", origin(candidates[k]), relation(candidates[k])));
     visitor.fact("confidence",
                  fmt::format("{}: {}, margin {:.2f}", confidence.confident ? "sure" : "not sure",
                              probability_in_words(confidence), confidence.margin));
-    visitor.text("candidates.csv", candidates_csv(candidates));
+}
+
+void visit_candidates(const std::vector<Candidate>& candidates, ContentsVisitor& visitor) {
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        visitor.fact(fmt::format("candidate {}", k + 1),
+                     fmt::format("{}; {}", origin(candidates[k]), relation(candidates[k])));
+    if (!candidates.empty()) visitor.text("candidates.csv", candidates_csv(candidates));
 }
 
 void visit(const Candidates& candidates, ContentsVisitor& visitor) {
     visitor.fact("found on sketches of", candidates.sketched_A + " and " + candidates.sketched_B);
     visit_candidates(candidates.list, visitor);
+    // Of the maps of a surface onto itself none is the right one.
+    if (candidates.sketched_A.empty() || candidates.sketched_A != candidates.sketched_B)
+        visit_confidence(candidates.list, visitor);
     for (std::size_t k = 0; k < candidates.maps.size(); ++k) {
         PointPairs from_B = candidates.maps[k].from_B;
         for (auto& [point, image] : from_B) std::swap(point, image);
@@ -186,6 +192,7 @@ void visit_record(const PairRecord& record, ContentsVisitor& visitor) {
     visitor.fact("landmark weight", fmt::format("{}", record.landmark_weight));
     if (record.candidate > 0) visitor.fact("continues candidate", fmt::format("{}", record.candidate));
     visit_candidates(record.candidates, visitor);
+    visit_confidence(record.candidates, visitor);
     visitor.array("landmarks_A", view(landmarks_A));
     visitor.array("landmarks_B", view(landmarks_B));
     visit_pairs("landmark_points", record.landmark_points, visitor);

@@ -51,3 +51,11 @@ jq -e '[.warnings[].stage] | index("explore a--b") == null' out/quality.json >/d
 map a.off b.off -o out --candidate 2 --until preprocess
 grep -q 'warning: the map in out was made with .*tips.txt: candidate 2 is not of the list found then' log ||
     fail "landmarks that are left out change the candidates without a word"
+
+# Symmetries of one shape: its reflection, of which there is no doubt that it mirrors, and turns, of which none is the right one.
+map a.off a.off -o sym --mirror
+! grep -q 'fit better as mirror images' out.txt log || fail "the reflection of a shape is doubted: it mirrors"
+sketch=(sym/artifacts/a.sketch.{coarse,basis,hierarchy})
+"$varimap" explore "${sketch[@]}" "${sketch[@]}" self.candidates --onto_itself true >out.txt 2>log || fail "explore --onto_itself"
+"$varimap" inspect self.candidates >out.txt || fail "inspect"
+grep -q '^ *candidate 1' out.txt && ! grep -q 'right with a probability' out.txt log || fail "maps onto itself: $(<out.txt)"

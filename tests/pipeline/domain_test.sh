@@ -78,3 +78,8 @@ expect_exit 3 "$VARIMAP_BIN/varimap-explore" "${both[@]}" bad.candidates
 expect_exit 4 "$VARIMAP_BIN/varimap-eigen" graph.basis bad.basis
 expect_exit 6 "$VARIMAP_BIN/varimap-partners" graph.domain surface.coarse pair.plan nowhere
 expect_exit 2 "$VARIMAP_BIN/varimap-show" nothing graph.domain
+
+# Initial maps are for meshes.
+seq 0 145 >initial.txt
+expect_exit 2 "$VARIMAP_BIN/varimap-diffuse" "${both[@]}" new.diffusion --initial-map initial.txt
+grep -q -- '--initial-map is for meshes' log || fail "an initial map of a graph: $(<log)"

@@ -21,7 +21,9 @@
 namespace varimap {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Two samples on a surface of three vertices, each mapped to the other side's same vertex.
 Plan small_plan() {
@@ -179,7 +181,11 @@ TEST(Inspect, ExportWritesThePreviewsOfCandidates) {
     candidates.maps = {{{{point, point}}, {{point, point}}}};
     candidates.previews = {{point}};
     write_sample(folder / "AB.candidates", candidates);
-    EXPECT_THAT(summarise(folder / "AB.candidates"), HasSubstr("previews"));
+    EXPECT_THAT(summarise(folder / "AB.candidates"), AllOf(HasSubstr("previews"), HasSubstr("right with")));
+    Candidates self_maps = candidates;
+    self_maps.sketched_A = self_maps.sketched_B = "one";
+    write_sample(folder / "A.candidates", self_maps);
+    EXPECT_THAT(summarise(folder / "A.candidates"), Not(HasSubstr("right with")));
     export_contents(folder / "AB.candidates", folder / "out");
     EXPECT_EQ(npy_doubles(read_file(folder / "out/preview_01_barycentric.npy")),
               (std::vector<double>{.25, .75, 0}));

@@ -42,6 +42,17 @@ TEST(MirrorImages, TellALeftOneFromARightOne) {
     EXPECT_THAT(doubt({opposite}), testing::HasSubstr("fit better as mirror images"));
 }
 
+/// Which it fits better, and which is no wonder.
+TEST(MirrorImages, OfOneSurfaceRaiseNoDoubtOfItsReflection) {
+    KnownPair own = person();
+    own.B = own.A;
+    EXPECT_FALSE(is_own_mirror_image(PairContext(own.A, own.B, {})));
+    own.B.surface = with_reversed_orientation(own.A.surface);
+    EXPECT_TRUE(is_own_mirror_image(PairContext(own.A, own.B, {})));
+    EXPECT_FALSE(fits_mirrored(best_of(own)));
+    EXPECT_FALSE(is_own_mirror_image(PairContext(own.A, reflected(person()).B, {})));
+}
+
 /// Landmarks that decide, and keep all from being looked for, know a left one, too.
 TEST(MirrorImages, AreToldFromByLandmarks) {
     const KnownPair same = shapes::figure_pair(.2, true, 1000), other = reflected(same);
