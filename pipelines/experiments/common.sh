@@ -117,7 +117,7 @@ error_of() {
     jq -r '.mean * 1e4 | round / 1e4' "$1/errors.json"
 }
 
-# animal: a generated animal in two poses, mapped without landmarks; figures 5 to 8 show it from different sides
+# animal: a generated animal in two poses, mapped without landmarks; figures 6 to 8 use the pair, too
 animal=$shared/animal
 animal() {
     generated "$animal" isometric 3 --vertices 5000

@@ -77,6 +77,8 @@ class Export : public ContentsVisitor {
     }
     void mesh(const std::string& name, const TriangleMesh& mesh) override {
         save(name + ".ply", to_ply(mesh));
+        array(name + "_vertices", view(mesh.vertices));
+        array(name + "_faces", view(mesh.faces));
     }
     void text(const std::string& name, const std::string& content) override { save(name, content); }
 
