@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -145,11 +146,18 @@ std::vector<PickedPoint> read_fcsv(const std::string& path, std::string_view byt
     return points;
 }
 
+/// Lists of vertices are called .pts, too; Landmark Editor's begin with a word.
+bool begins_with_number(const std::string& path) {
+    std::ifstream file(path);
+    char first = 0;
+    return file >> first && first >= '0' && first <= '9';
+}
+
 }  // namespace
 
 bool is_picked_points(const std::string& path) {
     return has_ending(path, ".pp") || has_ending(path, ".json") || has_ending(path, ".fcsv") ||
-           has_ending(path, ".pts");
+           (has_ending(path, ".pts") && !begins_with_number(path));
 }
 
 std::vector<PickedPoint> read_picked_points(const std::string& path) {

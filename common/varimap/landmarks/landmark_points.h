@@ -19,7 +19,8 @@ struct PickedPoint {
     bool defined = true;  ///< false: missing, switched off or never placed, and position means nothing
 };
 
-/// Whether the file's ending is that of picked points: .pp, .json, .fcsv, .pts.
+/// Whether the file's ending is that of picked points: .pp, .json, .fcsv, or .pts, if that does not begin
+/// with a number as lists of vertices do.
 bool is_picked_points(const std::string& path);
 
 /// Reads MeshLab's .pp, 3D Slicer's .mrk.json or .fcsv, Landmark Editor's .pts.

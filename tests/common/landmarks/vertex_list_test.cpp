@@ -549,7 +549,9 @@ TEST_F(VertexList, ReadsLandmarkEditorsFiles) {
     EXPECT_THAT(logged_notes().back(), HasSubstr("left out: 'S001'"));
     EXPECT_THAT(error_of({write("c.pts", "Version 1.0\n1\n2 0 .4\n"), target}),
                 HasSubstr("c.pts:3: expected a name and x y z"));
-    EXPECT_THAT(error_of({write("c.pts", "4\n7\n"), target}),
+    EXPECT_THAT(read_landmarks({write("d.pts", "4\n2\n"), write("e.pts", "7\n0\n")}, mesh_, mesh_).vertices,
+                are({{4, 7}, {2, 0}}));  // lists of vertices
+    EXPECT_THAT(error_of({write("c.pts", "Points\n4\n7\n"), target}),
                 HasSubstr("does not begin as Landmark Editor's"));
     for (const char* name : {"a.tps", "a.dta"})
         EXPECT_THAT(error_of({write(name, "LM3=1\n2 0 .4\nID=1\n"), target}),
