@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "varimap/core/log.h"
 #include "varimap/mesh/face_geometry.h"
 #include "varimap/mesh/ray_mesh.h"
 #include "varimap/multilevel/reanchoring.h"
+#include "varimap/spectral/local_shape.h"
 
 namespace varimap {
 
@@ -15,8 +17,8 @@ namespace {
 /// Where the inward normal of a vertex leaves the surface on the other side: the nearest vertex there.
 class Antipodes {
   public:
-    explicit Antipodes(const OrientedSurface& surface, const TriangleMesh& mesh)
-        : mesh_(mesh), normals_(surface.normals), rays_(mesh) {}
+    Antipodes(const TriangleMesh& mesh, Points outward_normals)
+        : mesh_(mesh), normals_(std::move(outward_normals)), rays_(mesh) {}
 
     int of(int vertex) const {
         constexpr double lift = 1e-4;  // units of sqrt(area): past the faces around the vertex itself
@@ -27,7 +29,7 @@ class Antipodes {
 
   private:
     const TriangleMesh& mesh_;
-    const Points& normals_;
+    Points normals_;
     RayMesh rays_;
 };
 
@@ -92,7 +94,8 @@ double Ironing::Run::adopt_if_better(AlternatingMinimization& trial) {
 
 Centres Ironing::Run::reflected_centres() const {
     // g = antipode . f and g^-1 = f^-1 . antipode.
-    const Antipodes antipodes(ironing_.oriented_B_, ironing_.context_.B().surface.mesh);
+    const Surface &A = ironing_.context_.A().surface, &B = ironing_.context_.B().surface;
+    const Antipodes antipodes(B.mesh, outward_normals(B.mesh, PairHandedness(A, B).B_inward));
     const Centres& centres = minimization_.solution().step.centres;
     const Level& level_B = level_.B.level;
     Centres reflected = centres;

@@ -100,5 +100,37 @@ TEST(Ironing, TurnsMirroredLimbsBack) {
     EXPECT_LT(energy_with, energy_without);
 }
 
+/// Share of the mass on which a map is reversed that began with front and back exchanged, and may only be
+/// reflected.
+double reversed_after_reflection(bool inside_out) {
+    const TriangleMesh shield = shapes::ellipsoid(4, {1, .25, 1.4});
+    KnownPair shields = shapes::known_pair(shield, shield, {}, 100, {});
+    const Surface& A = shields.A.surface;
+    std::vector<int> opposite;
+    for (int v = 0; v < A.mesh.vertex_count(); ++v)
+        opposite.push_back(shapes::nearest_vertex(A.mesh, A.mesh.vertex(v).cwiseProduct(Vec3(1, -1, 1))));
+    if (inside_out)
+        for (SurfaceData* side : {&shields.A, &shields.B})
+            side->surface.mesh.faces.col(1).swap(side->surface.mesh.faces.col(2));
+    const PairContext context = shields.context();
+    Descent descent(context, {}, {});
+    descent.enter(context.diffusion_level(7));
+    const LevelPair& pair = descent.level();
+    AlternatingMinimization minimization = descent.settled({centres_after(opposite, pair, shields), {}});
+    IroningOptions options;
+    options.maximum_rounds = 0;
+    options.reanchored_mass = 1;
+    const Ironing& ironing = descent.ironing();
+    EXPECT_GT(ironing.measure(pair, minimization.solution()).reversed_mass(), options.reflected_mass);
+    ironing.iron(pair, minimization, unobserved, options);
+    return ironing.measure(pair, minimization.solution()).reversed_mass();
+}
+
+TEST(Ironing, ReflectsMirroredMapsOfSurfacesInsideOutToo) {
+    const double reversed = reversed_after_reflection(false);
+    EXPECT_LT(reversed, .1);
+    EXPECT_EQ(reversed_after_reflection(true), reversed);
+}
+
 }  // namespace
 }  // namespace varimap
