@@ -141,8 +141,7 @@ std::optional<std::vector<Appraised>> MapSearch::found_by_landmarks_alone() {
     if (std::isfinite(mirrored_score_)) return {};
     if (of_sheets) return alone;
     // Landmarks are named by their rows, which change where some are left out.
-    if (params_.landmarks_given <= int(context_.landmarks().size()))
-        exchange_ = doubts.better_exchange(alone.front());
+    if (context_.landmarks_left_out() == 0) exchange_ = doubts.better_exchange(alone.front());
     if (exchange_ || !landmarks_suffice(alone.front(), context_)) return {};
     return alone;
 }
@@ -302,9 +301,8 @@ void warn_of_mirrored_landmarks(const PairContext& context) {
 }  // namespace
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
-    const int landmarks = std::max(int(context.landmarks().size()), params.landmarks_given);
-    if (params.only_if_needed && landmarks > params.few_landmarks) {
-        log("{} landmarks: nothing else is looked for", landmarks);
+    if (params.only_if_needed && context.landmarks_given() > params.few_landmarks) {
+        log("{} landmarks: nothing else is looked for", context.landmarks_given());
         warn_of_mirrored_landmarks(context);
         return {};
     }

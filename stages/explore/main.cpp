@@ -42,7 +42,6 @@ int main(int argc, char** argv) {
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_reading);
         const PairContext context =
             sketch_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
-        params.landmarks_given = int(landmarks.vertices.size());
         OnDemand ask;
         if (given.of_A)
             ask.self_maps = given;

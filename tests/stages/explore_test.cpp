@@ -83,6 +83,8 @@ TEST(Explore, HandsOnWhereGoodLandmarksLead) {
     const Diffusion continued = diffuse(context, {}, led);
     EXPECT_LT(mean_error(continued, pair), .035);
     EXPECT_TRUE(continued.record.candidates.empty());  // there was no choice
+    const PairContext with_others_left_out(pair.A, pair.B, pair.landmarks, 1, params.few_landmarks);
+    EXPECT_TRUE(explore(with_others_left_out, params).list.empty());
     params.few_landmarks = 0;
     EXPECT_TRUE(explore(context, params).list.empty());
 }

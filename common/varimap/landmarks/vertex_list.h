@@ -63,6 +63,10 @@ struct Landmarks {
     int left_out = 0;                   ///< others, which one of the surfaces lacks
 };
 
+/// More landmarks than these are taken to decide the map (varimap-explore's default), so that the sketches,
+/// on which other maps are looked for, need not hold all of them.
+inline constexpr int few_landmarks = 10;
+
 /// Where landmarks are on the meshes that they were read for, row by row: their points, or else those at
 /// their vertices (face -1 at one that no face uses).
 PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, const TriangleMesh& target);
