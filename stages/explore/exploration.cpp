@@ -190,7 +190,7 @@ double Exploration::turn(const Points& best, const Points& other) const {
 }
 
 VertexImages Exploration::images(const Trial& trial) const {
-    return vertex_images(trial.solution, last_level(), context_);
+    return vertex_images(trial.solution, descent_.level(), context_);
 }
 
 void Exploration::log_pool() const {

@@ -85,12 +85,13 @@ Candidates led(std::vector<Appraised> list, const PairContext& context) {
     return candidates_of(list, context);
 }
 
-/// Whether the surfaces fit better as mirror images of each other.
+/// What is found between A and the mirror image of B.
 struct ByMirrorImages {
     std::vector<PooledMap> maps;  ///< mirrored back
     /// Of the best map between mirror images, if that tells that one is a left and the other a right one.
     double score = std::numeric_limits<double>::infinity();
 };
+
 /// One search for the maps of a pair. Keeps references.
 class MapSearch {
   public:
@@ -126,7 +127,7 @@ class MapSearch {
     FinishedPool finished_;  ///< quickly
     LazySelfMaps self_maps_;
     std::vector<PooledMap> mirrored_back_;  ///< found between mirror images
-    /// Of the best map between mirror images, where that tells that one is a left and the other a right one.
+    /// As in ByMirrorImages, or of the map between mirror images that the landmarks lead to.
     double mirrored_score_ = std::numeric_limits<double>::infinity();
     std::optional<BetterExchange> exchange_;
 };
