@@ -2,6 +2,7 @@
 
 #include "stages/remesh/export.h"
 #include "stages/remesh/quality_json.h"
+#include "stages/remesh/warnings.h"
 #include "varimap/core/error.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_file.h"
@@ -73,11 +74,13 @@ int main(int argc, char** argv) {
             stage.record_file("meshes.B", meshes[1]);
         }
         const PointMap initial_map = read_initial_map(stage, initial_map_file, map_base, A.value, B.value);
-        const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair, initial_map)};
+        const MapQuality quality = measure_quality(map.value, A.value, B.value, pair, initial_map);
+        warn_of(quality, pair.record);
+        const QualityNumbers numbers{quality_json(quality, map.value, A.value, B.value, pair)};
         if (!folder.empty())
             export_map(stage, folder, map.value, pair.plan, A.value, B.value, polygons,
                        ascii ? PlyFormat::ascii : PlyFormat::binary);
-        if (!json_file.empty()) stage.write_file(json_file, quality.json + "\n");
-        stage.write(out, quality);  // last, so that it tells that the rest is there
+        if (!json_file.empty()) stage.write_file(json_file, numbers.json + "\n");
+        stage.write(out, numbers);  // last, so that it tells that the rest is there
     });
 }
