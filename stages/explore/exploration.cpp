@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "stages/explore/difference.h"
+#include "stages/explore/starts.h"
 #include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"

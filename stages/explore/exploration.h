@@ -3,8 +3,8 @@
 #include <random>
 #include <vector>
 
-#include "stages/explore/starts.h"
 #include "varimap/multilevel/descent.h"
+#include "varimap/multilevel/matching.h"
 
 namespace varimap {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "varimap/mesh_files/obj_model.h"
+#include "varimap/core/linear_algebra.h"
 
 namespace varimap {
 
