@@ -137,10 +137,9 @@ std::optional<std::vector<Appraised>> MapSearch::found_by_landmarks_alone() {
     finished_.add_new_of(led_);
     std::vector<Appraised> alone = finished_.appraised();
     const LandmarkDoubts doubts(context_, appraisal_, params_);
-    const bool of_sheets = is_isometry_of_sheets(alone.front().candidate, context_);
     mirrored_score_ = doubts.score_if_mirrored(alone.front());
     if (std::isfinite(mirrored_score_)) return {};
-    if (of_sheets) return alone;
+    if (is_isometry_of_sheets(alone.front().candidate, context_)) return alone;
     // Landmarks are named by their rows, which change where some are left out.
     if (context_.landmarks_left_out() == 0) exchange_ = doubts.better_exchange(alone.front());
     if (exchange_ || !landmarks_suffice(alone.front(), context_)) return {};
