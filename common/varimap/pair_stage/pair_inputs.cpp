@@ -127,8 +127,7 @@ void PairInputs::require_sketches(const Artifact<Candidates>& candidates, const 
             if (hash != given.payload_hash)
                 throw ArtifactError(
                     fmt::format("'{}' and '{}' do not belong together: the candidates were found with "
-                                "another {} of '{}'; "
-                                "rerun varimap-explore",
+                                "another {} of '{}'; rerun varimap-explore",
                                 path, given_path, given.kind, paths(side).surface));
         };
         require(found.basis, headers.basis, paths(side).basis);
