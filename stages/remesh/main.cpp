@@ -23,6 +23,12 @@ PointMap read_initial_map(Stage& stage, const std::string& path, IndexBase base,
     return map;
 }
 
+/// Of a plan of either kind.
+SolvedPair read_pair(Stage& stage, const Header& plan, const std::string& file) {
+    if (plan.kind == ArtifactType<Diffusion>::kind) return stage.read<Diffusion>("plan", file).value;
+    return stage.read<Plan>("plan", file).value;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -57,9 +63,7 @@ int main(int argc, char** argv) {
         const auto A = stage.read<Surface>("A.surface", surface_A);
         const auto B = stage.read<Surface>("B.surface", surface_B);
         const Header plan = read_header(plan_file);
-        const SolvedPair pair = plan.kind == ArtifactType<Diffusion>::kind
-                                    ? SolvedPair(stage.read<Diffusion>("plan", plan_file).value)
-                                    : SolvedPair(stage.read<Plan>("plan", plan_file).value);
+        const SolvedPair pair = read_pair(stage, plan, plan_file);
         const auto map = stage.read<SurfaceMap>("map", map_file);
         Stage::require_lineage(map.header, map_file, "A.surface", A.header, surface_A);
         Stage::require_lineage(map.header, map_file, "B.surface", B.header, surface_B);
