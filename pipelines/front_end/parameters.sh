@@ -27,32 +27,38 @@ set_in() {  # TYPED PARAM VALUE STAGE...
     for stage in "${@:4}"; do set_parameter "$1" "$stage" "$2" "$3"; done
 }
 
+# parameters_of STAGE OPTION...: with these, and --config, those that are not at their defaults, as options, or why they are refused.
+parameters_of() { "$VARIMAP_BIN/varimap-$1" ${config:+--config "$config"} "${@:2}" --parameters 2>&1; }
+
 # flags_of STAGE: its parameters that are not at their defaults, as options; the stage itself reads and checks them.
 flags_of() {
-    local key given=() said code=0 plain='^[A-Za-z0-9_.,+ -]*$' words i
+    local key given=() said code=0
     for key in "${!settings[@]}"; do
         [[ $key != "$1".* ]] || given+=("--${key#*.}=${settings[$key]}")
     done
     [[ -n $config ]] || ((${#given[@]})) || return 0
-    said=$("$VARIMAP_BIN/varimap-$1" ${config:+--config "$config"} "${given[@]}" --parameters 2>&1) || code=$?
+    said=$(parameters_of "$1" "${given[@]}") || code=$?
     ((code == 0)) || refuse_parameters "$1" "$code" "$said"
-    # What --set refuses; the shell of make would obey the rest.
-    [[ $said =~ $plain ]] || refuse_characters "$1"
-    # Nor a blank: what follows it would be an option of its own. Each value, given by itself, changes nothing.
-    read -r -a words <<<"$said"
-    [[ -n $config ]] || words=()
-    for ((i = 0; i < ${#words[@]}; i += 2)); do
-        [[ ${words[i]} == --* && -n ${words[i + 1]:-} ]] || refuse_characters "$1"
-        [[ " ${given[*]}" == *" ${words[i]}="* ]] ||
-            [[ $("$VARIMAP_BIN/varimap-$1" --config "$config" "${given[@]}" "${words[i]}=${words[i + 1]}" --parameters 2>&1) == "$said" ]] ||
-            refuse_characters "$1"
-    done
-    [[ ! $said =~ --(onto_itself|only_if_needed)\  ]] || fail 2 "$config: ${BASH_REMATCH[1]} is not a parameter"
-    [[ $1 != locate || ! $said =~ --part\  ]] || fail 2 "$config: part is not a parameter"
-    [[ ! $said =~ --mirror\  ]] || fail 2 "$config: mirror: say --mirror, which is of the source alone"
+    [[ -z $config ]] || require_allowed_in_config "$1" "$said" "${given[@]}"
     [[ $1 != preprocess || -z $part || ! "$said " =~ --fill_holes\ all\  ]] ||
         fail 2 "${given_by[preprocess.fill_holes]:-$config: fill_holes}: with --part that would close the cut where the part ends; give a number of edges, or none"
     echo "$said"
+}
+
+# What set_parameter refuses may stand in the file of --config, and the shell of make would obey it.
+require_allowed_in_config() {  # STAGE, WHAT parameters_of IT SAID, OPTION... that were given besides
+    local plain='^[A-Za-z0-9_.,+ -]*$' words i
+    [[ $2 =~ $plain ]] || refuse_characters "$1"
+    # Nor a blank: what follows it would be an option of its own. Each value, given by itself, changes nothing.
+    read -r -a words <<<"$2"
+    for ((i = 0; i < ${#words[@]}; i += 2)); do
+        [[ ${words[i]} == --* && -n ${words[i + 1]:-} ]] || refuse_characters "$1"
+        [[ " ${*:3}" == *" ${words[i]}="* || $(parameters_of "$1" "${@:3}" "${words[i]}=${words[i + 1]}") == "$2" ]] ||
+            refuse_characters "$1"
+    done
+    [[ ! $2 =~ --(onto_itself|only_if_needed)\  ]] || fail 2 "$config: ${BASH_REMATCH[1]} is not a parameter"
+    [[ $1 != locate || ! $2 =~ --part\  ]] || fail 2 "$config: part is not a parameter"
+    [[ ! $2 =~ --mirror\  ]] || fail 2 "$config: mirror: say --mirror, which is of the source alone"
 }
 
 refuse_characters() {  # STAGE

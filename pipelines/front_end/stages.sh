@@ -108,8 +108,9 @@ make_with_patience() {
     fail 4 "$shown/artifacts: other runs make the same files there with other parameters, all the time; start this one again when they have ended, or give it another --artifacts"
 }
 
-make_map() {  # sets `source` and `target`, the surfaces' names
-    local i import=() numbers=() surface_cores=$((cores > 1 ? cores / 2 : 1)) make_arguments=("${flags[@]}")
+# Names of files, and options, may hold anything: make finds them in the environment, by numbers where there are several.
+export_inputs() {  # sets `numbers`, of the files of landmarks
+    local i
     VARIMAP_SOURCE=$(realpath -s -- "${meshes[0]}")
     VARIMAP_TARGET=$(realpath -s -- "${meshes[1]}")
     VARIMAP_OPTIONS=$(printf '%s\0' "${recorded[@]}" | jq -R -s -c 'split("\u0000") as $words
@@ -122,8 +123,12 @@ make_map() {  # sets `source` and `target`, the surfaces' names
     if [[ -n $initial_map ]]; then
         VARIMAP_INITIAL_MAP=$(realpath -s -- "$initial_map")
         export VARIMAP_INITIAL_MAP
-        make_arguments+=(INITIAL_MAP=1)
     fi
+}
+
+make_map() {  # sets `source` and `target`, the surfaces' names
+    local import=() numbers=() surface_cores=$((cores > 1 ? cores / 2 : 1)) make_arguments=("${flags[@]}")
+    export_inputs
     cd -- "$out" || fail 6 "$shown: cannot be entered"
     source=$(name_of_mesh "$VARIMAP_SOURCE")
     target=$(name_of_mesh "$VARIMAP_TARGET")
@@ -131,6 +136,7 @@ make_map() {  # sets `source` and `target`, the surfaces' names
     ! is_foreign "$VARIMAP_SOURCE" || { import+=(source); VARIMAP_SOURCE=$(realpath -- "$VARIMAP_SOURCE"); }
     ! is_foreign "$VARIMAP_TARGET" || { import+=(target); VARIMAP_TARGET=$(realpath -- "$VARIMAP_TARGET"); }
     [[ -z $explore ]] || make_arguments+=(EXPLORE=yes)
+    [[ -z $initial_map ]] || make_arguments+=(INITIAL_MAP=1)
     # Two jobs: the surfaces' stages run side by side, with half of the cores each.
     make_with_patience -j $((cores > 1 ? 2 : 1)) OUT=. ARTIFACTS=artifacts SOURCE="$source" TARGET="$target" \
         LANDMARKS="${numbers[*]}" FILES_IN_ENVIRONMENT=yes IMPORT="${import[*]}" MIRROR="$mirror" PART="$part" FULL_RESOLUTION="$full_resolution" \

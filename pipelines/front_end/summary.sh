@@ -14,6 +14,10 @@ said_so_far() {  # notes|warnings
         -name "$source--$target.*run.json" \) -exec jq -c --arg how "$1" --arg stages "${begun[*]}" '(input_filename | sub(".*/"; "") | sub("[.].*"; "")) as $of
             | .stage as $stage | select(any($stages | splits(" "); . == $stage)) | .[$how][]? | {stage: "\($stage) \($of)", message: gsub("\n"; " ")}' {} + | sort -u
 }
+said_so_far_json() {
+    jq -n --arg until "$until" --slurpfile warnings <(said_so_far warnings) --slurpfile notes <(said_so_far notes) \
+        '{$until, $warnings, $notes}'
+}
 print_said_so_far() {
     printable_lines < <(said_so_far warnings | jq -r '"warning  \(.stage): \(.message)"'; said_so_far notes | jq -r '"note     \(.stage): \(.message)"')
 }

@@ -120,7 +120,6 @@ std::optional<Candidates> found_candidates(const PairContext& surfaces, const Su
     SurfaceData sketch_A = sketch(A), sketch_B = sketch(B);
     const PairContext context =
         sketch_context(std::move(sketch_A), std::move(sketch_B), given, options.landmark_weight);
-    params.landmarks_given = int(given.vertices.size());
     OnDemand ask;
     ask.surfaces = [&] { return surfaces; };
     if (options.landmarks.empty()) ask.self_maps = find_when_asked(context, params);

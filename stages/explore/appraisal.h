@@ -47,7 +47,6 @@ class Appraisal {
     const PairHandedness& handedness() const { return handedness_; }
     const SurfaceComponents& components_A() const { return components_A_; }
     const SurfaceComponents& components_B() const { return components_B_; }
-    const ShapeAgreement& agreement() const { return agreement_; }
 
   private:
     const PairContext& context_;

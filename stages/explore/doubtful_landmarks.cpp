@@ -36,8 +36,7 @@ void warn_of(const BetterExchange& better, const Candidate& best, const PairCont
     if (better.fits_mirrored)
         warn(
             "the landmarks fit mirror images: if one of the surfaces is a left and the other a right one, "
-            "{}; "
-            "with landmarks {} exchanged the map would be more probable, too, but less so",
+            "{}; with landmarks {} exchanged the map would be more probable, too, but less so",
             mirror_advice(context), exchanged_in_words(better.exchange));
     else
         warn(

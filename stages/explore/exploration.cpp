@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "stages/explore/difference.h"
+#include "stages/explore/starts.h"
 #include "stages/explore/tips.h"
 #include "varimap/core/log.h"
 #include "varimap/core/parallel.h"
@@ -190,7 +191,7 @@ double Exploration::turn(const Points& best, const Points& other) const {
 }
 
 VertexImages Exploration::images(const Trial& trial) const {
-    return vertex_images(trial.solution, last_level(), context_);
+    return vertex_images(trial.solution, descent_.level(), context_);
 }
 
 void Exploration::log_pool() const {

@@ -3,8 +3,8 @@
 #include <random>
 #include <vector>
 
-#include "stages/explore/starts.h"
 #include "varimap/multilevel/descent.h"
+#include "varimap/multilevel/matching.h"
 
 namespace varimap {
 
@@ -59,9 +59,7 @@ class Exploration {
     std::vector<Trial> from_axes();
     /// The map that landmarks lead to from the coarsest level on, as in varimap-diffuse.
     Trial follow_landmarks();
-    /// The level pair they live on.
-    const LevelPair& last_level() const { return descent_.level(); }
-    /// Images of all vertices.
+    /// Images of all vertices, by a map of the level that is now the last one.
     VertexImages images(const Trial& trial) const;
 
   private:

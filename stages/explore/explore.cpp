@@ -85,12 +85,13 @@ Candidates led(std::vector<Appraised> list, const PairContext& context) {
     return candidates_of(list, context);
 }
 
-/// Whether the surfaces fit better as mirror images of each other.
+/// What is found between A and the mirror image of B.
 struct ByMirrorImages {
     std::vector<PooledMap> maps;  ///< mirrored back
     /// Of the best map between mirror images, if that tells that one is a left and the other a right one.
     double score = std::numeric_limits<double>::infinity();
 };
+
 /// One search for the maps of a pair. Keeps references.
 class MapSearch {
   public:
@@ -126,7 +127,7 @@ class MapSearch {
     FinishedPool finished_;  ///< quickly
     LazySelfMaps self_maps_;
     std::vector<PooledMap> mirrored_back_;  ///< found between mirror images
-    /// Of the best map between mirror images, where that tells that one is a left and the other a right one.
+    /// As in ByMirrorImages, or of the map between mirror images that the landmarks lead to.
     double mirrored_score_ = std::numeric_limits<double>::infinity();
     std::optional<BetterExchange> exchange_;
 };
@@ -136,13 +137,11 @@ std::optional<std::vector<Appraised>> MapSearch::found_by_landmarks_alone() {
     finished_.add_new_of(led_);
     std::vector<Appraised> alone = finished_.appraised();
     const LandmarkDoubts doubts(context_, appraisal_, params_);
-    const bool of_sheets = is_isometry_of_sheets(alone.front().candidate, context_);
     mirrored_score_ = doubts.score_if_mirrored(alone.front());
     if (std::isfinite(mirrored_score_)) return {};
-    if (of_sheets) return alone;
+    if (is_isometry_of_sheets(alone.front().candidate, context_)) return alone;
     // Landmarks are named by their rows, which change where some are left out.
-    if (params_.landmarks_given <= int(context_.landmarks().size()))
-        exchange_ = doubts.better_exchange(alone.front());
+    if (context_.landmarks_left_out() == 0) exchange_ = doubts.better_exchange(alone.front());
     if (exchange_ || !landmarks_suffice(alone.front(), context_)) return {};
     return alone;
 }
@@ -302,9 +301,8 @@ void warn_of_mirrored_landmarks(const PairContext& context) {
 }  // namespace
 
 Candidates explore(const PairContext& context, const ExploreParams& params, const OnDemand& ask) {
-    const int landmarks = std::max(int(context.landmarks().size()), params.landmarks_given);
-    if (params.only_if_needed && landmarks > params.few_landmarks) {
-        log("{} landmarks: nothing else is looked for", landmarks);
+    if (params.only_if_needed && context.landmarks_given() > params.few_landmarks) {
+        log("{} landmarks: nothing else is looked for", context.landmarks_given());
         warn_of_mirrored_landmarks(context);
         return {};
     }

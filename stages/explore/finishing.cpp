@@ -133,17 +133,20 @@ class JointDescent {
         judge_all();
         std::stable_sort(pursued_.begin(), pursued_.end(),
                          [](const Pursued& a, const Pursued& b) { return a.score() < b.score(); });
-        const double worst = std::min(pursued_.front().score(), best_known_score()) + gap;
+        const std::size_t before = pursued_.size();
+        drop_worse_than(std::min(pursued_.front().score(), best_known_score()) + gap);
+        log("{} of {} maps go on, rough scores {:.2f} to {:.2f}", pursued_.size(), before,
+            pursued_.front().score(), pursued_.back().score());
+    }
+    /// But not the best, nor, where no map is known, the best that is elsewhere on most of the surfaces.
+    void drop_worse_than(double worst) {
         std::vector<Pursued> kept;
-        bool has_rival = false;  // elsewhere on most of the surfaces
+        bool has_rival = !known_.empty();
         for (Pursued& one : pursued_) {
-            const bool is_best = kept.empty(),
-                       is_rival = !is_best && !has_rival && known_.empty() && differ(one, kept.front());
+            const bool is_best = kept.empty(), is_rival = !is_best && !has_rival && differ(one, kept.front());
             has_rival |= is_rival;
             if (is_best || is_rival || one.score() <= worst) kept.push_back(std::move(one));
         }
-        log("{} of {} maps go on, rough scores {:.2f} to {:.2f}", kept.size(), pursued_.size(),
-            kept.front().score(), kept.back().score());
         pursued_ = std::move(kept);
     }
     /// On this level.

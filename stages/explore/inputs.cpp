@@ -27,8 +27,7 @@ void require_surface(const Surface& surface) {
     if (!surface.is_surface())
         throw InputError(
             "varimap-explore looks for maps between surfaces only; for other domains give varimap-diffuse "
-            "landmarks, "
-            "or --start wasserstein");
+            "landmarks, or --start wasserstein");
 }
 
 SelfMapsOnDemand given_self_maps(Stage& stage, const PairInputs& inputs,

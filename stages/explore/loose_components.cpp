@@ -27,6 +27,12 @@ struct LooseComponents::Rest {
     bool opposed;
     Eigen::Matrix3d turn;
     double score;  ///< rough_score
+
+    /// One component of A onto one of B, and back, turned as the largest one is.
+    void lay(MapPair& maps, int a, int b) const {
+        there.lay(maps.A_to_B, a, b, turn);
+        back.lay(maps.B_to_A, b, a, turn.transpose());
+    }
 };
 
 /// Takes what is about the place `here` as the largest component is taken there.
@@ -72,6 +78,17 @@ bool LooseComponents::keep(MapPair& maps, MapPair laid, double much, Rest& rest)
     return true;
 }
 
+std::vector<Vec3> LooseComponents::places_beside_largest(const std::vector<std::optional<int>>& partner,
+                                                         const Points& images, bool opposed) const {
+    std::vector<Vec3> place(partner.size());
+    for (std::size_t a = 0; a < place.size(); ++a) {
+        if (!partner[a]) continue;
+        const Vec3 middle = A_.mean(int(a), A_.mesh().vertices);
+        place[a] = neighbourhood(middle, images, opposed)(middle);
+    }
+    return place;
+}
+
 int LooseComponents::exchange(MapPair& maps, const Points& images, Rest& rest) const {
     constexpr double nearer = 0.5, alike = 1.5;
     // Of rough score, for each unit of area: the tubes that distances are measured along stretch from place
@@ -80,12 +97,7 @@ int LooseComponents::exchange(MapPair& maps, const Points& images, Rest& rest) c
     const auto are_alike = [](double a, double b) { return std::max(a, b) < alike * std::min(a, b); };
     const auto middle_B = [&](int b) { return B_.mean(b, B_.mesh().vertices); };
     std::vector<std::optional<int>> partner = partners(maps);
-    std::vector<Vec3> place(partner.size());
-    for (std::size_t a = 0; a < place.size(); ++a) {
-        if (!partner[a]) continue;
-        const Vec3 middle = A_.mean(int(a), A_.mesh().vertices);
-        place[a] = neighbourhood(middle, images, rest.opposed)(middle);
-    }
+    const std::vector<Vec3> place = places_beside_largest(partner, images, rest.opposed);
     int exchanged = 0;
     for (int a = 0; a < A_.count(); ++a)
         for (int c = a + 1; c < A_.count(); ++c) {
@@ -97,10 +109,8 @@ int LooseComponents::exchange(MapPair& maps, const Points& images, Rest& rest) c
                        found = middle_B(*d) - middle_B(*b);
             if ((expected + found).norm() >= nearer * (expected - found).norm()) continue;
             MapPair laid = maps;
-            rest.there.lay(laid.A_to_B, a, *d, rest.turn);
-            rest.there.lay(laid.A_to_B, c, *b, rest.turn);
-            rest.back.lay(laid.B_to_A, *d, a, rest.turn.transpose());
-            rest.back.lay(laid.B_to_A, *b, c, rest.turn.transpose());
+            rest.lay(laid, a, *d);
+            rest.lay(laid, c, *b);
             if (!keep(maps, std::move(laid), clearly * (A_.area(a) + A_.area(c)), rest)) continue;
             std::swap(b, d);
             exchanged += 2;
@@ -118,8 +128,7 @@ int LooseComponents::turn(MapPair& maps, Rest& rest) const {
         const std::optional<int> b = partner[std::size_t(a)];
         if (!b || degrees(rest.turn.transpose() * A_.turn(a, images, rest.opposed)) < otherwise) continue;
         MapPair laid = maps;
-        rest.there.lay(laid.A_to_B, a, *b, rest.turn);
-        rest.back.lay(laid.B_to_A, *b, a, rest.turn.transpose());
+        rest.lay(laid, a, *b);
         turned += keep(maps, std::move(laid), clearly * A_.area(a), rest);
     }
     return turned;

@@ -32,6 +32,9 @@ class LooseComponents {
     std::vector<std::optional<int>> partners(const MapPair& maps) const;
     /// The component of B that a map and its inverse lead to from one of A, if both can be laid.
     std::optional<int> counterpart(int component, const MapPair& maps) const;
+    /// Of each component of A that has a partner, where the middle goes as the largest one is taken there.
+    std::vector<Vec3> places_beside_largest(const std::vector<std::optional<int>>& partner,
+                                            const Points& images, bool opposed) const;
     /// `images`: as above.
     int exchange(MapPair& maps, const Points& images, Rest& rest) const;
     int turn(MapPair& maps, Rest& rest) const;

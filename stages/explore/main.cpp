@@ -19,8 +19,8 @@ int main(int argc, char** argv) {
     const auto& self_map_files =
         stage.input_list_option("self-maps",
                                 "self-maps of A and of B, found with --onto_itself true: maps that are not "
-                                "beyond doubt are composed with "
-                                "them (default: they are looked for then, except with landmarks)",
+                                "beyond doubt are composed with them (default: they are looked for then, "
+                                "except with landmarks)",
                                 2, 2);
     const auto& surface_files = stage.input_list_option(
         "surfaces",
@@ -42,7 +42,6 @@ int main(int argc, char** argv) {
             read_landmarks(stage, landmark_files, A.surface, B.surface, params.landmark_reading);
         const PairContext context =
             sketch_context(std::move(A), std::move(B), landmarks, params.landmark_weight);
-        params.landmarks_given = int(landmarks.vertices.size());
         OnDemand ask;
         if (given.of_A)
             ask.self_maps = given;

@@ -83,6 +83,7 @@ MirrorImages::MirrorImages(const PairContext& context, const ExplorationProgress
 
 MirrorImages::MirroredBack MirrorImages::mirrored_back() const {
     const Timer timer("mirror images");
+    // Both, although one score may decide: the map is composed with those of either surface.
     const OwnMirrors of_A = own_mirrors(context_.A(), params_, finishing_),
                      of_B = own_mirrors(context_.B(), params_, finishing_);
     std::vector<PooledMap> pool{{vertex_images(best_.map.maps, context_), best_.candidate}};

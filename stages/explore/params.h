@@ -16,9 +16,8 @@ struct ExploreParams {
     FinishingOptions finishing;
     bool self_maps = false;
     bool only_if_needed = false;  ///< with landmarks: unless the map that they lead to is a good one
-    int few_landmarks = 10;       ///< with more, they are taken to decide
-    int landmarks_given = 0;      ///< where they are more than the sketches hold (sketch_context)
-    int composed = 2;             ///< maps that self-maps are composed with
+    int few_landmarks = varimap::few_landmarks;  ///< with more, they are taken to decide
+    int composed = 2;                            ///< maps that self-maps are composed with
     LandmarkReading landmark_reading;
     double landmark_weight = 1;  ///< W of pull_landmarks (cost.h); 1: pinned
 

@@ -5,21 +5,13 @@
 #include <vector>
 
 #include "varimap/core/statistics.h"
-#include "varimap/mesh/face_geometry.h"
+#include "varimap/mesh/mass.h"
 #include "varimap/mesh/unit_area.h"
 #include "varimap/quality/quality.h"
 
 namespace varimap {
 
 namespace {
-
-/// A third of the area of each vertex's faces.
-VertexData<double> vertex_areas(const TriangleMesh& mesh) {
-    VertexData<double> areas(mesh.vertex_count(), 0);
-    for (int f = 0; f < mesh.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) areas[mesh.faces(f, k)] += face_normal(mesh, f).norm() / 6;
-    return areas;
-}
 
 /// The median, so that single wrong images do not count.
 double median_step(const PointMap& map, const TriangleMesh& source, const TriangleMesh& target) {

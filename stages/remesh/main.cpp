@@ -2,6 +2,7 @@
 
 #include "stages/remesh/export.h"
 #include "stages/remesh/quality_json.h"
+#include "stages/remesh/warnings.h"
 #include "varimap/core/error.h"
 #include "varimap/results/diffusion.h"
 #include "varimap/results/map_file.h"
@@ -20,6 +21,12 @@ PointMap read_initial_map(Stage& stage, const std::string& path, IndexBase base,
     PointMap map = read_map_file(path, base, file_of(B), &source);
     stage.record_file("initial-map", path);
     return map;
+}
+
+/// Of a plan of either kind.
+SolvedPair read_pair(Stage& stage, const Header& plan, const std::string& file) {
+    if (plan.kind == ArtifactType<Diffusion>::kind) return stage.read<Diffusion>("plan", file).value;
+    return stage.read<Plan>("plan", file).value;
 }
 
 }  // namespace
@@ -56,9 +63,7 @@ int main(int argc, char** argv) {
         const auto A = stage.read<Surface>("A.surface", surface_A);
         const auto B = stage.read<Surface>("B.surface", surface_B);
         const Header plan = read_header(plan_file);
-        const SolvedPair pair = plan.kind == ArtifactType<Diffusion>::kind
-                                    ? SolvedPair(stage.read<Diffusion>("plan", plan_file).value)
-                                    : SolvedPair(stage.read<Plan>("plan", plan_file).value);
+        const SolvedPair pair = read_pair(stage, plan, plan_file);
         const auto map = stage.read<SurfaceMap>("map", map_file);
         Stage::require_lineage(map.header, map_file, "A.surface", A.header, surface_A);
         Stage::require_lineage(map.header, map_file, "B.surface", B.header, surface_B);
@@ -73,11 +78,13 @@ int main(int argc, char** argv) {
             stage.record_file("meshes.B", meshes[1]);
         }
         const PointMap initial_map = read_initial_map(stage, initial_map_file, map_base, A.value, B.value);
-        const QualityNumbers quality{quality_json(map.value, A.value, B.value, pair, initial_map)};
+        const MapQuality quality = measure_quality(map.value, A.value, B.value, pair, initial_map);
+        warn_of(quality, pair.record);
+        const QualityNumbers numbers{quality_json(quality, map.value, A.value, B.value, pair)};
         if (!folder.empty())
             export_map(stage, folder, map.value, pair.plan, A.value, B.value, polygons,
                        ascii ? PlyFormat::ascii : PlyFormat::binary);
-        if (!json_file.empty()) stage.write_file(json_file, quality.json + "\n");
-        stage.write(out, quality);  // last, so that it tells that the rest is there
+        if (!json_file.empty()) stage.write_file(json_file, numbers.json + "\n");
+        stage.write(out, numbers);  // last, so that it tells that the rest is there
     });
 }

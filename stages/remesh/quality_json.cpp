@@ -6,9 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "stages/remesh/map_quality.h"
-#include "stages/remesh/warnings.h"
-
 namespace varimap {
 
 namespace {
@@ -183,10 +180,8 @@ void remove_not_finite(Json& json) {
 
 }  // namespace
 
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
-                         const PointMap& initial_map) {
-    const MapQuality quality = measure_quality(map, A, B, pair, initial_map);
-    warn_of(quality, pair.record);
+std::string quality_json(const MapQuality& quality, const SurfaceMap& map, const Surface& A, const Surface& B,
+                         const SolvedPair& pair) {
     const SamplePlan& plan = pair.plan;
     const PairRecord& record = pair.record;
     Json json;

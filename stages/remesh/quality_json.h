@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "stages/remesh/map_quality.h"
 #include "varimap/results/solved_pair.h"
 #include "varimap/results/surface_map.h"
 #include "varimap/surface/surface.h"
@@ -23,10 +24,10 @@ namespace varimap {
 ///                     (definitions: landmark_check.h)
 ///   exploration       where it chose the map: which candidate was continued, confident, margin, probability,
 ///                     doubt and decided_by in words, and the candidates: origin, energy, dirichlet_energy,
-///                     relief_agreement, alignment, stretch, score, reversed_percent, moved_percent,
-///                     turn_degrees, mirrored (definitions: candidate.h). Where the first was continued,
-///                     probability, confident and doubt are those of the finished map; confident_when_found:
-///                     before it was finished
+///                     relief_agreement, alignment, stretch, landmarks_missed, score, reversed_percent,
+///                     moved_percent, turn_degrees, mirrored (definitions: candidate.h). Where the first was
+///                     continued, probability, confident and doubt are those of the finished map;
+///                     confident_when_found: before it was finished
 ///   source_to_target, target_to_source
 ///       flipped_count, flipped_area_percent, collapsed_count, area_ratio {p01, p05, p50, p95, p99},
 ///       within_area_bound, conformal_distortion {as area_ratio}, dirichlet_energy, coverage, and
@@ -39,6 +40,8 @@ namespace varimap {
 ///                         flipped_area_percent_after, global_steps, sweeps, parts_tried,
 ///                         parts_replaced, replaced_area_percent, mirrored_parts, gated_area_percent,
 ///                         disagreeing_before, disagreeing_after (definitions: untangling.h)
+///       twist             of the most twisted tube: degrees, vertex of the file, area_percent; absent where
+///                         none is twisted (definitions: twist.h)
 ///   round_trip        source -> target -> source: mean, p95
 ///   components        where a surface has several, of source and target, each: vertex of the file,
 ///                     area_percent, onto (the number of that in the other list, from 0; absent if it
@@ -46,9 +49,7 @@ namespace varimap {
 ///   initial_map       where one was given: mean, p50, p95, step (definitions: initial_map.h)
 ///   source, target    input_vertices, input_faces, vertices (of the preprocessed surface)
 ///   levels            of each: level, kind, samples_source, samples_target, iterations, energy
-/// `initial_map`: what the map was begun from, between the files of A and B, or empty.
-/// Warns of what a map that is right does not have (warnings.h).
-std::string quality_json(const SurfaceMap& map, const Surface& A, const Surface& B, const SolvedPair& pair,
-                         const PointMap& initial_map = {});
+std::string quality_json(const MapQuality& quality, const SurfaceMap& map, const Surface& A, const Surface& B,
+                         const SolvedPair& pair);
 
 }  // namespace varimap

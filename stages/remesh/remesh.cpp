@@ -37,6 +37,16 @@ Faces faces_with_images(const Faces& faces, const PointMap& map) {
     return faces(left, Eigen::all);
 }
 
+/// Adds a polygon unless a corner of it has no image; whether it did.
+bool add_if_mapped(std::vector<long long> corners, const PointMap& map, bool reversed, PolygonSoup& soup) {
+    for (const long long v : corners)
+        if (map[std::size_t(v)].face < 0) return false;
+    if (reversed) std::reverse(corners.begin() + 1, corners.end());
+    soup.corners.insert(soup.corners.end(), corners.begin(), corners.end());
+    soup.end_polygon();
+    return true;
+}
+
 }  // namespace
 
 TriangleMesh cross_remesh(const PointMap& map, const Surface& source, const Surface& target) {
@@ -54,27 +64,19 @@ PolygonSoup cross_remeshed_polygons(const TriangleMesh& moved, const PolygonSoup
     PolygonSoup result;
     result.space = moved.space;
     for (const auto vertex : moved.vertices.rowwise()) result.points.push_back(vertex.transpose());
-    std::vector<long long> corners;
-    const auto add = [&] {
-        for (const long long v : corners)
-            if (map[std::size_t(v)].face < 0) return false;
-        if (source.mirrored != target.mirrored) std::reverse(corners.begin() + 1, corners.end());
-        result.corners.insert(result.corners.end(), corners.begin(), corners.end());
-        result.end_polygon();
-        return true;
-    };
+    const bool reversed = source.mirrored != target.mirrored;
+    const std::vector<long long>& corners = polygons.corners;
     const auto triangles = triangle_corners(polygons);
     std::size_t first = 0, triangle = 0;
     for (const std::size_t end : polygons.ends) {
-        corners.assign(polygons.corners.begin() + std::ptrdiff_t(first),
-                       polygons.corners.begin() + std::ptrdiff_t(end));
         const std::size_t triangles_end = triangle + (end - first) - 2;
-        if (!add())
-            for (std::size_t t = triangle; t < triangles_end; ++t) {
-                corners.clear();
-                for (const std::size_t c : triangles[t]) corners.push_back(polygons.corners[c]);
-                add();
-            }
+        const std::vector<long long> polygon(corners.begin() + std::ptrdiff_t(first),
+                                             corners.begin() + std::ptrdiff_t(end));
+        const bool is_whole = add_if_mapped(polygon, map, reversed, result);
+        for (std::size_t t = triangle; t < triangles_end && !is_whole; ++t) {
+            const auto& [a, b, c] = triangles[t];
+            add_if_mapped({corners[a], corners[b], corners[c]}, map, reversed, result);
+        }
         first = end;
         triangle = triangles_end;
     }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "stages/transfer/seams.h"
@@ -86,10 +85,38 @@ std::pair<int, int> pixels_of_row(const Eigen::Matrix<double, 2, 3>& corner, int
     return {std::max(0, int(std::floor(low))), std::min(n - 1, int(std::ceil(high)))};
 }
 
+/// Lays a face on the pixels on whose centres it lies, of n x n, and returns how many these are. `corner`: in
+/// pixels from the centre of the first one.
+int lay(PixelLayout& layout, int face, const Eigen::Matrix<double, 2, 3>& corner, int n) {
+    Eigen::Matrix2d sides;
+    sides << corner.col(1) - corner.col(0), corner.col(2) - corner.col(0);
+    if (!(std::abs(sides.determinant()) > 1e-12)) return 0;
+    const Eigen::Matrix2d inverse = sides.inverse();
+    const int top = std::max(0, int(std::ceil(corner.row(1).minCoeff()))),
+              bottom = std::min(n - 1, int(corner.row(1).maxCoeff()));
+    int laid = 0;
+    for (int y = top; y <= bottom; ++y) {
+        const auto [left, right] = pixels_of_row(corner, y, n);
+        for (int x = left; x <= right; ++x) {
+            const Vec2 b = inverse * (Vec2(x, y) - corner.col(0));
+            const Vec3 at(1 - b.sum(), b[0], b[1]);
+            if (at.minCoeff() < 0) continue;
+            ++laid;
+            const std::size_t pixel = std::size_t(y) * std::size_t(n) + std::size_t(x);
+            SurfacePoint& first = layout.on[pixel];
+            if (first.face < 0)
+                first = {face, at};
+            else if (std::min(at.minCoeff(), first.barycentric.minCoeff()) > rim)
+                layout.overlapped[pixel] = 1;
+        }
+    }
+    return laid;
+}
+
 PixelLayout faces_on_pixels(const ObjModel& target, const std::string& path, int n) {
     const std::size_t pixels = std::size_t(n) * std::size_t(n);
     constexpr int most_layers = 32;  // in the mean; what is drawn twice on purpose has a few
-    double drawn = 0;
+    double laid = 0;
     PixelLayout layout{std::vector<SurfacePoint>(pixels), std::vector<char>(pixels, 0)};
     for (int f = 0; f < int(target.uv_of.rows()); ++f) {
         Eigen::Matrix<double, 2, 3> corner;
@@ -97,28 +124,8 @@ PixelLayout faces_on_pixels(const ObjModel& target, const std::string& path, int
             const Vec2& uv = target.uv[std::size_t(target.uv_of(f, k))];
             corner.col(k) = Vec2(uv[0] * n - .5, (1 - uv[1]) * n - .5);
         }
-        Eigen::Matrix2d sides;
-        sides << corner.col(1) - corner.col(0), corner.col(2) - corner.col(0);
-        if (!(std::abs(sides.determinant()) > 1e-12)) continue;
-        const Eigen::Matrix2d inverse = sides.inverse();
-        const int top = std::max(0, int(std::ceil(corner.row(1).minCoeff()))),
-                  bottom = std::min(n - 1, int(corner.row(1).maxCoeff()));
-        for (int y = top; y <= bottom; ++y) {
-            const auto [left, right] = pixels_of_row(corner, y, n);
-            for (int x = left; x <= right; ++x) {
-                const Vec2 b = inverse * (Vec2(x, y) - corner.col(0));
-                const Vec3 at(1 - b.sum(), b[0], b[1]);
-                if (at.minCoeff() < 0) continue;
-                ++drawn;
-                const std::size_t pixel = std::size_t(y) * std::size_t(n) + std::size_t(x);
-                SurfacePoint& first = layout.on[pixel];
-                if (first.face < 0)
-                    first = {f, at};
-                else if (std::min(at.minCoeff(), first.barycentric.minCoeff()) > rim)
-                    layout.overlapped[pixel] = 1;
-            }
-        }
-        if (drawn > most_layers * double(pixels))
+        laid += lay(layout, f, corner, n);
+        if (laid > most_layers * double(pixels))
             throw InputError(fmt::format(
                 "{}: more than {} faces lie over each other in its texture coordinates, as with a "
                 "tiled texture; give --onto an OBJ whose faces have a place each",

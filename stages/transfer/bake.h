@@ -13,7 +13,7 @@ struct Texture {
 };
 
 struct BakeSize {
-    int pixels = 2048;  ///< width and height
+    int pixels = 0;  ///< width and height; 0: nothing is baked
     /// Pixels beyond the rim of every patch, so that no background shows when it is shrunk; -1: 8.
     int padding = -1;
 };

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
-#include "varimap/mesh_files/obj_model.h"
+#include "varimap/core/linear_algebra.h"
 
 namespace varimap {
 

@@ -86,19 +86,19 @@ int main(int argc, char** argv) {
     inputs.declare_hashes(stage);
     return stage.main(argc, argv, [&] {
         if (out.empty()) throw UsageError("say where the results go: --out FOLDER");
-        const TransferRequest request{points,
-                                      values,
-                                      labels,
-                                      weights,
-                                      regions,
-                                      shapes,
-                                      texture,
-                                      onto,
-                                      mesh,
-                                      params.reading,
-                                      {params.bake, params.padding},
-                                      params.influences,
-                                      out};
+        const TransferRequest request{.points = points,
+                                      .values = values,
+                                      .labels = labels,
+                                      .weights = weights,
+                                      .regions = regions,
+                                      .shapes = shapes,
+                                      .texture = texture,
+                                      .onto = onto,
+                                      .mesh = mesh,
+                                      .reading = params.reading,
+                                      .bake = {params.bake, params.padding},
+                                      .influences = params.influences,
+                                      .folder = out};
         if (request.empty())
             throw UsageError(
                 "nothing to carry: give --points, --values, --labels, --weights, --regions, --shape, "

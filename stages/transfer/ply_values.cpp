@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 
 #include "stages/transfer/same_mesh.h"
 #include "stages/transfer/values.h"

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "varimap/core/error.h"
 #include "varimap/core/file_ending.h"
 #include "varimap/core/lower_case.h"
 #include "varimap/core/printable.h"
@@ -151,10 +150,8 @@ std::pair<std::array<std::size_t, 3>, std::size_t> coordinate_columns(const Text
     for (std::size_t c = 0; c < words.size(); ++c)
         if (is_number(words[c]) && numbers++ < 3) columns[numbers - 1] = c;
     if (numbers != 3)
-        throw InputError(
-            fmt::format("{}:{}: expected a vertex number, three coordinates, or a first line "
-                        "that names columns x, y and z",
-                        path, rows.rows[0].line));
+        fail_at(path, rows.rows[0].line,
+                "expected a vertex number, three coordinates, or a first line that names columns x, y and z");
     return {columns, 0};
 }
 
@@ -167,11 +164,11 @@ Vec3 coordinates(const TextRow& row, const std::array<std::size_t, 3>& columns, 
     Vec3 point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (columns[axis] >= row.words.size())
-            throw InputError(fmt::format("{}:{}: has no column {}", path, row.line, columns[axis] + 1));
+            fail_at(path, row.line, fmt::format("has no column {}", columns[axis] + 1));
         const std::string& word = row.words[columns[axis]];
         double& value = point[Eigen::Index(axis)];
         if (!to_number(word, value) || !std::isfinite(value))
-            throw InputError(fmt::format("{}:{}: '{}' is not a coordinate", path, row.line, excerpt(word)));
+            fail_at(path, row.line, fmt::format("'{}' is not a coordinate", excerpt(word)));
     }
     return point;
 }

@@ -83,8 +83,7 @@ std::string carry_picked(const std::string& path, const std::string& bytes, Land
         if (point.defined) positions.push_back(in_axes_of(map.from, point, space));
     if (positions.empty()) throw InputError(path + ": none of its points is defined");
     warn_of_those_that_stay(std::ssize(points) - std::ssize(positions), std::ssize(points), path);
-    auto next = carried(positions, path, map, there);
-    const std::vector<Vec3> images = require_images(next, path);
+    const std::vector<Vec3> images = require_images(carried(positions, path, map, there), path);
     auto image = images.begin();
     for (PickedPoint& point : points) {
         if (!point.defined) continue;
@@ -108,6 +107,13 @@ bool has_name(const TextRows& list) {
 /// A line, with the comment that stood behind it.
 std::string with_comment(std::string line, const TextRow& row) {
     return std::move(line) + (row.comment.empty() ? "" : " " + row.comment) + "\n";
+}
+
+std::string to_text(const TextRows& rows) {
+    std::string text;
+    for (const TextRow& row : rows.rows)
+        text += row.before + with_comment(join(row.words, rows.separator), row);
+    return text + rows.behind;
 }
 
 /// The name of a list as a line, if it has one.
@@ -151,7 +157,6 @@ std::optional<VertexColumn> vertex_column(const TextRows& rows) {
 std::string carry_vertices(TextRows rows, const std::string& path, const VertexColumn& at, int first,
                            const Correspondence& map, const PointCarrier& there) {
     const PointMap at_vertex = points_at_vertices(map.from);
-    std::string text;
     std::vector<std::string> without;
     std::ptrdiff_t missing = 0;
     for (std::size_t i = 0; i < rows.rows.size(); ++i) {
@@ -168,11 +173,10 @@ std::string carry_vertices(TextRows rows, const std::string& path, const VertexC
             else
                 row.words[at.column] = std::to_string(nearest_vertex(map.to, image) + first);
         }
-        text += row.before + with_comment(join(row.words, rows.separator), row);
     }
     refuse_those_without_image(without, path, "vertex", "vertices");
     warn_of_those_that_stay(missing, std::ssize(rows.rows) - std::ptrdiff_t(at.first_row), path);
-    return text + rows.behind;
+    return to_text(rows);
 }
 
 /// The normals of points are those of the surface they were picked on.
@@ -207,10 +211,7 @@ std::string carry_rows(TextRows rows, const std::string& path, const Corresponde
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
             points[i]->words[columns[axis]] = fmt::format("{}", images[i][Eigen::Index(axis)]);
-    std::string text;
-    for (const TextRow& row : rows.rows)
-        text += row.before + with_comment(join(row.words, rows.separator), row);
-    return text + rows.behind;
+    return to_text(rows);
 }
 
 }  // namespace
@@ -239,8 +240,7 @@ std::string carry_region(const std::string& path, const Correspondence& map, con
                     excerpt(rows.rows[0].words[0])));
     for (std::size_t i = has_name(rows) ? 1 : 0; i < rows.rows.size(); ++i) {
         const TextRow& row = rows.rows[i];
-        if (row.words.size() != 1)
-            throw InputError(fmt::format("{}:{}: expected the number of one face", path, row.line));
+        if (row.words.size() != 1) fail_at(path, row.line, "expected the number of one face");
         inside[std::size_t(number_of(row, 0, path, 0, map.from.face_count(), "faces"))] = true;
     }
     std::vector<char> covered(std::size_t(map.to.face_count()));

@@ -23,9 +23,8 @@ class Atlas {
 };
 
 /// The mesh `map.to` with the texture coordinates of `model`, which belongs to `map.from`: faces that a seam
-/// (or a border of materials) crosses are cut there, so that none spans it; cuts of faces side by side
-/// meet where both have as many.
-/// New vertices stand behind the others. Faces without an image have no coordinates.
+/// (or a border of materials) crosses are cut there, so that none spans it; cuts of faces side by side meet
+/// where both have as many. New vertices stand behind the others. Faces without an image have no coordinates.
 TexturedMesh cut_at_seams(const Correspondence& map, const PointCarrier& back, const ObjModel& model);
 
 }  // namespace varimap

@@ -121,12 +121,9 @@ double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& 
     const std::string_view word = row.words[column];
     if (kind == ValueKind::label) return words.number_of(word);
     double value;
-    if (word.empty())
-        throw InputError(
-            fmt::format("{}:{}: a number is missing; write nan where there is none", path, row.line));
+    if (word.empty()) fail_at(path, row.line, "a number is missing; write nan where there is none");
     if (!to_number(word, value))
-        throw InputError(fmt::format("{}:{}: '{}' is not a number; {}", path, row.line, excerpt(word),
-                                     advice_about(word)));
+        fail_at(path, row.line, fmt::format("'{}' is not a number; {}", excerpt(word), advice_about(word)));
     return value;
 }
 
@@ -134,10 +131,10 @@ double cell(const TextRow& row, std::size_t column, ValueKind kind, Dictionary& 
 void require_number(const TextRow& row, std::size_t number, const std::string& name,
                     const std::string& path) {
     if (!has_number(row, number))
-        throw InputError(fmt::format(
-            "{}:{}: number '{}' where {} should stand: the column '{}' numbers the rows, in their "
-            "order from 0 or from 1; call one that holds values otherwise",
-            path, row.line, excerpt(row.words[0]), number, excerpt(name)));
+        fail_at(path, row.line,
+                fmt::format("number '{}' where {} should stand: the column '{}' numbers the rows, in their "
+                            "order from 0 or from 1; call one that holds values otherwise",
+                            excerpt(row.words[0]), number, excerpt(name)));
 }
 
 /// The name of a single column may be several words.
@@ -188,8 +185,8 @@ Eigen::MatrixXd read_cells(const TextRows& text, std::size_t first, const std::s
     for (std::size_t i = first; i < text.rows.size(); ++i) {
         const TextRow& row = text.rows[i];
         if (row.words.size() != width)
-            throw InputError(fmt::format("{}:{}: {} columns, but the first line has {}", path, row.line,
-                                         row.words.size(), width));
+            fail_at(path, row.line,
+                    fmt::format("{} columns, but the first line has {}", row.words.size(), width));
         if (layout.first_number)
             require_number(row, i - first + *layout.first_number, text.rows[0].words[0], path);
         for (std::size_t c = skipped; c < width; ++c)

@@ -256,18 +256,16 @@ TextureImage Transfer::baked(const Texture& texture, const ObjModel& target,
 
 void Transfer::add_baked(const Texture& texture, const std::string& name) {
     const std::string& onto = request_.onto.empty() ? map_.to_file : request_.onto;
-    if (!has_ending(onto, ".obj"))
-        throw UsageError(onto +
-                         ": has no texture coordinates to bake onto; leave out --bake to have the "
-                         "source's cut onto it, or give --onto an OBJ that has some");
+    const std::string lacks_coordinates = fmt::format(
+        "{}: has no texture coordinates to bake onto; leave out --bake to have the source's cut onto it, or "
+        "give --onto an OBJ that has some",
+        onto);
+    if (!has_ending(onto, ".obj")) throw UsageError(lacks_coordinates);
     const std::string bytes = read_file(onto);
     const TriangleMesh mesh = parse_mesh(bytes, onto);
     require_same_mesh(same_faces(mesh, map_.to), onto, mesh, map_.to_file, map_.to);
     TexturedMesh target{map_.to, parse_obj_model(bytes, onto)};
-    if (!target.model.has_uv())
-        throw InputError(onto +
-                         ": has no texture coordinates to bake onto; leave out --bake to have the "
-                         "source's cut onto it");
+    if (!target.model.has_uv()) throw InputError(lacks_coordinates);
     const std::string image = to_png(baked(texture, target.model, onto));
     target.model.materials = {"baked"};
     std::fill(target.model.material.begin(), target.model.material.end(), 0);

@@ -17,7 +17,7 @@ struct TransferRequest {
     std::string onto;              ///< OBJ of the target with its own, to bake onto; empty: the target's mesh
     std::string mesh;              ///< OBJ of the source whose polygons are wanted on the target
     LandmarkReading reading = {};  ///< of points
-    BakeSize bake{0};              ///< pixels 0: no baking, but coordinates cut at seams
+    BakeSize bake = {};            ///< where nothing is baked, coordinates are cut at seams
     int influences = 0;            ///< weights kept in each row; 0: all
     /// Where the results go: no image takes the place of another that lies there; empty: nothing lies there.
     std::string folder;

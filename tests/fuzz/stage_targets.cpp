@@ -18,6 +18,7 @@
 #include "stages/relax/relax.h"
 #include "stages/remesh/quality_json.h"
 #include "stages/remesh/remesh.h"
+#include "stages/remesh/warnings.h"
 #include "stages/render/render.h"
 #include "varimap/core/error.h"
 #include "varimap/mesh_files/mesh_file.h"
@@ -93,7 +94,8 @@ Artifacts made() {
     all.plan = refine(context, all.diffusion, {});
     all.map = relax(all.A.surface, all.B.surface, all.plan.record,
                     read_out(all.plan, all.A.surface, all.B.surface), all.plan.plan.area_bound);
-    all.quality.json = quality_json(all.map, all.A.surface, all.B.surface, all.plan);
+    all.quality.json = quality_json(measure_quality(all.map, all.A.surface, all.B.surface, all.plan), all.map,
+                                    all.A.surface, all.B.surface, all.plan);
     return all;
 }
 
@@ -207,9 +209,10 @@ void run_remesh(const Artifacts& all, const std::string& name) {
     const SolvedPair& pair = name == "diffusion" ? static_cast<const SolvedPair&>(all.diffusion) : all.plan;
     require_surfaces(pair, A, B);
     require_surfaces(all.map, A, B);
-    const QualityNumbers quality{quality_json(all.map, A, B, pair)};
+    const MapQuality quality = measure_quality(all.map, A, B, pair);
+    warn_of(quality, pair.record);
     QualityNumbers copy;
-    decode(encode(quality), copy);
+    decode(encode(QualityNumbers{quality_json(quality, all.map, A, B, pair)}), copy);
     const SamplePlan& plan = pair.plan;
     masses_csv(A, plan.samples_A, plan.transported_A, plan.mass_A);
     masses_csv(B, plan.samples_B, plan.transported_B, plan.mass_B);

@@ -22,3 +22,7 @@ awk -F, 'NR == 2 { first = $2 } END { exit !(first > 5 * $2) }' out/fig02/widths
 expect_exit 2 "$gallery" -o out fig99
 expect_exit 2 "$gallery" --nothing
 expect_exit 2 "$VARIMAP_SOURCE/pipelines/plot" --x </dev/null
+# What is no number is left out, in either column.
+printf '%s\n' s,1,2 s,2,nan s,-inf,1 s,3,-NaN s,3e-1,4e+0 | "$VARIMAP_SOURCE/pipelines/plot" >with.svg
+printf '%s\n' s,1,2 s,3e-1,4e+0 | "$VARIMAP_SOURCE/pipelines/plot" >without.svg
+cmp with.svg without.svg || fail "plot draws what is no number"

@@ -83,6 +83,8 @@ TEST(Explore, HandsOnWhereGoodLandmarksLead) {
     const Diffusion continued = diffuse(context, {}, led);
     EXPECT_LT(mean_error(continued, pair), .035);
     EXPECT_TRUE(continued.record.candidates.empty());  // there was no choice
+    const PairContext with_others_left_out(pair.A, pair.B, pair.landmarks, 1, params.few_landmarks);
+    EXPECT_TRUE(explore(with_others_left_out, params).list.empty());
     params.few_landmarks = 0;
     EXPECT_TRUE(explore(context, params).list.empty());
 }
@@ -578,27 +580,25 @@ TEST(ShapeAgreement, SeesWhichPlacesAreAlike) {
     const SurfaceData data = bar();
     const PairContext context(data, data, {});
     const Appraisal appraisal(context);
-    const ShapeAgreement& agreement = appraisal.agreement();
     const auto turned = [&](double degrees) -> MapPair {
         const Eigen::Matrix3d turn =
             Eigen::AngleAxisd(degrees * M_PI / 180, Vec3::UnitX()).toRotationMatrix();
         return {nearest_points(data.surface.mesh, turn), nearest_points(data.surface.mesh, turn.transpose())};
     };
-    EXPECT_NEAR(agreement.alignment(turned(0)), 1, 1e-9);
-    EXPECT_NEAR(agreement.stretch(turned(0)), 0, 1e-9);
-    EXPECT_GT(agreement.alignment(turned(180)), .95);  // like places on like ones
-    EXPECT_LT(agreement.stretch(turned(180)), .02);
-    EXPECT_LT(agreement.alignment(turned(90)), .9);  // flat places on bent ones
-    EXPECT_GT(agreement.stretch(turned(90)), .05);
+    EXPECT_NEAR(appraisal.cues(turned(0)).alignment, 1, 1e-9);
+    EXPECT_NEAR(appraisal.cues(turned(0)).stretch, 0, 1e-9);
+    EXPECT_GT(appraisal.cues(turned(180)).alignment, .95);  // like places on like ones
+    EXPECT_LT(appraisal.cues(turned(180)).stretch, .02);
+    EXPECT_LT(appraisal.cues(turned(90)).alignment, .9);  // flat places on bent ones
+    EXPECT_GT(appraisal.cues(turned(90)).stretch, .05);
 }
 
 TEST(ShapeAgreement, KnowsSurfacesOfOppositeHandedness) {
     const PairContext context(bar(), bar(Eigen::DiagonalMatrix<double, 3>(-1, 1, 1)), {});
     const PointMap same = points_at_vertices(context.A().surface.mesh);
     const Appraisal appraisal(context);
-    const ShapeAgreement& agreement = appraisal.agreement();
-    EXPECT_NEAR(agreement.alignment({same, same}), 1, 1e-9);
-    EXPECT_NEAR(agreement.relief({same, same}), 1, 1e-9);
+    EXPECT_NEAR(appraisal.cues({same, same}).alignment, 1, 1e-9);
+    EXPECT_NEAR(appraisal.cues({same, same}).relief, 1, 1e-9);
 }
 
 TEST(ShapeAgreement, LearnsNothingFromReliefWhereThereIsNone) {
@@ -608,9 +608,8 @@ TEST(ShapeAgreement, LearnsNothingFromReliefWhereThereIsNone) {
     PointMap other = same;
     std::reverse(other.begin(), other.end());
     const Appraisal appraisal(context);
-    const ShapeAgreement& agreement = appraisal.agreement();
-    EXPECT_EQ(agreement.relief({same, same}), agreement.relief({other, other}));
-    EXPECT_GT(plausibility({.relief = agreement.relief({same, same})}), .95);
+    EXPECT_EQ(appraisal.cues({same, same}).relief, appraisal.cues({other, other}).relief);
+    EXPECT_GT(plausibility({.relief = appraisal.cues({same, same}).relief}), .95);
 }
 
 TEST(Confidence, FallsWithTheStrainOfTheFinishedMap) {

@@ -27,8 +27,11 @@ class Remesh : public ::testing::Test {
   protected:
     shapes::SpherePair pair_;
 
-    Json quality(const SurfaceMap& map) const {
-        return Json::parse(quality_json(map, pair_.A, pair_.B, pair_.plan));
+    /// As the stage tells of it, warnings included.
+    Json quality(const SurfaceMap& map, const PointMap& initial_map = {}) const {
+        const MapQuality found = measure_quality(map, pair_.A, pair_.B, pair_.plan, initial_map);
+        warn_of(found, pair_.plan.record);
+        return Json::parse(quality_json(found, map, pair_.A, pair_.B, pair_.plan));
     }
     /// Of the map as the plan has it.
     Json quality() const { return quality(pair_.as_planned()); }
@@ -375,12 +378,12 @@ TEST(RemeshWarnings, AreOfLandmarksMostOfWhichAreMetAlone) {
 TEST_F(Remesh, TellsHowFarTheMapIsFromTheInitialOne) {
     const SurfaceMap map = pair_.as_planned();
     EXPECT_FALSE(quality().contains("initial_map"));
-    const Json same = Json::parse(quality_json(map, pair_.A, pair_.B, pair_.plan, map.A_to_B))["initial_map"];
+    const Json same = quality(map, map.A_to_B)["initial_map"];
     for (const char* key : {"mean", "p50", "p95"}) EXPECT_NEAR(same[key], 0, 1e-12);
     PointMap constant = map.A_to_B;
     for (SurfacePoint& image : constant)
         if (image.face >= 0) image = map.A_to_B[1];
-    const Json other = Json::parse(quality_json(map, pair_.A, pair_.B, pair_.plan, constant))["initial_map"];
+    const Json other = quality(map, constant)["initial_map"];
     EXPECT_NEAR(other["mean"], 4. / 3 / std::sqrt(4 * std::numbers::pi), .02) << "of chords from one point";
     EXPECT_EQ(other["step"], 0);
     EXPECT_GT(same["step"], 0);

@@ -30,7 +30,7 @@ Guess other_axes(const std::array<int, 3>& axis, const std::array<int, 3>& sign)
     }
     const bool turned = axis == std::array{0, 1, 2} && sign == std::array{-1, -1, 1};
     guess.words += " for x y z they lie on it: other axes";
-    guess.words += turned ? ", RAS for LPS or the reverse (--landmark_space tells)" : "";
+    guess.words += turned ? ", RAS for LPS or the reverse (--landmark-space tells)" : "";
     return guess;
 }
 

@@ -186,7 +186,7 @@ std::vector<ListRow> read_list_rows(const std::string& path) {
     RowReader reader;
     while (scanner.next_line())
         if (auto row = reader.read(scanner)) rows.push_back(std::move(*row));
-    if (rows.empty()) throw InputError(path + ": holds no vertex numbers");
+    if (rows.empty()) throw InputError(path + ": holds no vertices or points");
     return rows;
 }
 

@@ -114,6 +114,20 @@ void require_distinct(const std::vector<Named>& list, const std::string& path, c
     }
 }
 
+Landmarks to_landmarks(const MatchedLists& matched, const TriangleMesh& source, const TriangleMesh& target) {
+    Landmarks landmarks;
+    landmarks.left_out = matched.left_out;
+    for (const auto& [a, b] : matched.pairs)
+        landmarks.vertices.emplace_back(InputVertex{a.vertex}, InputVertex{b.vertex});
+    const bool are_points = std::ranges::any_of(
+        matched.pairs, [](const auto& pair) { return pair.first.point || pair.second.point; });
+    if (!are_points) return landmarks;
+    const PointMap at_source = points_at_vertices(source), at_target = points_at_vertices(target);
+    for (const auto& [a, b] : matched.pairs)
+        landmarks.points.emplace_back(place_of(a, at_source), place_of(b, at_target));
+    return landmarks;
+}
+
 }  // namespace
 
 std::vector<PlacedLandmark> read_placed_landmarks(const std::string& path, const TriangleMesh& mesh,
@@ -164,18 +178,7 @@ Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMe
         require_used(lists[side], path, role, *meshes[side], side == 0 ? source_fates : target_fates);
         if (repeats == Repeats::refuse) require_distinct(lists[side], path, role);
     }
-    const auto [pairs_of_both, left_out] = matched(lists, files);
-    Landmarks landmarks;
-    landmarks.left_out = left_out;
-    for (const auto& [source, target] : pairs_of_both)
-        landmarks.vertices.emplace_back(InputVertex{source.vertex}, InputVertex{target.vertex});
-    const bool picked = std::ranges::any_of(
-        pairs_of_both, [](const auto& pair) { return pair.first.point || pair.second.point; });
-    if (!picked) return landmarks;
-    const PointMap at_source = points_at_vertices(source_input), at_target = points_at_vertices(target_input);
-    for (const auto& [source, target] : pairs_of_both)
-        landmarks.points.emplace_back(place_of(source, at_source), place_of(target, at_target));
-    return landmarks;
+    return to_landmarks(matched(lists, files), source_input, target_input);
 }
 
 }  // namespace varimap

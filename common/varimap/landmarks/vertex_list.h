@@ -63,6 +63,10 @@ struct Landmarks {
     int left_out = 0;                   ///< others, which one of the surfaces lacks
 };
 
+/// More landmarks than these are taken to decide the map (varimap-explore's default), so that the sketches,
+/// on which other maps are looked for, need not hold all of them.
+inline constexpr int few_landmarks = 10;
+
 /// Where landmarks are on the meshes that they were read for, row by row: their points, or else those at
 /// their vertices (face -1 at one that no face uses).
 PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, const TriangleMesh& target);
@@ -71,15 +75,15 @@ PointPairs as_points(const Landmarks& landmarks, const TriangleMesh& source, con
 /// known partners that a map is compared with.
 enum class Repeats { refuse, allow };
 
-/// Landmarks from one file of pairs, or from two lists matched row by row. Instead of
-/// vertices a file may hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of
-/// picked points (landmark_points.h). Lists are matched by name where all rows of both have distinct ones. A
-/// point stands for the vertex nearest to where it lies on the surface where vertices are needed; its
-/// distance is logged. Points that are switched off or not defined are left out with their partners. Throws
-/// InputError also where most points lie far from the surface, naming the likely cause, for a different
-/// number of rows, a vertex that no face uses or, unless that is allowed, that two rows name; UsageError for
-/// any other number of files. `source_fates`, `target_fates`: of the vertices (FileLink), by which errors say
-/// why one has no face; empty where the mesh has all faces of its file.
+/// Landmarks from one file of pairs, or from two lists matched row by row. Instead of vertices a file may
+/// hold points in the mesh's coordinates: rows x y z x y z, or two lists of x y z or of picked points
+/// (landmark_points.h). Lists are matched by name where all rows of both have distinct ones. A point stands
+/// for the vertex nearest to where it lies on the surface where vertices are needed; its distance is logged.
+/// Points that are switched off or not defined are left out with their partners. Throws as the readers do,
+/// and InputError where most points lie far from the surface, naming the likely cause, for a different number
+/// of rows, a vertex that no face uses or, unless that is allowed, that two rows name; UsageError for any
+/// other number of files. `source_fates`, `target_fates`: of the vertices (FileLink), by which errors say why
+/// one has no face; empty where the mesh has all faces of its file.
 Landmarks read_landmarks(const std::vector<std::string>& files, const TriangleMesh& source_input,
                          const TriangleMesh& target_input, const LandmarkReading& reading = {},
                          Repeats repeats = Repeats::refuse, const std::vector<VertexFate>& source_fates = {},

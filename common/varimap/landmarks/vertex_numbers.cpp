@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "varimap/core/log.h"
+#include "varimap/core/whole_number.h"
 #include "varimap/landmarks/private/named.h"
 #include "varimap/landmarks/vertex_list.h"
 #include "varimap/mesh_files/text_scanner.h"
@@ -92,8 +93,7 @@ int to_vertex(const ListRow& row, size_t column, int first, const std::string& p
               const TriangleMesh* mesh) {
     const double number = row.numbers[column];
     if (std::isnan(number)) return no_vertex;
-    if (number != std::floor(number) || std::abs(number) > 2e9)
-        fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
+    if (!is_whole(number)) fail_at(path, row.line, fmt::format("{} is not a vertex number", number));
     const int vertex = int(number) - first;
     if (vertex < 0)
         fail_at(path, row.line, fmt::format("vertex {} is out of range: numbers start at {}", number, first));

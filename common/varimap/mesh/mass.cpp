@@ -43,6 +43,13 @@ Eigen::VectorXd voronoi_masses(const TriangleMesh& mesh) {
     return mass / mass.sum();
 }
 
+VertexData<double> vertex_areas(const TriangleMesh& mesh) {
+    VertexData<double> areas(mesh.vertex_count(), 0);
+    for (int f = 0; f < mesh.face_count(); ++f)
+        for (int k = 0; k < 3; ++k) areas[mesh.faces(f, k)] += face_normal(mesh, f).norm() / 6;
+    return areas;
+}
+
 Vec3 area_centroid(const TriangleMesh& mesh) {
     // Relative to a corner of the surface, so that a mesh far from the origin loses no digits.
     const Vec3 reference = mesh.vertex(mesh.faces(0, 0));

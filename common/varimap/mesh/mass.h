@@ -1,5 +1,6 @@
 #pragma once
 
+#include "varimap/core/indexed.h"
 #include "varimap/mesh/triangle_mesh.h"
 
 namespace varimap {
@@ -8,6 +9,9 @@ namespace varimap {
 /// its circumcentre; an obtuse face gives half to its obtuse corner and a quarter to each other one. Positive
 /// for every used vertex (vertices without area get 1e-12 of the mean), 0 for unused ones.
 Eigen::VectorXd voronoi_masses(const TriangleMesh& mesh);
+
+/// Per vertex a third of the area of its faces, in units of the mesh squared.
+VertexData<double> vertex_areas(const TriangleMesh& mesh);
 
 /// Centre of mass of the surface as a thin shell. The total area must be positive.
 Vec3 area_centroid(const TriangleMesh& mesh);

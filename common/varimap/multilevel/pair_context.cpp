@@ -100,11 +100,12 @@ RowMatrix PairContext::Side::mixed_points(double mu) const {
 }
 
 PairContext::PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks,
-                         double landmark_weight)
+                         double landmark_weight, int landmarks_left_out)
     : A_(std::move(A), indices(landmarks, &Landmark::first)),
       B_(std::move(B), indices(landmarks, &Landmark::second)),
       landmarks_(std::move(landmarks)),
-      landmark_weight_(landmark_weight) {}
+      landmark_weight_(landmark_weight),
+      landmarks_left_out_(landmarks_left_out) {}
 
 LevelPair PairContext::joined(LevelSide A, LevelSide B) const {
     LevelPair pair{std::move(A), std::move(B), {}};

@@ -18,7 +18,9 @@ RowMatrix sample_positions(const Domain& domain, const Level& level);
 /// stages work on.
 class PairContext {
   public:
-    PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks, double landmark_weight = 1);
+    /// `landmarks_left_out`: how many others were given, which these surfaces are too coarse to hold.
+    PairContext(SurfaceData A, SurfaceData B, VertexPairs<MeshVertex> landmarks, double landmark_weight = 1,
+                int landmarks_left_out = 0);
 
     const SurfaceData& A() const { return A_.data; }
     const SurfaceData& B() const { return B_.data; }
@@ -29,6 +31,9 @@ class PairContext {
     const std::vector<int>& landmarks_A() const { return A_.landmarks; }
     const std::vector<int>& landmarks_B() const { return B_.landmarks; }
     double landmark_weight() const { return landmark_weight_; }
+    /// Where it is not 0, landmarks have other rows here than they were given with.
+    int landmarks_left_out() const { return landmarks_left_out_; }
+    int landmarks_given() const { return int(landmarks_.size()) + landmarks_left_out_; }
 
     /// Number of diffusion levels of the pair; the surface with fewer stays at its last one meanwhile.
     int diffusion_levels() const;
@@ -80,6 +85,7 @@ class PairContext {
     Side A_, B_;
     VertexPairs<MeshVertex> landmarks_;
     double landmark_weight_;
+    int landmarks_left_out_;
 };
 
 }  // namespace varimap

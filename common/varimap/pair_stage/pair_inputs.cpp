@@ -27,6 +27,18 @@ void move_vertices(SurfaceData& data, const std::vector<int>& vertices,
     mesh.vertices(vertices, Eigen::all) = positions(mesh, at);
 }
 
+/// Moves the vertices that stand for landmarks to these; `points` empty: they are there.
+void move_landmarks(SurfaceData& A, SurfaceData& B, const VertexPairs<MeshVertex>& landmarks,
+                    const PointPairs& points) {
+    if (points.empty()) return;
+    std::vector<int> vertices_A, vertices_B;
+    std::vector<SurfacePoint> points_A, points_B;
+    for (const auto& [a, b] : landmarks) vertices_A.push_back(a.index), vertices_B.push_back(b.index);
+    for (const auto& [a, b] : points) points_A.push_back(a), points_B.push_back(b);
+    move_vertices(A, vertices_A, points_A);
+    move_vertices(B, vertices_B, points_B);
+}
+
 /// What the surface was coarsened from, or itself.
 std::string finer_surface(const Header& surface) {
     const std::string finer = surface.input_hash("fine");
@@ -115,8 +127,7 @@ void PairInputs::require_sketches(const Artifact<Candidates>& candidates, const 
             if (hash != given.payload_hash)
                 throw ArtifactError(
                     fmt::format("'{}' and '{}' do not belong together: the candidates were found with "
-                                "another {} of '{}'; "
-                                "rerun varimap-explore",
+                                "another {} of '{}'; rerun varimap-explore",
                                 path, given_path, given.kind, paths(side).surface));
         };
         require(found.basis, headers.basis, paths(side).basis);
@@ -189,14 +200,7 @@ Correspondences correspondences_of(const PointMap& map, const Surface& A, const 
 
 PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVertex>& landmarks,
                          const PointPairs& points, double landmark_weight) {
-    if (!points.empty()) {
-        std::vector<int> vertices_A, vertices_B;
-        std::vector<SurfacePoint> points_A, points_B;
-        for (const auto& [a, b] : landmarks) vertices_A.push_back(a.index), vertices_B.push_back(b.index);
-        for (const auto& [a, b] : points) points_A.push_back(a), points_B.push_back(b);
-        move_vertices(A, vertices_A, points_A);
-        move_vertices(B, vertices_B, points_B);
-    }
+    move_landmarks(A, B, landmarks, points);
     return {std::move(A), std::move(B), landmarks, landmark_weight};
 }
 
@@ -207,15 +211,16 @@ PairContext pair_context(SurfaceData A, SurfaceData B, const Landmarks& landmark
 }
 
 PairContext sketch_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight) {
-    if (landmarks.vertices.size() <= most_named_landmarks)
-        return pair_context(std::move(A), std::move(B), landmarks, landmark_weight);
+    const int given = int(landmarks.vertices.size());
+    if (given <= few_landmarks) return pair_context(std::move(A), std::move(B), landmarks, landmark_weight);
     const HeldApart held = held_apart(landmarks, A.surface, B.surface);
-    if (held.vertices.size() < landmarks.vertices.size())
+    const int left_out = given - int(held.vertices.size());
+    if (left_out > 0)
         log("{} of {} landmarks are too many or too near to others for the sketches: they count only where "
             "the map is solved for",
-            landmarks.vertices.size() - held.vertices.size(), landmarks.vertices.size());
-    const PointPairs points = landmark_points(held.landmarks, A.surface, B.surface);
-    return pair_context(std::move(A), std::move(B), held.vertices, points, landmark_weight);
+            left_out, given);
+    move_landmarks(A, B, held.vertices, landmark_points(held.landmarks, A.surface, B.surface));
+    return {std::move(A), std::move(B), held.vertices, landmark_weight, left_out};
 }
 
 }  // namespace varimap

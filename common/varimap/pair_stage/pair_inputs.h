@@ -67,11 +67,9 @@ PairContext pair_context(SurfaceData A, SurfaceData B, const VertexPairs<MeshVer
                          const PointPairs& points, double landmark_weight);
 /// The same with landmarks of the inputs; throws as to_mesh_vertices.
 PairContext pair_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight);
-/// So few landmarks may be named by their rows in what is said of a pair of sketches.
-constexpr std::size_t most_named_landmarks = 10;
 /// The pair to look for a map on, of sketches, which are too coarse to hold any number of landmarks apart:
-/// of more than `most_named_landmarks` those beyond a hundred, and those that find no vertex of their own,
-/// are left out, so that the rest has other rows. Throws as to_mesh_vertices.
+/// of more than `few_landmarks` those beyond a hundred, and those that find no vertex of their own, are left
+/// out, so that the rest has other rows. Throws as to_mesh_vertices.
 PairContext sketch_context(SurfaceData A, SurfaceData B, const Landmarks& landmarks, double landmark_weight);
 
 }  // namespace varimap

@@ -7,6 +7,7 @@
 #include "varimap/core/index_set.h"
 #include "varimap/core/parallel.h"
 #include "varimap/mesh/interpolation.h"
+#include "varimap/mesh/mass.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh/unit_area.h"
 #include "varimap/quality/image_mesh.h"
@@ -142,10 +143,8 @@ RoundTrip measure_round_trip(const PointMap& A_to_B, const PointMap& B_to_A, con
                              const TriangleMesh& B) {
     const TriangleMesh unit = unit_area(A);
     const ImageMesh back(B_to_A, B, A);
-    VertexData<double> weights(A.vertex_count(), 0);
+    const VertexData<double> weights = vertex_areas(unit);
     std::vector<double> distances, used;
-    for (int f = 0; f < A.face_count(); ++f)
-        for (int k = 0; k < 3; ++k) weights[A.faces(f, k)] += face_normal(unit, f).norm() / 6;
     double sum = 0, weight = 0;
     for (int v = 0; v < A.vertex_count(); ++v) {
         const SurfacePoint& there = A_to_B[v];

@@ -35,8 +35,8 @@ struct Candidate {
 /// distances say little and alignment much; of limbs exchanged, often the converse. Strain counts where
 /// symmetry makes the others alike, and landmarks are on the wrong side. The plan's energy tells no more than
 /// these. The weights are half of those fitted (stages/explore/README.md), for pairs that are unlike the
-/// fitted ones. And 5 for
-/// each landmark that it misses, where these are several: one may be wrong, but hardly several of them.
+/// fitted ones. And 5 for each landmark that it misses, where these are several: one may be wrong, but hardly
+/// several of them.
 double score_of(const Candidate& candidate);
 /// Its five terms.
 struct ScoreParts {

@@ -85,14 +85,13 @@ void require_surfaces(const Candidates& candidates, const TriangleMesh& input_A,
 }
 
 void require_previews(const Candidates& candidates, const TriangleMesh& source, const TriangleMesh& target) {
-    for (const PointMap& preview : candidates.previews)
-        if (!is_map_between(preview, target, source))
-            throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
     const TellingVertex& told = candidates.telling;
-    if (told.source >= source.vertex_count() ||
-        std::any_of(told.images.begin(), told.images.end(),
-                    [&](int v) { return v >= target.vertex_count(); }))
-        throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
+    const bool fit =
+        std::ranges::all_of(candidates.previews,
+                            [&](const PointMap& map) { return is_map_between(map, target, source); }) &&
+        told.source < source.vertex_count() &&
+        std::ranges::all_of(told.images, [&](int v) { return v < target.vertex_count(); });
+    if (!fit) throw ArtifactError("the candidates are not maps between these meshes; rerun varimap-explore");
 }
 
 }  // namespace varimap

@@ -46,7 +46,8 @@ void decode(const std::string& payload, Candidates& candidates);
 /// Throws ArtifactError unless all points lie on faces of these inputs.
 void require_surfaces(const Candidates& candidates, const TriangleMesh& input_A, const TriangleMesh& input_B);
 
-/// Throws ArtifactError if a preview does not lead from the vertices of `target` to faces of `source`.
+/// Throws ArtifactError if a preview does not lead from the vertices of `target` to faces of `source`, or if
+/// one of these meshes lacks the vertex that tells, or its images.
 void require_previews(const Candidates& candidates, const TriangleMesh& source, const TriangleMesh& target);
 
 }  // namespace varimap

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "varimap/artifact/consistency.h"
 #include "varimap/core/linear_algebra.h"

@@ -47,8 +47,8 @@ inline constexpr double doubtful_twist = 120;
 Confidence confidence_of(const std::vector<Candidate>& candidates,
                          std::optional<FinishedQuality> finished = {});
 
-/// "right with a probability of 0.91", or "below 0.01" or "above 0.99": a rounded 0
-/// would call it impossible, a rounded 1 certain.
+/// "right with a probability of 0.91", or "below 0.01" or "above 0.99": a rounded 0 would call it impossible,
+/// a rounded 1 certain.
 std::string probability_in_words(const Confidence& confidence);
 
 /// Why the choice is not sure, in words; for a choice that is, "".

@@ -28,8 +28,8 @@ TriangleMesh read_finite_mesh(const std::string& path, UnplacedFaces unplaced) {
         if (is_finite(mesh, f)) continue;
         if (unplaced == UnplacedFaces::refuse || anchor == mesh.face_count())
             throw InputError(
-                fmt::format("{}: face {} (from 0) has a corner that is not finite; mend the "
-                            "file to carry things through its map",
+                fmt::format("{}: face {} (from 0) has a corner that is not finite; mend the file to carry "
+                            "things through its map",
                             path, f));
         mesh.faces.row(f).setConstant(mesh.faces(anchor, 0));
     }

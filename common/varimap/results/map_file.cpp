@@ -12,7 +12,7 @@
 #include "varimap/artifact/npy.h"
 #include "varimap/core/error.h"
 #include "varimap/core/log.h"
-#include "varimap/core/printable.h"
+#include "varimap/core/whole_number.h"
 #include "varimap/mesh/topology.h"
 #include "varimap/mesh_files/npy_array.h"
 #include "varimap/mesh_files/text_scanner.h"
@@ -41,8 +41,7 @@ std::string place(const VertexMap& map, std::size_t i, const std::string& path) 
 template <class Place>
 long long to_vertex(double number, const Place& place) {
     if (std::isnan(number)) return none;
-    if (number != std::floor(number) || std::abs(number) > 2e9)
-        throw InputError(fmt::format("{}: {} is not a vertex number", place(), number));
+    if (!is_whole(number)) throw InputError(fmt::format("{}: {} is not a vertex number", place(), number));
     return number < 0 ? none : static_cast<long long>(number);
 }
 
@@ -155,8 +154,7 @@ PointMap points_of_faces(const NpyArray& face, const NpyArray& barycentric, cons
     PointMap map;
     for (Eigen::Index i = 0; i < rows; ++i) {
         const double f = face.values(i, 0);
-        if (f != std::floor(f) || std::abs(f) > 2e9)
-            throw InputError(fmt::format("{}: {} is not a face number", path, f));
+        if (!is_whole(f)) throw InputError(fmt::format("{}: {} is not a face number", path, f));
         if (f < 0)
             map.emplace_back();
         else

@@ -1,7 +1,6 @@
 #include "varimap/results/read_out.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 

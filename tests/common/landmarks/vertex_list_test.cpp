@@ -151,7 +151,7 @@ TEST_F(VertexList, NamesFileAndLineOfWhatIsWrong) {
         {"-1\n", ":1: vertex -1 is out of range"},
         {"1\n11\n", ":2: vertex 11 is out of range: the mesh has 11"},
         {"1 0 inf 0\n", ":1: 'inf' is not a number"},
-        {"# nothing\n", "holds no vertex numbers"}};
+        {"# nothing\n", "holds no vertices or points"}};
     for (const auto& [text, message] : cases) {
         const auto path = write("bad.txt", text);
         try {
@@ -365,7 +365,7 @@ TEST_F(VertexList, RefusesCommasThatDoNotSeparateNumbers) {
         {"2,0,.4\n1,0\n", "bad.csv:2: expected the three"},
         {"2,0,.4\nx,y,z\n", "bad.csv:2: 'y' is not a number"},
         {"0,5 1,2 3,4\n", "bad.csv:1: '5 1' is not a number; where decimals have commas, semicolons or tabs"},
-        {"x,y,z\n", "bad.csv: holds no vertex numbers"}};
+        {"x,y,z\n", "bad.csv: holds no vertices or points"}};
     for (const auto& [text, message] : cases)
         EXPECT_THAT(error_of({write("bad.csv", text), targets}), HasSubstr(message)) << text;
 }

@@ -99,6 +99,7 @@ TEST_F(PairLandmarks, AreLeftOutWhereASketchHasNoVertexForThem) {
     const PairContext context = sketch_context(data, data, landmarks, 1);
     EXPECT_LT(context.landmarks().size(), all.size());
     EXPECT_GT(context.landmarks().size(), 80u);
+    EXPECT_EQ(context.landmarks_given(), int(all.size()));
     std::set<int> distinct;
     for (const auto& [a, b] : context.landmarks()) {
         EXPECT_EQ(a, b);
