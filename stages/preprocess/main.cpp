@@ -42,6 +42,8 @@ void record(Stage& stage, const RepairCounts& counts, const PreprocessParams& pa
     number("bridges", counts.bridges);
     number("dropped_components", counts.dropped_components);
     number("dropped_area_percent", 100 * counts.dropped_area);
+    number("cavities", counts.cavities);
+    number("cavity_area_percent", 100 * counts.cavity_area);
 }
 
 /// Tubes of the whole say nothing of its cut, those of the cut nothing of the file.

@@ -187,7 +187,10 @@ bool keeps_the_form(const RepairCounts& counts, int faces, const PreprocessParam
            // holes of a scan.
            && few(counts.turned, .01) && few(counts.split_vertices, .03) &&
            counts.cut_handles == asked_cuts(counts, params) && counts.opened_edges == 0 &&
-           counts.unfilled_holes == 0 && counts.dropped_area <= .001;  // specks, as scans have
+           counts.unfilled_holes == 0 &&
+           counts.dropped_area <= .001  // specks, as scans have
+           // Inner walls are no part of the form, unless they are most of what is there.
+           && counts.cavity_area <= .5;
 }
 
 double target_edge_length(const PreprocessParams& params, int used_vertices) {

@@ -195,6 +195,8 @@ TEST(Preprocess, ToldRepairsOfAFewElementsKeepTheForm) {
              {13800, {.turned = 139}, false},
              {13800, {.cut_edges = 1, .dropped_components = 1, .dropped_area = .002}, false},
              {13800, {.cut_edges = 1, .dropped_components = 1, .dropped_area = .0005}, true},
+             {13800, {.cavities = 2, .cavity_area = .47}, true},
+             {13800, {.cavities = 1, .cavity_area = .6}, false},
              {13800, {.opened_edges = 1}, false},
              {13800, {.filled_holes = 2, .filling_faces = 50}, true},
              {13800, {.filled_holes = 2, .unfilled_holes = 1}, false},

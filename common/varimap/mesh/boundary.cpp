@@ -92,10 +92,13 @@ double signed_volume_when_closed(const TriangleMesh& mesh) {
     return volume;
 }
 
-bool is_sheet(const TriangleMesh& mesh) {
-    constexpr double least = 3;
+double boundary_length(const TriangleMesh& mesh) {
     const std::vector<double> lengths = loop_lengths(mesh, find_boundary(mesh));
-    return std::accumulate(lengths.begin(), lengths.end(), 0.0) >= least * std::sqrt(surface_area(mesh));
+    return std::accumulate(lengths.begin(), lengths.end(), 0.0) / std::sqrt(surface_area(mesh));
+}
+
+bool is_sheet(const TriangleMesh& mesh) {
+    return boundary_length(mesh) >= 3;
 }
 
 int orientation_sign(const TriangleMesh& mesh) {

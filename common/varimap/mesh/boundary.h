@@ -28,6 +28,9 @@ std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh, const Edges& 
 /// Per loop its length, in units of the mesh.
 std::vector<double> loop_lengths(const TriangleMesh& mesh, const Boundary& boundary);
 
+/// That of all loops, in units of sqrt(area).
+double boundary_length(const TriangleMesh& mesh);
+
 /// Per loop how wide it is open: the length of the sum of what leads out of the surface across its edges,
 /// each as long as the edge, in its face, at right angles to it. At the end of a tube these point the same
 /// way, and the sum is as long as the way around it, however jagged the cut; around a hole in a wall they

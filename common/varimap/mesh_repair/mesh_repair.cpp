@@ -12,6 +12,7 @@
 #include "varimap/core/index_set.h"
 #include "varimap/mesh/manifold.h"
 #include "varimap/mesh/topology.h"
+#include "varimap/mesh_repair/cavities.h"
 #include "varimap/mesh_repair/duplicate_faces.h"
 #include "varimap/mesh_repair/sheets.h"
 #include "varimap/mesh_repair/weld.h"
@@ -171,20 +172,26 @@ void Repair::separate_sheets() {
     origin_ = sheets.origin;
 }
 
-/// The largest component, and of the others those that are asked for.
+/// The largest component that is no inner wall, and of the others those that are asked for.
 void Repair::choose_components() {
     const TriangleMesh mesh = current();
     const ConnectedComponents components = connected_components(mesh);
     if (components.count < 2) return;
     const std::vector<double> area = components.areas(mesh);
     const double total = std::accumulate(area.begin(), area.end(), 0.);
-    const auto largest = std::size_t(std::max_element(area.begin(), area.end()) - area.begin());
-    std::vector<char> chosen(area.size(), 0);
+    std::vector<char> chosen;
+    for (const double a : area) chosen.push_back(a >= options_.least_component * total);
+    std::vector<char> cavity(area.size(), 0);
+    if (options_.components != Components::all) cavity = find_cavities(mesh, components, chosen);
+    std::size_t largest = 0;
+    for (std::size_t c = 1; c < area.size(); ++c)
+        if (cavity[c] < cavity[largest] || (cavity[c] == cavity[largest] && area[c] > area[largest]))
+            largest = c;
     for (std::size_t c = 0; c < area.size(); ++c) {
-        chosen[c] = c == largest ||
-                    (options_.components == Components::all && area[c] >= options_.least_component * total);
-        counts_.dropped_components += !chosen[c];
-        if (!chosen[c] && total > 0) counts_.dropped_area += area[c] / total;
+        chosen[c] = c == largest || (options_.components != Components::largest && chosen[c] && !cavity[c]);
+        if (chosen[c]) continue;
+        ++(cavity[c] ? counts_.cavities : counts_.dropped_components);
+        if (total > 0) (cavity[c] ? counts_.cavity_area : counts_.dropped_area) += area[c] / total;
     }
     std::vector<char> keep;
     for (int f = 0; f < mesh.face_count(); ++f) {
@@ -296,6 +303,8 @@ std::string in_words(const RepairCounts& counts) {
         "edges cut because the surface has one side only, like a Moebius strip, and tears there");
     add(counts.split_vertices, "vertex split", "vertices split");
     add(counts.dropped_components, "component left out", "components left out");
+    add(counts.cavities, "inner wall left out (--components all keeps it)",
+        "inner walls left out (--components all keeps them)");
     add(counts.closed_slits, "slit closed", "slits closed");
     add(counts.filled_holes, "hole filled", "holes filled");
     add(counts.unfilled_holes, "hole left open, which cannot be filled without new vertices",

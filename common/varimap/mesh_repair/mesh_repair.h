@@ -9,18 +9,18 @@
 namespace varimap {
 
 /// Which components of a surface are mapped.
-enum class Components : int { all = 0, largest = 1 };
+enum class Components : int { all = 0, largest = 1, outer = 2 };
 
 template <>
 struct EnumNames<Components> {
-    static constexpr std::array names{"all", "largest"};
+    static constexpr std::array names{"all", "largest", "outer"};
 };
 
 /// What is repaired; see repaired().
 struct RepairOptions {
     std::string repair = "all";
     double weld_tolerance = 0;
-    Components components = Components::all;
+    Components components = Components::outer;
     double least_component = 0.01;
 
     template <class List>
@@ -32,8 +32,10 @@ struct RepairOptions {
                  "boundary vertices as near as this to each other are one; units of sqrt(area); 0: a "
                  "hundredth of the boundary edges there",
                  0, 0.1);
-        list.add("components", components,
-                 "which components are mapped: the largest, or all that are large enough");
+        list.add(
+            "components", components,
+            "which components are mapped: all that are large enough; outer: of these not the inner walls; "
+            "or the largest that is none");
         list.add("least_component", least_component,
                  "components of a smaller share of the area are left out, except the largest", 0, 1);
     }
@@ -49,8 +51,10 @@ struct RepairCounts {
     int cut_edges = 0;           ///< edges of three or more faces, along which sheets were separated
     int opened_edges = 0;        ///< edges cut where a surface has one side only
     int split_vertices = 0;      ///< vertices that were given to several sheets
-    int dropped_components = 0;  ///< components left out
+    int dropped_components = 0;  ///< components left out, but for inner walls
     double dropped_area = 0;     ///< their share of the area
+    int cavities = 0;            ///< inner walls left out (cavities.h)
+    double cavity_area = 0;      ///< their share of the area
     int closed_slits = 0;        ///< boundary loops without area closed (holes.h)
     int filled_holes = 0;        ///< boundary loops closed (holes.h)
     int filling_faces = 0;       ///< with so many faces
@@ -60,7 +64,7 @@ struct RepairCounts {
 
     bool any() const {
         return welded + not_finite + degenerate + duplicates + turned + cut_edges + opened_edges +
-                   split_vertices + dropped_components >
+                   split_vertices + dropped_components + cavities >
                0;
     }
 };

@@ -17,8 +17,9 @@ namespace varimap {
 struct Basis {
     Eigen::VectorXd eigenvalues;  ///< M values, units of 1/area
     RowMatrix functions;          ///< vertices x M
-    Eigen::VectorXd
-        residuals;  ///< |L phi - lambda M phi| in the norm of M^-1, relative to max(lambda, lambda_2)
+    /// |L phi - lambda M phi| in the norm of the shifted Laplacian's inverse: the error's energy. Its root,
+    /// relative to that of max(lambda, lambda_2).
+    Eigen::VectorXd residuals;
 };
 
 template <>

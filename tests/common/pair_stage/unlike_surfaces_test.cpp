@@ -8,6 +8,7 @@
 #include "tests/fixtures/shapes.h"
 #include "tests/fixtures/together.h"
 #include "varimap/core/logged.h"
+#include "varimap/mesh/boundary.h"
 #include "varimap/mesh/topology.h"
 
 namespace varimap {
@@ -87,6 +88,28 @@ TEST(UnlikeSurfaces, ARolledSheetIsNoPartOfAFlatOne) {
     EXPECT_EQ(warnings_of(curled, flat, warn_of_part), 0u);
 }
 
+/// Without so many of its faces, holes of .04 sqrt(area) that do not touch: those at vertices far apart.
+TriangleMesh without_faces(TriangleMesh mesh, int count) {
+    const Adjacency neighbours = vertex_neighbours(mesh);
+    std::vector<char> keep(std::size_t(mesh.face_count()), 1), near_hole(std::size_t(mesh.vertex_count()), 0);
+    for (const auto& [a, b] : find_boundary(mesh).edges)
+        near_hole[std::size_t(a)] = near_hole[std::size_t(b)] = 1;
+    for (int f = 0; f < mesh.face_count() && count > 0; ++f) {
+        const auto corners = mesh.faces.row(f);
+        if (std::any_of(corners.begin(), corners.end(), [&](int v) { return near_hole[std::size_t(v)]; }))
+            continue;
+        for (const int v : corners)
+            for (const int w : neighbours[v]) near_hole[std::size_t(w)] = 1;
+        keep[std::size_t(f)] = 0;
+        --count;
+    }
+    std::vector<int> left;
+    for (int f = 0; f < mesh.face_count(); ++f)
+        if (keep[std::size_t(f)]) left.push_back(f);
+    mesh.faces = mesh.faces(left, Eigen::all).eval();
+    return mesh;
+}
+
 TEST(UnlikeSurfaces, HolesAreNamedWhereAnOpeningMayBeOne) {
     const auto asked = [](const TriangleMesh& part) {
         EXPECT_EQ(warnings_of(preprocess(part, {}), ball(false, false), warn_of_part), 1u);
@@ -95,6 +118,8 @@ TEST(UnlikeSurfaces, HolesAreNamedWhereAnOpeningMayBeOne) {
     EXPECT_FALSE(asked(cut_ball(0)));
     EXPECT_TRUE(asked(cut_ball(.9)));
     EXPECT_TRUE(asked(shapes::tube(20, 12, false))) << "it ends at two loops";
+    EXPECT_FALSE(asked(without_faces(cut_ball(0), 8)));
+    EXPECT_TRUE(asked(without_faces(cut_ball(0), 9))) << "its rim is the tenth loop";
 }
 
 /// A ball without caps at so many corners of an icosahedron.

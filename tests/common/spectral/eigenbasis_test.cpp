@@ -51,6 +51,35 @@ TEST(Eigenbasis, HasTheSpectrumOfTheSphere) {
             EXPECT_NEAR(basis.eigenvalues[k] / (4 * pi * l * (l + 1)), 1, l < 5 ? .01 : .04) << "l = " << l;
 }
 
+/// Splits a face at its edge 01, and the flat face there in its middle: a vertex with hardly any mass, with
+/// faces whose height is `thin` of their length.
+void add_needles(TriangleMesh& mesh, int face, double thin) {
+    const int a = mesh.faces(face, 0), b = mesh.faces(face, 1), c = mesh.faces(face, 2);
+    const int first = mesh.vertex_count(), second = first + 1;
+    mesh.vertices.conservativeResize(first + 2, 3);
+    mesh.vertices.row(first) =
+        (1 - thin) / 2 * (mesh.vertex(a) + mesh.vertex(b)).transpose() + thin * mesh.vertex(c).transpose();
+    mesh.vertices.row(second) = (mesh.vertex(a) + mesh.vertex(b) + mesh.vertex(first)).transpose() / 3;
+    const int added = mesh.face_count();
+    mesh.faces.conservativeResize(added + 4, 3);
+    mesh.faces.row(face) << a, b, second;
+    mesh.faces.row(added) << b, first, second;
+    mesh.faces.row(added + 1) << first, a, second;
+    mesh.faces.row(added + 2) << b, c, first;
+    mesh.faces.row(added + 3) << c, a, first;
+}
+
+TEST(Eigenbasis, IsNotRefusedForNeedles) {
+    TriangleMesh mesh = shapes::ellipsoid(3);
+    const Basis plain = eigenbasis(unit_surface(mesh), 100);
+    const int faces = mesh.face_count();
+    for (int f = 0; f < faces; f += 40) add_needles(mesh, f, 1e-5);
+    const Basis basis = eigenbasis(unit_surface(mesh), 100);
+    ASSERT_EQ(basis.eigenvalues.size(), plain.eigenvalues.size());
+    for (int k = 1; k < 100; ++k) EXPECT_NEAR(basis.eigenvalues[k] / plain.eigenvalues[k], 1, .03) << k;
+    EXPECT_LT(basis.residuals.maxCoeff(), 1e-8);
+}
+
 TEST(Eigenbasis, HasTheNeumannSpectrumOfTheSquare) {
     const Basis basis = eigenbasis(unit_surface(shapes::square(40)), 6);
     const double expected[] = {0, 1, 1, 2, 4, 4};
