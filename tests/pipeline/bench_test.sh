@@ -97,6 +97,19 @@ bench ren.csv -o benched
 made >after.txt
 same before.txt after.txt
 
+# Points may be landmarks of any form: here where the vertices of the lists are.
+awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2' set/vtx_5k/cat0.off >places.txt
+awk 'NR == 2 { n = $1 } NR > 2 && NR <= n + 2 { print "Point" NR ",", $1 ",", $2 ",", $3 }' set/vtx_5k/cat1.off >places.csv
+cp benched/bench.csv lists.csv
+awk -F, -v OFS=, -v places="$PWD/places" 'NR > 1 {
+    $5 = places (NR == 2 ? ".txt" : ".csv"); $6 = places (NR == 2 ? ".csv" : ".txt"); $7 = "" } { print }' ren.csv >places_list.csv
+bench places_list.csv -o benched
+made >after.txt
+same before.txt after.txt
+awk -F, 'function far(a, b) { return (a - b) ^ 2 > 1e-8 } NR == FNR { mean[FNR] = $3; next } FNR > 1 && far($3, mean[FNR]) { exit 1 }' \
+    lists.csv benched/bench.csv || fail "points as places: $(cat benched/bench.csv), as vertices: $(cat lists.csv)"
+bench ren.csv -o benched
+
 # Lists are read as those of batch: quotes, blanks, a byte order mark, and a last row without a line end; groups may hold dots.
 mkdir 'my set'
 figure 'my set/cat, 0.off' 6
