@@ -489,6 +489,15 @@ printf 'source,target,Source Landmarks,target-landmarks\nmeshes/a.off,meshes/b.o
 [[ $(landmarks_in) == "tips.txt three.txt " ]] || fail "headings with capitals and blanks: $(landmarks_in)"
 
 # Ended by an interrupt: all that it started ends with it, and it says so.
+end_by_interrupt() {  # the batch that leads `session`
+    local code=0
+    kill -TERM $session || fail "ended before it was interrupted: $(<log)"
+    wait $session || code=$?
+    ((code == 143)) || fail "exit $code after an interrupt"
+    # shellcheck disable=SC2009  # pgrep counts those that have ended, too
+    [[ -z $(ps -o stat= -s $session | grep -v Z || true) ]] || fail "what a batch began goes on after an interrupt"
+    grep -q 'interrupted; what is finished is kept' log || fail "an interrupt is not said"
+}
 setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes -o stopped -j 2 >out.txt 2>log </dev/null &
 session=$!
 for ((i = 0; i < 600; ++i)); do
@@ -496,14 +505,18 @@ for ((i = 0; i < 600; ++i)); do
     [[ ! -s stopped/batch/running ]] || ! pgrep -s $session 'varimap-(eigen|explore|diffuse|refine|relax|remesh)' >/dev/null || break
     sleep .1
 done
-kill -TERM $session
-code=0
-wait $session || code=$?
-((code == 143)) || fail "exit $code after an interrupt"
-# shellcheck disable=SC2009  # pgrep counts those that have ended, too
-[[ -z $(ps -o stat= -s $session | grep -v Z || true) ]] || fail "jobs go on after an interrupt"
-grep -q 'interrupted; what is finished is kept' log || fail "an interrupt is not said"
+end_by_interrupt
 ! grep -qE '[1-9][0-9]* failed|failed \(' log || fail "an interrupted job is counted as failed: $(grep failed log)"
 [[ -z $(find stopped/pairs -name result.json -exec grep -l failed {} +) ]] || fail "an interrupted pair is called failed"
 batch --all-pairs meshes -o stopped -j 2
 same_batch all stopped
+# So does what chooses consistent maps.
+mkdir slow
+ln -s "$VARIMAP_BIN"/* slow
+rm slow/varimap-cycles
+printf '#!/bin/sh\ntouch "%s/choosing"\nsleep 60\n' "$PWD" >slow/varimap-cycles
+chmod +x slow/varimap-cycles
+VARIMAP_BIN=$PWD/slow setsid "$varimap" batch "${small_picture[@]}" "${coarse[@]}" --all-pairs meshes --consistent -o stopped -j 2 >out.txt 2>log </dev/null &
+session=$!
+until [[ -e choosing ]] || ! kill -0 $session 2>/dev/null; do sleep .05; done
+end_by_interrupt

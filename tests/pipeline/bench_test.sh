@@ -152,3 +152,39 @@ TEXT
 head -n 2 ren.csv | sed 's/[01]$/0/' >wrong.csv
 expect_exit 1 "$varimap" bench wrong.csv -o benched "${coarse[@]}" --set render.width=64 --set render.samples=1
 grep -q 'bench: error: no pair was evaluated' log || fail "maps that cannot be evaluated: $(cat log)"
+
+# An interrupt ends all that was begun, while pairs are mapped and while they are measured, and leaves what was there before.
+stopped() {  # FILE: is there once what is to be interrupted goes on
+    local session code=0
+    until [[ -n $(find . -path "./$1" 2>/dev/null) ]] || ! kill -0 $! 2>/dev/null; do sleep .02; done
+    session=$!
+    kill -TERM $session || fail "ended before it was interrupted: $(<log)"
+    wait $session || code=$?
+    ((code == 143)) || fail "exit $code after an interrupt"
+    # shellcheck disable=SC2009  # pgrep counts those that have ended, too
+    [[ -z $(ps -o stat= -s $session | grep -v Z || true) ]] || fail "something goes on after an interrupt: $(ps -o args= -s $session)"
+    grep -q 'bench: error: interrupted' log || fail "an interrupt is not told: $(<log)"
+}
+setsid "$varimap" bench ren.csv -o stopped >out.txt 2>log </dev/null &
+stopped 'stopped/artifacts/*.surface'
+bench ren.csv -o benched
+mkdir slow
+ln -s "$VARIMAP_BIN"/* slow
+rm slow/varimap-evaluate
+printf '#!/bin/sh\necho half\ntouch "%s/measuring"\nsleep 60\n' "$PWD" >slow/varimap-evaluate
+chmod +x slow/varimap-evaluate
+cp -r benched before
+VARIMAP_BIN=$PWD/slow setsid "$varimap" bench ren.csv -o benched "${coarse[@]}" --set render.width=64 --set render.samples=1 >out.txt 2>log </dev/null &
+stopped measuring
+for file in bench.csv list.csv curves.csv curves.svg; do same before/$file benched/$file; done
+nothing_left benched
+
+# What evaluation says is of this run alone, and a pair whose points the list no longer names has no curve.
+bench ren.csv -o benched
+bench ren.csv -o benched
+[[ $(grep -c 'done: ' benched/pairs/cats.cat0--cat1/errors.txt) == 1 ]] || fail "errors.txt is of several runs"
+cp benched/curves.csv both.csv
+awk -F, -v OFS=, 'NR == 2 { $5 = $6 = "" } { print }' ren.csv >one.csv
+bench one.csv -o benched
+[[ ! -e benched/pairs/cats.cat0--cat1/curve.csv ]] || fail "a curve of points that are not named"
+! cmp -s both.csv benched/curves.csv || fail "curves of points that are not named"
