@@ -521,7 +521,7 @@ TEST_F(VertexList, NamesTheLikelyCauseWhereMostPointsLieFarFromTheSurface) {
     EXPECT_THAT(
         complaint([](const Vec3& p) { return Vec3(-p[0], -p[1], p[2]); }),
         AllOf(HasSubstr("far.txt:3: 3 of 3 landmarks lie farther than 0.02 from the surface, the farthest "),
-              HasSubstr("RAS for LPS"), HasSubstr("--landmark_space")));
+              HasSubstr("RAS for LPS"), HasSubstr("--landmark-space")));
     EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(1000 * p); }), HasSubstr("0.001 times"));
     EXPECT_THAT(complaint([](const Vec3& p) { return Vec3(p[1], p[2], p[0]); }),
                 HasSubstr("z x y for x y z"));
