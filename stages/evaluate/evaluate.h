@@ -37,6 +37,10 @@ struct EvaluateRequest {
 /// or landmarks without a source; InputError for what does not fit together; IoError.
 MapErrors evaluate(const EvaluateRequest& request);
 
+/// Reads the meshes and the points as evaluate does, before there is a map. Throws for these as evaluate
+/// does; numbers of the source's vertices are checked where source_mesh is given.
+void check_points(const EvaluateRequest& request);
+
 /// The numbers, one per line.
 std::string as_text(const MapErrors& errors);
 /// An object: pairs, unmapped, mean, smoothed_mean (absent if it has none), median, maximum, and the shares

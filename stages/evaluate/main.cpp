@@ -22,9 +22,14 @@ int main(int argc, char** argv) {
     const auto& curve_path =
         stage.output_option("curve", "CSV to write: share of the pairs within each error");
     const auto& json = stage.flag("json", "print a JSON object");
+    const auto& check = stage.flag(
+        "check", "only read the meshes and the points; as map any file will do, there need be none yet");
     return stage.main(argc, argv, [&] {
         request.target_mesh = target_path, request.source_mesh = source_path;
         request.map = map_path, request.points = lists;
+        if (check && (!curve_path.empty() || json))
+            throw UsageError("--check measures nothing: it goes with neither --curve nor --json");
+        if (check) return check_points(request);
         const MapErrors errors = evaluate(request);
         if (errors.unmapped > 0)
             warn("{} left out: the map has no image there, or the target is not mapped",

@@ -138,6 +138,8 @@ cp benched/list.csv list.csv
 expect_exit 2 "$varimap" bench ren.csv -o benched --group cats --group dogs
 grep -q 'bench: error: --group dogs: no pair has that group; there are: cats$' log || fail "an unknown group: $(cat log)"
 same list.csv benched/list.csv
+echo one two >no_numbers.txt
+seq 1 3 >three.vts
 while IFS='|' read -r code text row; do
     { head -n 1 ren.csv; echo "$row"; } >bad.csv
     expect_exit "$code" "$varimap" bench bad.csv -o none
@@ -147,13 +149,31 @@ done <<'TEXT'
 3|bad.csv, row 2: quotes that do not end|cats,"a.off,b.off,,,,
 3|bad.csv: a row with more fields than columns|cats,a.off,b.off,,,,,1
 3|bad.csv: a row without group, source or target|cats,a.off,,,,,
-6|absent.txt: no such file|cats,set/vtx_5k/cat0.off,set/vtx_5k/cat1.off,,absent.txt,,
+6|absent.txt: no such file|cats,set/vtx_5k/cat0.off,set/vtx_5k/cat1.off,,absent.txt,absent.txt,
+3|bad.csv: a row with source_points only: cats,a.off,b.off,,a.vts,,; give target_points|cats,a.off,b.off,,a.vts,,
+3|bad.csv: a row with target_points only: cats,a.off,b.off,,,a.vts,1; give source_points|cats,a.off,b.off,,,a.vts,1
+3|bad.csv: a row whose index_base is one: cats,a.off,b.off,,,,one; say 0 or 1|cats,a.off,b.off,,,,one
+3|bad.csv: row cats,set/vtx_5k/cat0.off,.*,0: .*cat0.vts:146: .*146|cats,set/vtx_5k/cat0.off,set/vtx_5k/cat1.off,,set/vtx_5k/corres/cat0.vts,set/vtx_5k/corres/cat1.vts,0
+3|bad.csv: row .*no_numbers.txt:1: |cats,set/vtx_5k/cat0.off,set/vtx_5k/cat1.off,,no_numbers.txt,set/vtx_5k/corres/cat1.vts,
+3|bad.csv: row .*146|cats,set/vtx_5k/cat0.off,set/vtx_5k/cat1.off,,set/vtx_5k/corres/cat0.vts,three.vts,1
 TEXT
-head -n 2 ren.csv | sed 's/[01]$/0/' >wrong.csv
-expect_exit 1 "$varimap" bench wrong.csv -o benched "${coarse[@]}" --set render.width=64 --set render.samples=1
-grep -q 'bench: error: no pair was evaluated' log || fail "maps that cannot be evaluated: $(cat log)"
+# What points leave open is said once. A mesh that cannot be read fails alone, as it does without points.
+echo nothing >text.off
+seq 2 20 >some.vts
+{
+    head -n 1 ren.csv
+    for name in text cat0 cat1; do echo "open,set/vtx_5k/$name.off,set/vtx_5k/cat1.off,,some.vts,some.vts,"; done
+} >open.csv
+cp text.off set/vtx_5k
+code=0
+"$varimap" bench open.csv -o open "${coarse[@]}" --set render.width=64 --set render.samples=1 >out.txt 2>log || code=$?
+((code == 1)) || fail "exit $code where a mesh cannot be read"
+rm set/vtx_5k/text.off
+grep -q '^open .*text--cat1 *failed (3): ' out.txt || fail "a mesh that cannot be read: $(cat out.txt)"
+[[ $(wc -l <open/bench.csv) == 3 ]] || fail "others than a mesh that cannot be read: $(cat open/bench.csv)"
+[[ $(grep -c 'bench: warning: .*row open,set/vtx_5k/cat0.off.*counted from 0.* index_base 0 or 1 decides; the like in 1 more' log) == 1 ]] || fail "what points leave open: $(<log)"
 
-# An interrupt ends all that was begun, while pairs are mapped and while they are measured, and leaves what was there before.
+# An interrupt ends all that was begun, while points are checked, pairs are mapped, or measured, and leaves what was there before.
 stopped() {  # FILE: is there once what is to be interrupted goes on
     local session code=0
     until [[ -n $(find . -path "./$1" 2>/dev/null) ]] || ! kill -0 $! 2>/dev/null; do sleep .02; done
@@ -171,9 +191,17 @@ bench ren.csv -o benched
 mkdir slow
 ln -s "$VARIMAP_BIN"/* slow
 rm slow/varimap-evaluate
-printf '#!/bin/sh\necho half\ntouch "%s/measuring"\nsleep 60\n' "$PWD" >slow/varimap-evaluate
+cat >slow/varimap-evaluate <<TEXT
+#!/bin/sh
+case "\$*" in *--check*) touch "$PWD/checking"; [ ! "\$SLOW_CHECK" ] || sleep 60; exit ;; esac
+echo half
+touch "$PWD/measuring"
+sleep 60
+TEXT
 chmod +x slow/varimap-evaluate
 cp -r benched before
+SLOW_CHECK=yes VARIMAP_BIN=$PWD/slow setsid "$varimap" bench ren.csv -o benched >out.txt 2>log </dev/null &
+stopped checking
 VARIMAP_BIN=$PWD/slow setsid "$varimap" bench ren.csv -o benched "${coarse[@]}" --set render.width=64 --set render.samples=1 >out.txt 2>log </dev/null &
 stopped measuring
 for file in bench.csv list.csv curves.csv curves.svg; do same before/$file benched/$file; done

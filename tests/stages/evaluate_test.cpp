@@ -131,6 +131,22 @@ TEST_F(Evaluate, RefusesMoreThanTwoFilesOfPoints) {
     EXPECT_THAT(refusal(asked), HasSubstr("points: give a list for the source and one for the target"));
 }
 
+TEST_F(Evaluate, ChecksPointsBeforeThereIsAMap) {
+    EvaluateRequest asked = request({}, "0\n1\n", "0\n24\n");
+    asked.map = "none";
+    check_points(asked);
+    asked.points[1] = write("targets.txt", "0\n26\n");
+    EXPECT_THROW(check_points(asked), InputError);
+    asked.points = {write("sources.txt", "0\n26\n"), write("targets.txt", "0\n1\n")};
+    check_points(asked);
+    asked.source_mesh = write("a.ply", to_ply(square_));
+    EXPECT_THROW(check_points(asked), InputError) << "the source tells how many vertices it has";
+    asked.points = {write("pairs.txt", "0 0 0  .25 0 0\n")};
+    check_points(asked);
+    asked.points = {write("pairs.txt", "0 0 0  .25 0\n")};
+    EXPECT_THROW(check_points(asked), InputError);
+}
+
 TEST_F(Evaluate, JsonHoldsEveryNumber) {
     MapErrors errors{{0, .03125, .0625, .25}, 2};
     const Json expected = Json::parse(R"({"pairs": 4, "unmapped": 2, "mean": 0.0859375, "median": 0.046875,
