@@ -18,14 +18,9 @@ namespace {
 // Numbers in this file were chosen by hand on the known pairs, not swept.
 
 constexpr int start_levels = 3;
-/// From up to how many tips maps are started, where there are more than so many, and the least samples of the
-/// levels where. On coarser levels several tips share a sample. Of insects all limbs tell which is which, but
-/// until there are about ten samples for each, the cheapest maps are those that join legs.
-struct TipRule {
-    int samples, more_than, most;
-};
-constexpr int some_tips = 8;
-constexpr TipRule tip_rules[] = {{30, 0, some_tips}, {95, some_tips, 16}};
+constexpr int most_tips = 8;
+/// On coarser levels several tips share a sample.
+constexpr int tip_samples = 30;
 constexpr int extremities = 8;
 /// Maps that go on from every level, if there are so many, besides the others: turned about (difference.h)
 /// against the best, which else may have no rival but other ends of the same limbs.
@@ -123,11 +118,10 @@ void Exploration::add_starts() {
     try_all(starts);
 }
 
-void Exploration::add_tip_starts(int more_than, int most) {
+void Exploration::add_tip_starts() {
     const LevelPair& level = descent_.level();
-    const Tips A = find_tips(context_.graph_A(), level.A.level.samples, some_tips, most),
-               B = find_tips(context_.graph_B(), level.B.level.samples, some_tips, most);
-    if (int(std::max(A.vertices.size(), B.vertices.size())) <= more_than) return;
+    const Tips A = find_tips(context_.graph_A(), level.A.level.samples, most_tips),
+               B = find_tips(context_.graph_B(), level.B.level.samples, most_tips);
     std::vector<Start> starts;
     for (const TipMatching& tips : match_tips(A, B, options_.tip_starts))
         starts.push_back({centres_of(level, matching_by_tips(A, B, tips, level)), {}});
@@ -232,8 +226,7 @@ void Exploration::explore_next_level() {
         add_starts();
         ++p.levels_with_starts;
     }
-    for (const TipRule& rule : tip_rules)
-        if (before < rule.samples && samples >= rule.samples) add_tip_starts(rule.more_than, rule.most);
+    if (before < tip_samples && samples >= tip_samples) add_tip_starts();
     if (samples < swap_rules[0].samples) p.extremities = {descent_.level().A.level, descent_.level().B.level};
     const int keep = promoted(samples, options_);
     prune(keep);

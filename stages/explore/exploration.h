@@ -69,8 +69,7 @@ class Exploration {
     void explore_next_level();
     void enter(int level);
     void add_starts();
-    /// From up to so many ends of limbs, if one of the surfaces has more than `more_than`.
-    void add_tip_starts(int more_than, int most);
+    void add_tip_starts();
     void add_axes_starts();
     void add_swaps(int best);
     /// Keeps so many that differ, and the best that are turned against the best of all.

@@ -70,11 +70,11 @@ class Images {
 
 TellingVertex telling_vertex(const std::vector<Appraised>& list, std::size_t count,
                              const PairContext& context) {
-    constexpr int most = 12;
+    constexpr int most_tips = 12;
     constexpr double clear = 0.15;  // units of sqrt(area)
     const Images images(list, count, context);
     auto [best, gap] =
-        images.most_telling(find_tips(context.graph_A(), some_samples(context), most, most).vertices);
+        images.most_telling(find_tips(context.graph_A(), some_samples(context), most_tips).vertices);
     if (gap < clear) best = images.most_telling(some_moved(list, count, context)).first;
     TellingVertex told{nearest_in_file(context.A().surface, best), {}};
     for (std::size_t k = 0; k < count; ++k)

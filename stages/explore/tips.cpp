@@ -56,67 +56,58 @@ Eigen::MatrixXd log_distances(const Tips& tips) {
     return tips.distance(tips.vertices, Eigen::all).array().log();
 }
 
-/// Extends partial matchings tip by tip of A, and keeps the best after each: of twelve tips there are half a
-/// billion matchings.
+/// Goes through the partial matchings, tip by tip of A, and keeps the best.
 class TipSearch {
   public:
-    TipSearch(const Tips& A, const Tips& B) : A_(log_distances(A)), B_(log_distances(B)) {}
+    TipSearch(const Tips& A, const Tips& B, int count)
+        : A_(log_distances(A)), B_(log_distances(B)), count_(std::size_t(count)), taken_(B.vertices.size()) {}
 
-    std::vector<TipMatching> best(int count) const {
-        constexpr std::size_t least = 3;
-        std::vector<Partial> partials{{}};
-        for (int tip = 0; tip < A_.rows(); ++tip) partials = extended(partials, tip);
-        std::erase_if(partials, [](const Partial& p) { return p.matching.size() < least; });
-        for (Partial& p : partials) p.cost += alone * double(std::size_t(B_.rows()) - p.matching.size());
-        std::ranges::stable_sort(partials, {}, &Partial::cost);
+    std::vector<TipMatching> run() {
+        if (count_ > 0) go_on(0, 0);
         std::vector<TipMatching> matchings;
-        for (std::size_t k = 0; k < std::min(partials.size(), std::size_t(count)); ++k)
-            matchings.push_back(std::move(partials[k].matching));
+        for (auto& [cost, matching] : best_) matchings.push_back(std::move(matching));
         return matchings;
     }
 
   private:
-    static constexpr double alone = 0.25;  // the price of a tip without a partner
-    struct Partial {
-        double cost = 0;
-        TipMatching matching;
-    };
-    struct Extension {
-        double cost;
-        const Partial* of;
-        int other;  ///< of B; -1: the tip of A has no partner
-    };
-
-    /// The cheapest.
-    std::vector<Partial> extended(const std::vector<Partial>& partials, int tip) const {
-        constexpr std::size_t width = 2000;
-        std::vector<Extension> extensions;
-        for (const Partial& p : partials) {
-            for (int other = 0; other < B_.rows(); ++other)
-                if (!has_partner(p.matching, other))
-                    extensions.push_back({p.cost + misfit(p.matching, tip, other), &p, other});
-            extensions.push_back({p.cost + alone, &p, -1});
+    void go_on(int tip, double cost) {
+        constexpr double alone = 0.25;  // the price of a tip without a partner
+        constexpr std::size_t least = 3;
+        if (best_.size() == count_ && cost >= best_.back().first) return;
+        if (tip == A_.rows()) {
+            if (current_.size() >= least)
+                keep(cost + alone * double(std::size_t(B_.rows()) - current_.size()));
+            return;
         }
-        std::ranges::stable_sort(extensions, {}, &Extension::cost);
-        if (extensions.size() > width) extensions.resize(width);
-        std::vector<Partial> longer;
-        for (const auto& [cost, of, other] : extensions) {
-            longer.push_back({cost, of->matching});
-            if (other >= 0) longer.back().matching.emplace_back(tip, other);
+        for (int other = 0; other < B_.rows(); ++other) {
+            if (taken_[std::size_t(other)]) continue;
+            const double more = misfit(tip, other);
+            taken_[std::size_t(other)] = true;
+            current_.emplace_back(tip, other);
+            go_on(tip + 1, cost + more);
+            current_.pop_back();
+            taken_[std::size_t(other)] = false;
         }
-        return longer;
-    }
-    static bool has_partner(const TipMatching& matching, int tip_of_B) {
-        return std::ranges::any_of(matching, [&](const auto& pair) { return pair.second == tip_of_B; });
+        go_on(tip + 1, cost + alone);
     }
     /// Mean squared logarithm of the ratio of distances from the tips that are matched.
-    double misfit(const TipMatching& matching, int tip, int other) const {
+    double misfit(int tip, int other) const {
         double sum = 0;
-        for (const auto& [a, b] : matching) sum += std::pow(A_(tip, a) - B_(other, b), 2);
-        return matching.empty() ? 0 : sum / double(matching.size());
+        for (const auto& [a, b] : current_) sum += std::pow(A_(tip, a) - B_(other, b), 2);
+        return current_.empty() ? 0 : sum / double(current_.size());
+    }
+    void keep(double cost) {
+        const auto at = std::upper_bound(best_.begin(), best_.end(), cost,
+                                         [](double c, const auto& other) { return c < other.first; });
+        best_.insert(at, {cost, current_});
+        if (best_.size() > count_) best_.pop_back();
     }
 
     Eigen::MatrixXd A_, B_;
+    std::size_t count_;
+    std::vector<bool> taken_;  ///< tips of B
+    TipMatching current_;
+    std::vector<std::pair<double, TipMatching>> best_;
 };
 
 /// Per sample its distances from tips, in units of each tip's mean distance.
@@ -132,21 +123,19 @@ RowMatrix places(const Tips& tips, const std::vector<int>& which, const std::vec
 
 }  // namespace
 
-Tips find_tips(const GeodesicGraph& graph, const std::vector<int>& sources, int some, int most) {
-    constexpr double least_prominence = 0.01, that_of_a_limb = 0.1;  // units of sqrt(area)
+Tips find_tips(const GeodesicGraph& graph, const std::vector<int>& sources, int most) {
+    constexpr double least_prominence = 0.01;  // units of sqrt(area)
     const Eigen::VectorXd mean = finite_distances(graph, sources).colwise().mean();
     Tips tips;
-    for (const auto& [prominence, vertex] : prominent_maxima(mean, graph)) {
-        const int found = int(tips.vertices.size());
-        if (found < most && prominence >= (found < some ? least_prominence : that_of_a_limb))
+    for (const auto& [prominence, vertex] : prominent_maxima(mean, graph))
+        if (prominence >= least_prominence && int(tips.vertices.size()) < most)
             tips.vertices.push_back(vertex);
-    }
     tips.distance = finite_distances(graph, tips.vertices).transpose();
     return tips;
 }
 
 std::vector<TipMatching> match_tips(const Tips& A, const Tips& B, int count) {
-    return TipSearch(A, B).best(count);
+    return TipSearch(A, B, count).run();
 }
 
 Matching matching_by_tips(const Tips& A, const Tips& B, const TipMatching& tips, const LevelPair& pair) {

@@ -12,9 +12,8 @@ struct Tips {
     std::vector<int> vertices;  ///< the most prominent first
     RowMatrix distance;         ///< all vertices x tips, along the surface
 };
-/// The most prominent `some`, and up to `most` of those that end whole limbs (prominent by .1 sqrt(area)).
-/// `sources` are spread over the surface: distances from them make the mean.
-Tips find_tips(const GeodesicGraph& graph, const std::vector<int>& sources, int some, int most);
+/// At most `most` of them. `sources` are spread over the surface: distances from them make the mean.
+Tips find_tips(const GeodesicGraph& graph, const std::vector<int>& sources, int most);
 
 /// Tips of one surface with tips of the other (indices of both).
 using TipMatching = std::vector<std::pair<int, int>>;

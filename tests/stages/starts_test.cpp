@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "fixtures/explored.h"
 #include "fixtures/known_pair.h"
 #include "stages/explore/tips.h"
-#include "varimap/mesh/unit_area.h"
 
 namespace varimap {
 namespace {
@@ -34,20 +34,15 @@ TEST(Starts, SpectralMatchingsHoldTheTrueOne) {
 Tips tips_of(const PairContext& context, bool of_A) {
     const LevelPair level = context.diffusion_level(context.diffusion_levels() - 1);
     return find_tips(of_A ? context.graph_A() : context.graph_B(),
-                     of_A ? level.A.level.samples : level.B.level.samples, 8, 8);
-}
-
-/// The tips of a mesh by the mean distance from some vertices spread over it.
-Tips tips_of(const TriangleMesh& mesh, int some, int most) {
-    constexpr int step = 20;
-    std::vector<int> sources;
-    for (int v = 0; v < mesh.vertex_count(); v += step) sources.push_back(v);
-    return find_tips(GeodesicGraph(mesh), sources, some, most);
+                     of_A ? level.A.level.samples : level.B.level.samples, 8);
 }
 
 TEST(Tips, AreTheEndsOfAnEllipsoid) {
     const TriangleMesh mesh = shapes::ellipsoid(3, {.5, .6, 2});
-    const Tips tips = tips_of(mesh, 8, 8);
+    const GeodesicGraph graph(mesh);
+    std::vector<int> all(std::size_t(mesh.vertex_count()));
+    std::iota(all.begin(), all.end(), 0);
+    const Tips tips = find_tips(graph, all, 8);
     ASSERT_EQ(tips.vertices.size(), 2u);
     double product = 1;
     for (const int tip : tips.vertices) {
@@ -76,47 +71,6 @@ TEST(Tips, OfAFigureAndItsPoseAreMatchedRightAmongTheBest) {
     EXPECT_TRUE(std::any_of(matchings.begin(), matchings.end(), is_right));
     EXPECT_FALSE(std::all_of(matchings.begin(), matchings.end(), is_right));
     EXPECT_TRUE(match_tips(A, B, 0).empty());
-}
-
-/// A ball with twelve spikes, the first the longest; the last so many of them a quarter as long as else.
-TriangleMesh urchin(int stumps) {
-    TriangleMesh mesh = shapes::ellipsoid(4);
-    const TriangleMesh spikes = shapes::ellipsoid(0);
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-        double length = 1;
-        for (int k = 0; k < 12; ++k) {
-            const double height = (1.7 - .08 * k) * (k < 12 - stumps ? 1 : .25);
-            length += height * std::exp(-(mesh.vertex(v) - spikes.vertex(k)).squaredNorm() / .02);
-        }
-        mesh.vertices.row(v) *= length;
-    }
-    return unit_area(mesh);
-}
-
-TEST(Tips, BeyondSomeAreThoseOfWholeLimbs) {
-    const TriangleMesh twelve = urchin(0), six = urchin(6);
-    ASSERT_EQ(shapes::ellipsoid(0).vertex_count(), 12);
-    const auto count = [](const TriangleMesh& mesh, int some, int most) {
-        return tips_of(mesh, some, most).vertices.size();
-    };
-    EXPECT_EQ(count(twelve, 8, 16), 12u);
-    EXPECT_EQ(count(twelve, 8, 10), 10u);
-    EXPECT_EQ(count(six, 4, 16), 6u);
-    EXPECT_EQ(count(six, 8, 16), 8u);
-}
-
-TEST(Tips, OfManyLimbsAreMatchedRight) {
-    const TriangleMesh twelve = urchin(0), eleven = urchin(1);
-    const Tips A = tips_of(twelve, 8, 16), B = tips_of(eleven, 8, 11);
-    ASSERT_EQ(A.vertices.size(), 12u);
-    ASSERT_EQ(B.vertices.size(), 11u);
-    const TipMatching best = match_tips(A, B, 1).at(0);
-    ASSERT_EQ(best.size(), 11u);
-    for (const auto& [a, b] : best)
-        EXPECT_GT(twelve.vertex(A.vertices[std::size_t(a)])
-                      .normalized()
-                      .dot(eleven.vertex(B.vertices[std::size_t(b)]).normalized()),
-                  .99);
 }
 
 TEST(Starts, AxesMatchingsHoldTheTrueOneWhateverTheProportions) {
