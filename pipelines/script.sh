@@ -207,6 +207,13 @@ wait_for_group() {
     return "$code"
 }
 
+# await: the same for what was started last, and ends `set -m`.
+await() {
+    group=$!
+    set +m
+    wait_for_group
+}
+
 interrupted() {  # CODE
     trap '' INT TERM HUP
     kill -TERM -- "-$group" 2>/dev/null || true

@@ -36,18 +36,13 @@ close_log() {
 }
 
 run_make() {
-    local code=0
     : >"$messages"
     : >"$codes"
     : >"$ran"
     set -m
     "${make_alone[@]}" -f "$share/Makefile" "$@" FAILURES="$messages" FAILURE_CODES="$codes" \
         RAN="$ran" STAGE_STDERR=3 </dev/null 3>&"$log_fd" {log_fd}>&- 2>"$make_log" >&2 &
-    # shellcheck disable=SC2034  # for wait_for_group
-    group=$!
-    set +m
-    wait_for_group || code=$?
-    return "$code"
+    await
 }
 
 # The exit code of the first stage that failed; 70 where none did, but make itself.

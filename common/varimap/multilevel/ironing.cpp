@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "varimap/core/log.h"
 #include "varimap/mesh/face_geometry.h"
@@ -17,19 +16,21 @@ namespace {
 /// Where the inward normal of a vertex leaves the surface on the other side: the nearest vertex there.
 class Antipodes {
   public:
-    Antipodes(const TriangleMesh& mesh, Points outward_normals)
-        : mesh_(mesh), normals_(std::move(outward_normals)), rays_(mesh) {}
+    /// `looks_inward`: whether the faces do, and with them the surface's normals.
+    Antipodes(const OrientedSurface& surface, const TriangleMesh& mesh, bool looks_inward)
+        : mesh_(mesh), normals_(surface.normals), inward_(looks_inward ? 1 : -1), rays_(mesh) {}
 
     int of(int vertex) const {
         constexpr double lift = 1e-4;  // units of sqrt(area): past the faces around the vertex itself
-        const Vec3 inward = -normals_.row(vertex).transpose();
+        const Vec3 inward = inward_ * normals_.row(vertex).transpose();
         const SurfacePoint hit = rays_.first_hit(mesh_.vertex(vertex) + lift * inward, inward);
         return hit.face < 0 ? vertex : nearest_vertex(mesh_, hit);
     }
 
   private:
     const TriangleMesh& mesh_;
-    Points normals_;
+    const Points& normals_;
+    double inward_;  ///< times a normal
     RayMesh rays_;
 };
 
@@ -95,7 +96,7 @@ double Ironing::Run::adopt_if_better(AlternatingMinimization& trial) {
 Centres Ironing::Run::reflected_centres() const {
     // g = antipode . f and g^-1 = f^-1 . antipode.
     const Surface &A = ironing_.context_.A().surface, &B = ironing_.context_.B().surface;
-    const Antipodes antipodes(B.mesh, outward_normals(B.mesh, PairHandedness(A, B).B_inward));
+    const Antipodes antipodes(ironing_.oriented_B_, B.mesh, PairHandedness(A, B).B_inward);
     const Centres& centres = minimization_.solution().step.centres;
     const Level& level_B = level_.B.level;
     Centres reflected = centres;
